@@ -70,10 +70,15 @@ def reasons(checks: Iterable[Check]) -> list[Paragraph]:
 
 
 def told(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
-    """Each group with its grade, reason and action, and below it the entries of its action unless they stand above."""
-    lines, printed = list[Paragraph](), set[tuple[str, ...]]()
+    """Each group with its grade, reason and action, and below it the entries of its action.
+
+    An action that stands above is referred to; entries that stand above are not repeated.
+    """
+    lines, printed, code_of = list[Paragraph](), set[tuple[str, ...]](), dict[str, str]()
     for alike in groups:
-        lines.append(reason(alike))
+        action, code = alike[0].remedy or "", alike[0].code
+        first = code_of.setdefault(action, code)
+        lines.append(reason(alike, f"See the action of {first}." if first != code else action))
         if alike[0].overrides not in printed:
             lines += paste_lines(alike[0].overrides)
             printed.add(alike[0].overrides)
@@ -104,13 +109,13 @@ def unlike(checks: Iterable[Check]) -> list[list[Check]]:
     return list(groups.values())
 
 
-def reason(alike: Sequence[Check]) -> Paragraph:
-    """Checks of one grade, one reason and one remedy."""
+def reason(alike: Sequence[Check], action: str) -> Paragraph:
+    """Checks of one grade, one reason and one action."""
     first, more = alike[0], len(alike) - MOST_ALIKE
     names = ", ".join(f"{check.code} {check.name}{value_and_limit(check)}" for check in alike[:MOST_ALIKE])
     others = f" and {more} more" if more > 0 else ""
-    remedy = f" Action: {first.remedy}" if first.remedy else ""
-    return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{remedy}", first.status, hang=MARGIN)
+    action = f" Action: {action}" if action else ""
+    return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{action}", first.status, hang=MARGIN)
 
 
 def value_and_limit(check: Check) -> str:

@@ -129,11 +129,11 @@ class LiftOffEffect(Effect):
         share = self.share_apart(samples)
         if share:
             return (
-                f"the disk leaves its workpiece again and again, for {100 * share:.2g} % of the time at the end. The "
+                f"The disk leaves its workpiece again and again, for {100 * share:.2g} % of the time at the end. The "
                 "bounds on the arm hold while it is pressed. Press with a larger moment, or balance the wheel better",
             )
         last = self.last_apart(samples)
-        return () if last is None else (f"the disk leaves its workpiece until t = {last:.3g} s, then it stays on it",)
+        return () if last is None else (f"The disk leaves its workpiece until t = {last:.3g} s, then it stays on it",)
 
     def weight(self, scene: Circumstances) -> EffectInfluence:
         """Influence without a closed estimate: the effect decides whether a disk bounces."""

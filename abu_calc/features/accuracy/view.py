@@ -39,7 +39,7 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
         f"{reference.tolerances[1]:g} differ by {number(reference.disagreement, 2)}, computed in "
         f"{reference.wall_s:.1f} s."
     )
-    skipped = [Paragraph(f"Not measured in the time allowed (--time-budget): {', '.join(_grouped(result.skipped))}.")]
+    skipped = [Paragraph(f"Not measured in the time allowed (--time-budget): {'; '.join(_grouped(result.skipped))}.")]
     return (
         Heading(f"{result.title}: error and computing time, {result.quantity}{of_scene(result.scene)}"),
         Paragraph(_chosen(result), "fail" if result.chosen is None else "pass"),
@@ -144,8 +144,8 @@ def picture(points: tuple[MeasuredPoint, ...]) -> list[str]:
 
 def _legend() -> str:
     return (
-        ", ".join(f"{mark} {name}" for name, mark in MARKS.items())
-        + "; small letters: full equations with every effect."
+        "; ".join(f"{mark} {name}" for name, mark in MARKS.items())
+        + ". Small letters stand for the full equations with every effect."
     )
 
 

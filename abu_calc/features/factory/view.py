@@ -15,8 +15,8 @@ NOTE = (
 )
 ONE_SET = (
     "All four presets assume a friction arm of 0.002 mm, a viscous drag rate of 15 1/s, a race eccentricity of 0.010 "
-    "mm, springs of 2.5 Hz and a normal force of 45 N. Some other figures were chosen to match published results: the "
-    "comments in the presets mark them."
+    "mm and springs of 2.5 Hz. They assume a normal force of 45 N. Some other figures were chosen to match published "
+    "results: the comments in the presets mark them."
 )
 
 

@@ -64,8 +64,9 @@ def changes(tried: Sequence[Remedy]) -> str:
     """Sentence on the changes that help, with the level of each; empty without any."""
     if not tried:
         return ""
-    texts = [f"{_remedy(remedy)} ({_short(remedy)})" for remedy in tried]
-    return f" Each of these changes prevents that in all simulated cases: {'; '.join(texts)}."
+    texts = (f"{_capital(_remedy(remedy))}: {_short(remedy)}." for remedy in tried)
+    first = "This change prevents" if len(tried) == 1 else f"Each of {len(tried)} changes prevents"
+    return f" {first} that in all simulated cases. {' '.join(texts)}"
 
 
 def _short(remedy: Remedy) -> str:
@@ -87,7 +88,11 @@ def shortest(tried: Sequence[Remedy]) -> str | None:
     if not tried:
         return None
     text = _remedy(tried[0])
-    return f"{text[0].upper()}{text[1:]}: {_levels(tried[0])} (simulated)."
+    return f"{_capital(text)}: {_levels(tried[0])} (simulated)."
+
+
+def _capital(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}"
 
 
 def _remedy(remedy: Remedy) -> str:

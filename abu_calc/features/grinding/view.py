@@ -145,7 +145,7 @@ def friction_blocks(result: GrindingResult) -> list[Block]:
     if not plane:
         shaking = f"Axial runout of the wheel, {number(band.axial_um, 3)} µm, {_shakes(band.axial_shakes)}"
     if plane and band.whirl_um is not None:
-        shaking += f"; the whirl by its runout there, {number(band.whirl_um, 3)} µm, {_shakes(band.whirl_shakes)}"
+        shaking += f". The whirl by its runout there, {number(band.whirl_um, 3)} µm, {_shakes(band.whirl_shakes)}"
         shaking += f", slowly, in some {number(band.creep_s, 2)} s" if band.creep_s else ""
     need = f"More than {number(band.threshold_um, 3)} µm would."
     return [Heading("Dry friction of the balls"), Paragraph(f"{held} {shaking}. {need}{_shaken(band)}")]
@@ -356,7 +356,7 @@ def _claim(result: GrindingResult) -> list[Block]:
         Paragraph(
             f"Kladiev 1996 gives {claim.life_with_min:g} min for a wheel with an autobalancer, "
             f"{claim.life_without_min:g} min without. By this law both lives are equal: mean wear follows the mean "
-            f"force. Three assumptions could explain the claim: {power}; a mean force of "
-            f"{number(claim.needed_press_N, 3)} N with the autobalancer; wheels discarded for their runout."
+            f"force. Three assumptions could explain the claim. First, {power}. Second, the mean force is "
+            f"{number(claim.needed_press_N, 3)} N with the autobalancer. Third, wheels are discarded for their runout."
         ),
     ]  # fmt: skip

@@ -33,10 +33,10 @@ from abu_calc.simulation.rotor_view import RotorView
 CONVENTIONS = (
     "Amplitudes are 0–peak over the last twentieth of the run, about the mean place. Velocities are rms, the larger of "
     "x and y; levels are 20 lg(v / 5e-8 m/s). Ball angles count in the rotor from its zero mark (of a machine: the "
-    "imbalance) in the sense of rotation; ball speeds are relative to the race. Settled: the remaining imbalance stays "
+    "imbalance) in the sense of rotation. Ball speeds are relative to the race. Settled: the remaining imbalance stays "
     "near its final value. The settling time counts from full speed."
 )
-UNJUDGED: Final = "NO LIMITS for this scene: only the accuracy is checked, and it is reached"
+UNJUDGED: Final = "NO LIMITS for this scene: only the accuracy is checked (reached)"
 UNDER_LOAD: Final = "Under load the level is not checked: the limit of the file is for idling."
 
 MOTION = (
@@ -77,7 +77,7 @@ def simulate_blocks(result: SimulateResult) -> tuple[Block, ...]:
         *_effects(result.effects),
         *_audit(result.audit),
         Heading("Model"),
-        Paragraph(f"{result.description} Start: {result.start}."),
+        Paragraph(f"Start: {result.start}."),
         Paragraph(f"{_rung(result)} {_cost(result.cost)}"),
         Heading("Conventions", "conventions"),
         Paragraph(CONVENTIONS),
