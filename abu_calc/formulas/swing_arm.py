@@ -24,18 +24,21 @@ MODULATION = Range("κ_a = l·m₀e/J_O", 0.0, 0.3, key="swing_arm.moment_of_ine
 
 @dataclass(frozen=True)
 class Arm:
-    """The arm with the machine on it [SI]; inertia about the arm's axis, with the autobalancer."""
+    """The arm with the machine on it [SI]; inertia about the arm's axis, with the autobalancer.
+
+    Stiffness and damping of the joint are reduced to the length. Without a contact the arm idles.
+    """
 
     length: float
     inertia: float
     joint_stiffness: float
     joint_damping: float
-    contact_stiffness: float
-    friction: float
-    disk_radius: float
-    contact_angle: float
-    touch_angle: float
-    pressing_moment: float
+    contact_stiffness: float = 0.0
+    friction: float = 0.0
+    disk_radius: float = 0.0
+    contact_angle: float = 0.0
+    touch_angle: float = 0.0
+    pressing_moment: float = 0.0
 
 
 @formula(
