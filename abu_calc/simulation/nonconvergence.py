@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import IntegratorChoice
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.receptance import weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import weighing_amplitude
 from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.simulation.response import Course, Response, evaluate, sampling
@@ -177,6 +177,7 @@ def _moved(angles: tuple[float, ...]) -> tuple[float, ...]:
     """The angles [rad] with the ball moved that has most room ahead of it."""
 
     def room(ball: int) -> float:
+        """Gap ahead of a ball [rad]."""
         turn = 2 * math.pi
         return min((turn - (angles[ball] - other) % turn for k, other in enumerate(angles) if k != ball), default=turn)
 

@@ -7,7 +7,8 @@ from typing import Final
 from abu_calc.foundation.checks import Check, coded, overall, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
-from abu_calc.simulation.response import SLIPPING, Response, allowed_imbalance, balances, slip
+from abu_calc.simulation.balance import SLIPPING, allowed_imbalance, balances, slip
+from abu_calc.simulation.response import Response
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design
 
@@ -70,6 +71,7 @@ def _level_of(design: Design, response: Response, place: float) -> Level:
     beside = imbalance * body.inertance(place, body.wheel, added) - balls * at_race
 
     def level(velocity: float) -> float:
+        """Level [dB] at the place, by the rms velocity [m/s] of the race."""
         swing = math.sqrt(2) * velocity / speed / held
         return displacement_level(math.hypot(swing * at_race, beside), speed, case.background_level)
 

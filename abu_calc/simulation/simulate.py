@@ -16,7 +16,7 @@ from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import too_much
 from abu_calc.dynamics.integrators.work_estimates import softer
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.supports.receptance import reference_imbalance
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Trajectory
 from abu_calc.formulas import motion
 from abu_calc.foundation import patience

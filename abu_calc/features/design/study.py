@@ -21,9 +21,9 @@ from abu_calc.features.design.region import true_region
 from abu_calc.features.design.start_search import with_searched
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
 from abu_calc.features.design.verification import Proven, proven
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, LowerBound, lower_bound, with_starts
+from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
-from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
 from abu_calc.features.grinding.work import Work, loaded_levels, work_of
 from abu_calc.features.seats.records import SeatResult, seat_results
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord

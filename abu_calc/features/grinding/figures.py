@@ -155,6 +155,7 @@ def _wear(result: GrindingResult) -> Iterator[Figure]:
     timed = all(stage.time_min is not None for _, wear in wears for stage in wear.stages)
 
     def against(wear: WearCourse, name: str, scale: float) -> Course:
+        """One quantity of the wear over time, or over depth where time is not known."""
         return [(stage.time_min if timed and stage.time_min is not None else stage.depth_um,
                  scale * getattr(stage, name)) for stage in wear.stages]  # fmt: skip
 

@@ -150,6 +150,7 @@ def with_balls(
     doubled = abs(sum(cmath.exp(2j * angle) for angle in angles))
 
     def stiffness(line: float) -> tuple[complex, complex]:
+        """Both eigenvalues [1/s²] of balls whose |Σe^{2iΘ}| this is."""
         return loaded_stiffness(whirl, autobalancer.ball_mass, contact.speed, autobalancer.ball_count, line)
 
     if judged and places == "balanced" and leaving(design.case, contact, autobalancer, doubled):
@@ -168,6 +169,7 @@ def leaving(case: Case, contact: SteadyContact, candidate: Candidate, doubled: f
     mass = case.body.effective_mass(candidate.mass)
 
     def whirl(speed: complex) -> complex:
+        """G [m/(kg m)] at a complex speed [rad/s]."""
         dx, dy = (case.suspension.reaction(axis, speed) - mass * speed**2 for axis in (0, 1))
         return contact.whirl_at(speed, (dx, dy))
 

@@ -66,6 +66,7 @@ def code(structure: object, equations: Equations, acting: Acting, numbers: np.nd
     """Code of a structure; `acting` and `numbers` of any scene that has it. Raises CompilerError."""
 
     def make() -> Code:
+        """Compile, and compare the rates with those of the plain equations."""
         made = Code(text(structure, equations, acting), method)
         with np.errstate(all="ignore"):
             made.check(equations, acting, numbers)

@@ -181,12 +181,15 @@ class _Function(Calls):
         return [named, "entry:", *places, *entry, *self.body, "}"]
 
     def do_Expr(self, node: ast.Expr) -> None:  # noqa: N802
+        """A call whose value nobody takes."""
         self.value(node.value)
 
     def do_Pass(self, node: ast.Pass) -> None:  # noqa: N802
+        """Nothing."""
         return
 
     def do_Assign(self, node: ast.Assign) -> None:  # noqa: N802
+        """One value, as many values as names, or a group."""
         if len(node.targets) != 1:
             self.refuse(node, "one assignment at a time")
         (target,) = node.targets
@@ -202,18 +205,21 @@ class _Function(Calls):
         return None
 
     def do_AnnAssign(self, node: ast.AnnAssign) -> None:  # noqa: N802
+        """A value whose type is written down."""
         kind = ast.unparse(node.annotation)
         if node.value is None or kind not in TYPES:
             self.refuse(node, "a value of a type of the compiled language")
         self.store(node.target, (TYPES[kind], self.number(node.value, TYPES[kind])))
 
     def do_AugAssign(self, node: ast.AugAssign) -> None:  # noqa: N802
+        """`a += b` as `a = a + b`."""
         (read,) = _parsed(ast.unparse(node.target))
         assert isinstance(read, ast.Expr)
         whole = ast.copy_location(ast.BinOp(read.value, node.op, node.value), node)
         self.store(node.target, self.value(ast.fix_missing_locations(whole)))
 
     def do_Return(self, node: ast.Return) -> None:  # noqa: N802
+        """The end, with the value that the signature names."""
         if (node.value is None) != (self.result == "void"):
             self.refuse(node, f"{self.result} is to be returned")
         text = "" if node.value is None else " " + self.number(node.value, self.result)
@@ -221,6 +227,7 @@ class _Function(Calls):
         self.block(self.label("after"))
 
     def do_If(self, node: ast.If) -> None:  # noqa: N802
+        """One of two blocks."""
         yes, no, end = self.label("yes"), self.label("no"), self.label("end")
         self.branch(self.truth(node.test), yes, no)
         for label, body in ((yes, node.body), (no, node.orelse)):
@@ -231,6 +238,7 @@ class _Function(Calls):
         self.block(end)
 
     def do_While(self, node: ast.While) -> None:  # noqa: N802
+        """A block as long as a condition holds."""
         test, body, end = self.label("test"), self.label("body"), self.label("end")
         self.jump(test)
         self.block(test)
@@ -241,6 +249,7 @@ class _Function(Calls):
         self.block(end)
 
     def do_For(self, node: ast.For) -> None:  # noqa: N802
+        """A block for whole numbers in order."""
         call, target = node.iter, node.target
         counts = isinstance(call, ast.Call) and ast.unparse(call.func) == "range" and len(call.args) in (1, 2)
         if not counts or not isinstance(call, ast.Call) or not isinstance(target, ast.Name):
@@ -271,9 +280,11 @@ class _Function(Calls):
         self.loops.pop()
 
     def do_Break(self, node: ast.Break) -> None:  # noqa: N802
+        """To the end of the innermost loop."""
         self.jump(self.loops[-1][1])
         self.block(self.label("after"))
 
     def do_Continue(self, node: ast.Continue) -> None:  # noqa: N802
+        """To the next turn of the innermost loop."""
         self.jump(self.loops[-1][0])
         self.block(self.label("after"))
