@@ -24,10 +24,10 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent, within
-from abu_calc.simulation.balance import allowed_imbalance, balances, slip
 from abu_calc.simulation.early_stopping import Early
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
+from abu_calc.simulation.residual_criteria import allowed_imbalance, balances, slip
 from abu_calc.simulation.response import Response, needed_times
 from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
 from abu_calc.simulation.start_cases import DRAGS, Member, members, scene_of_member

@@ -7,7 +7,7 @@ from typing import Final
 from abu_calc.foundation.checks import Check, coded, overall, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
-from abu_calc.simulation.balance import SLIPPING, allowed_imbalance, balances, slip
+from abu_calc.simulation.residual_criteria import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.simulation.response import Response
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design

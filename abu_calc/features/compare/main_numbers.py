@@ -36,7 +36,7 @@ Designs = Mapping[str, Sequence[Any]]
 """Path → the values of all machines."""
 
 
-class _Line(NamedTuple):
+class _NumbersLine(NamedTuple):
     """A case and its cell for each machine."""
 
     label: str
@@ -60,8 +60,10 @@ def main_blocks(result: CompareResult) -> list[Block]:
     ]
 
 
-def _levels(result: CompareResult, designs: Designs) -> list[_Line]:
-    lines = [_Line(label, tuple(map(_level, designs[path]))) for path, label in DECIBELS if _known(designs, path)]
+def _levels(result: CompareResult, designs: Designs) -> list[_NumbersLine]:
+    lines = [
+        _NumbersLine(label, tuple(map(_level, designs[path]))) for path, label in DECIBELS if _known(designs, path)
+    ]
     if lines:
         lines += _limit(result, "ABU401")
     bounds = designs.get(BOUND, [None] * len(result.files))
@@ -70,21 +72,21 @@ def _levels(result: CompareResult, designs: Designs) -> list[_Line]:
             values = zip(designs[path], bounds, strict=True)
             at_least = path == "vibration_loaded.level_after_db"
             lines.append(
-                _Line(label, tuple(f"≥ {_level(v)}" if at_least and low and v is not None else _level(v)
+                _NumbersLine(label, tuple(f"≥ {_level(v)}" if at_least and low and v is not None else _level(v)
                                    for v, low in values))
             )  # fmt: skip
     return lines
 
 
-def _settling(result: CompareResult, designs: Designs) -> list[_Line]:
+def _settling(result: CompareResult, designs: Designs) -> list[_NumbersLine]:
     machines = range(len(result.files))
     simulated = [designs.get(COUNT, [None] * len(result.files))[k] is not None for k in machines]
     if not any(simulated):
         return []
 
-    def line(label: str, values: Sequence[float | None]) -> _Line:
+    def line(label: str, values: Sequence[float | None]) -> _NumbersLine:
         """A line of times [s]; “–” for a design without simulated start cases."""
-        return _Line(label, tuple(_time(value) if simulated[k] else "–" for k, value in enumerate(values)))
+        return _NumbersLine(label, tuple(_time(value) if simulated[k] else "–" for k, value in enumerate(values)))
 
     given = [_slowest_as_given(designs, k) for k in machines]
     return [
@@ -118,12 +120,12 @@ def _one_limit(result: CompareResult, code: str) -> str:
     return f" (limit {number(limit, 3)})" if len(limits) == 1 and (limit := limits.pop()) is not None else ""
 
 
-def _limit(result: CompareResult, code: str) -> list[_Line]:
+def _limit(result: CompareResult, code: str) -> list[_NumbersLine]:
     """Limits that differ, as a line of the table."""
     limits = _limits(result, code)
     if len(set(limits) - {None}) <= 1:
         return []
-    return [_Line("  limit", tuple("–" if limit is None else number(limit, 3) for limit in limits))]
+    return [_NumbersLine("  limit", tuple("–" if limit is None else number(limit, 3) for limit in limits))]
 
 
 def _known(designs: Designs, path: str) -> bool:

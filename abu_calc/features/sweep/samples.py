@@ -30,9 +30,9 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneFile
 from abu_calc.inputs.variation import Variants
-from abu_calc.simulation.balance import HALF, allowed_imbalance, balances, slip
 from abu_calc.simulation.ensemble import WORK, outcome_of
 from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.residual_criteria import HALF, allowed_imbalance, balances, slip
 from abu_calc.simulation.response import Response, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import scene_from

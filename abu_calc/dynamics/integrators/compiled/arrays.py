@@ -7,7 +7,7 @@ Reals = MutableSequence[float]
 Integers = MutableSequence[int]
 
 
-class Run(NamedTuple):
+class RunArrays(NamedTuple):
     """The arrays of one run."""
 
     y: Reals
@@ -24,7 +24,7 @@ class Run(NamedTuple):
     counts: Integers
 
 
-class Step(NamedTuple):
+class IntegrationStep(NamedTuple):
     """A step of length `h` from the state `y` of `n` numbers at `t`."""
 
     t: float

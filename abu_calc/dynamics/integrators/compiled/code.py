@@ -26,7 +26,7 @@ TRANSLATOR: tuple[ModuleType, ...] = (translator, llvm_text, llvm_engine, arrays
 NAMES = {"inf": math.inf}
 """Names that the compiled texts know besides their own."""
 
-POINTERS = len(arrays.Run._fields) + 3
+POINTERS = len(arrays.RunArrays._fields) + 3
 """Arguments of `loop.go`: the arrays of a run, times and rows of samples, room."""
 
 ROUNDING = 1e-8

@@ -6,7 +6,7 @@ error is estimated by orders 5 and 3) and II.6 (dense output, which takes three 
 
 from math import sqrt
 
-from abu_calc.dynamics.integrators.compiled.arrays import Reals, Step, rates, watched
+from abu_calc.dynamics.integrators.compiled.arrays import IntegrationStep, Reals, rates, watched
 
 METHOD_ORDER = 8
 EXPONENT = -1 / 8
@@ -17,7 +17,7 @@ KEPT, LAST, BETWEEN = 16, 12, 7
 """Rows of rates, which of them is that at the end, and rows of the dense output."""
 
 
-def stages(step: Step, w: Reals) -> None:
+def stages(step: IntegrationStep, w: Reals) -> None:
     """Compute one step from y, whose rates are the first of k, to the end: thirteen rates.
 
     The last rates come with the watched numbers there.
@@ -86,7 +86,7 @@ def stages(step: Step, w: Reals) -> None:
     watched(t + h, end, par, k[LAST * n :], w)
 
 
-def error(step: Step, absolute: Reals, relative: Reals) -> float:
+def error(step: IntegrationStep, absolute: Reals, relative: Reals) -> float:
     """The estimated error of a step in units of what is allowed, root mean square."""
     h, n, y, end, k = step.h, step.n, step.y, step.end, step.k
     k1, k6, k7, k8, k9, k10 = k, k[5 * n :], k[6 * n :], k[7 * n :], k[8 * n :], k[9 * n :]
@@ -107,7 +107,7 @@ def error(step: Step, absolute: Reals, relative: Reals) -> float:
     return h * total / sqrt((total + 0.01 * coarse) * n)
 
 
-def prepared(step: Step) -> None:
+def prepared(step: IntegrationStep) -> None:
     """Prepare the dense output of a step."""
     t, h, n, y, par, end, k = step.t, step.h, step.n, step.y, step.par, step.end, step.k
     between, at = step.between, step.at

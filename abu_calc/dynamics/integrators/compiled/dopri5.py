@@ -6,7 +6,7 @@ in Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II
 
 from math import sqrt
 
-from abu_calc.dynamics.integrators.compiled.arrays import Reals, Step, rates, watched
+from abu_calc.dynamics.integrators.compiled.arrays import IntegrationStep, Reals, rates, watched
 
 METHOD_ORDER = 5
 EXPONENT = -1 / 5
@@ -17,7 +17,7 @@ KEPT, LAST, BETWEEN = 7, 6, 4
 """Rows of rates, which of them is that at the end, and rows of the dense output."""
 
 
-def stages(step: Step, w: Reals) -> None:
+def stages(step: IntegrationStep, w: Reals) -> None:
     """Compute one step from y, whose rates are the first of k, to the end: seven rates.
 
     The last rates come with the watched numbers there.
@@ -47,7 +47,7 @@ def stages(step: Step, w: Reals) -> None:
     watched(t + h, end, par, k[LAST * n :], w)
 
 
-def error(step: Step, absolute: Reals, relative: Reals) -> float:
+def error(step: IntegrationStep, absolute: Reals, relative: Reals) -> float:
     """The estimated error of a step in units of what is allowed, root mean square."""
     h, n, y, end, k = step.h, step.n, step.y, step.end, step.k
     c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]
@@ -60,7 +60,7 @@ def error(step: Step, absolute: Reals, relative: Reals) -> float:
     return sqrt(total / n)
 
 
-def prepared(step: Step) -> None:
+def prepared(step: IntegrationStep) -> None:
     """Prepare the dense output of a step."""
     h, n, y, end, k, between = step.h, step.n, step.y, step.end, step.k, step.between
     c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]

@@ -39,7 +39,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     Integers,
     Pairs,
     Reals,
-    Run,
+    RunArrays,
     rates,
     setup,
 )
@@ -123,7 +123,7 @@ def approaching(y: Reals, numbers: Reals, lay: Integers, con: Reals) -> bool:
     return any(touches(p, y, numbers, lay) and opening(p, lay, y) < -0.1 * con[REST] for p in range(lay[PAIRS]))
 
 
-def meeting(t: float, run: Run, k: Reals, room: Reals) -> bool:
+def meeting(t: float, run: RunArrays, k: Reals, room: Reals) -> bool:
     """The state after all impacts. False where that takes too many."""
     y, lay, con = run.y, run.lay, run.con
     pairs, states = lay[PAIRS], lay[STATES]
@@ -236,7 +236,7 @@ def evened(pairs: Pairs, total: Reals) -> None:
         speed[chosen[i]] = 0.0
 
 
-def closing(t: float, run: Run, k: Reals, many: int, met: Integers, saved: Reals, answers: Reals) -> None:
+def closing(t: float, run: RunArrays, k: Reals, many: int, met: Integers, saved: Reals, answers: Reals) -> None:
     """Relative accelerations of the pairs that touch, were none held together."""
     lay = run.lay
     joined = run.numbers[lay[JOINED] :]
@@ -251,7 +251,7 @@ def closing(t: float, run: Run, k: Reals, many: int, met: Integers, saved: Reals
         answers[a] = opening(met[a], lay, k)
 
 
-def responses(t: float, run: Run, free: Reals, saved: Reals, many: int, met: Integers, kicks: Reals) -> None:
+def responses(t: float, run: RunArrays, free: Reals, saved: Reals, many: int, met: Integers, kicks: Reals) -> None:
     """Compute the changes of all rates by unit torques that separate the pairs.
 
     All balls are free, and there is no friction.

@@ -17,8 +17,8 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     VALUES,
     WATCHED,
     Integers,
+    IntegrationStep,
     Reals,
-    Step,
     Watch,
     apparent,
     watched,
@@ -54,7 +54,7 @@ def moving(lay: Integers, before: Reals, after: Reals) -> int:
     return lay[SEEN]
 
 
-def look(many: int, x: float, step: Step, watch: Watch, w: Reals) -> None:
+def look(many: int, x: float, step: IntegrationStep, watch: Watch, w: Reals) -> None:
     """State and so many of the watched numbers at a share x of the step."""
     dense(x, step.n, step.y, step.between, step.at)
     if many > watch.lay[SEEN]:
@@ -64,7 +64,7 @@ def look(many: int, x: float, step: Step, watch: Watch, w: Reals) -> None:
         apparent(step.t + x * step.h, step.at, step.par, w)
 
 
-def peek(index: int, x: float, step: Step, watch: Watch) -> float:
+def peek(index: int, x: float, step: IntegrationStep, watch: Watch) -> float:
     """One watched number at a share x of the step; the others are then of no moment."""
     lay, at, w = watch.lay, step.at, watch.w
     few = lay[lay[APPARENT] + index]
@@ -78,12 +78,14 @@ def peek(index: int, x: float, step: Step, watch: Watch) -> float:
     return w[index]
 
 
-def resolved(step: Step) -> float:
+def resolved(step: IntegrationStep) -> float:
     """Share of a step below which moments are one."""
     return FINE * (1.0 + 8.0 * abs(step.t) / step.h)
 
 
-def crossing(index: int, above: float, high: float, below: float, low: float, step: Step, watch: Watch) -> float:
+def crossing(
+    index: int, above: float, high: float, below: float, low: float, step: IntegrationStep, watch: Watch
+) -> float:
     """Place between two others at which a number falls below zero; the number is below zero there.
 
     Source: Chandrupatla 1997, Advances in Engineering Software 28(3), 145: inverse quadratic where that is
@@ -112,7 +114,7 @@ def crossing(index: int, above: float, high: float, below: float, low: float, st
     return a if fa < 0.0 or fa == 0.0 else b
 
 
-def dips(many: int, check: int, step: Step, watch: Watch) -> float:
+def dips(many: int, check: int, step: IntegrationStep, watch: Watch) -> float:
     """The first event of the numbers that fall and rise again within the last two quarters."""
     lay, rows = watch.lay, watch.rows
     values, event = lay[VALUES], NEVER
@@ -136,7 +138,7 @@ def dips(many: int, check: int, step: Step, watch: Watch) -> float:
     return event
 
 
-def fallen(many: int, check: int, step: Step, watch: Watch) -> float:
+def fallen(many: int, check: int, step: IntegrationStep, watch: Watch) -> float:
     """The first event of the numbers that are below zero at a check.
 
     Looked for is the one that a straight line says is first, then any that is below zero there: in between others may
@@ -180,7 +182,7 @@ def earliest(many: int, lay: Integers, before: Reals, here: Reals, known: int) -
     return which
 
 
-def located(step: Step, watch: Watch) -> float:
+def located(step: IntegrationStep, watch: Watch) -> float:
     """The share of the step at which the first event is, and in the counts which number fell."""
     lay, count, rows = watch.lay, watch.counts, watch.rows
     many = moving(lay, rows, rows[CHECKS * lay[VALUES] :])

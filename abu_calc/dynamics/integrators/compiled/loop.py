@@ -34,9 +34,9 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     UNDECIDED,
     VALUES,
     WATCHED,
+    IntegrationStep,
     Reals,
-    Run,
-    Step,
+    RunArrays,
     Watch,
     setup,
     watched,
@@ -85,7 +85,7 @@ It applies to a number that does not rise from the start of the step.
 """
 
 
-def go(run: Run, samples: Reals, states: Reals, room: Reals) -> int:
+def go(run: RunArrays, samples: Reals, states: Reals, room: Reals) -> int:
     """Integrate a run from its present time toward its end; return how it comes back."""
     y, par, lay, con, clock, count = run.y, run.par, run.lay, run.con, run.clock, run.counts
     n, values = lay[STATES], lay[VALUES]
@@ -117,7 +117,7 @@ def go(run: Run, samples: Reals, states: Reals, room: Reals) -> int:
         reached, size = t + h, h
         if reached >= bound:
             reached, size = bound, bound - t
-        step = Step(t, size, n, y, par, end, room, between, at)
+        step = IntegrationStep(t, size, n, y, par, end, room, between, at)
         stages(step, last)
         count[EVALUATIONS] += STAGES
         off = error(step, absolute, relative)

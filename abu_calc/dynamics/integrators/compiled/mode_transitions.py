@@ -31,7 +31,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     WATCHED,
     Integers,
     Reals,
-    Run,
+    RunArrays,
     setup,
     watched,
 )
@@ -91,7 +91,7 @@ CLEAR = 1e-9
 """Depth or gap of wheel and workpiece, relative to the usual one, below which it counts as nothing."""
 
 
-def decided(t: float, run: Run, k: Reals, w: Reals, room: Reals) -> bool:
+def decided(t: float, run: RunArrays, k: Reals, w: Reals, room: Reals) -> bool:
     """True if a next mode was found; `k`, `w` are then rates and watched numbers to go on with.
 
     Otherwise state and modes are as before.
@@ -113,7 +113,7 @@ def decided(t: float, run: Run, k: Reals, w: Reals, room: Reals) -> bool:
     return False
 
 
-def switched(t: float, run: Run, k: Reals, room: Reals) -> bool:
+def switched(t: float, run: RunArrays, k: Reals, room: Reals) -> bool:
     """Apply the mode that follows directly from the number that fell, or from a start.
 
     False for effects whose modes are not known here.
@@ -144,7 +144,7 @@ def switched(t: float, run: Run, k: Reals, room: Reals) -> bool:
     return False
 
 
-def settled(t: float, run: Run, k: Reals, w: Reals, before: Reals, still: Reals) -> bool:
+def settled(t: float, run: RunArrays, k: Reals, w: Reals, before: Reals, still: Reals) -> bool:
     """Modes that agree with what follows from them; False where none was found."""
     y, numbers, par, lay, con = run.y, run.numbers, run.par, run.lay, run.con
     if lay[FRICTION] >= 0:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.integrators.compiled.arrays import Step
+from abu_calc.dynamics.integrators.compiled.arrays import IntegrationStep
 
 Rates = Callable[[float, np.ndarray], Any]
 
@@ -30,7 +30,7 @@ class Stepping:
         self.between = np.zeros(n * method.BETWEEN)
         self.k[:n] = rates(t, self.start)
         nothing = np.zeros(0)
-        self.step: Any = Step(t, h, n, *(self.start, nothing, self.end, self.k, self.between, np.zeros(n)))  # type: ignore[arg-type]
+        self.step: Any = IntegrationStep(t, h, n, *(self.start, nothing, self.end, self.k, self.between, np.zeros(n)))  # type: ignore[arg-type]
         method.stages(self.step, nothing)
         method.prepared(self.step)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853, RK45
 
-from abu_calc.dynamics.integrators.compiled.arrays import Step
+from abu_calc.dynamics.integrators.compiled.arrays import IntegrationStep
 from abu_calc.dynamics.integrators.compiled.kernels import METHODS
 
 SOLVERS: dict[str, Any] = {"rk45": RK45, "dop853": DOP853}
@@ -45,7 +45,7 @@ def standing(method: ModuleType, y: np.ndarray, t: float, h: float) -> Any:
     """A step at whose stages all rates are zero, and that ends at the origin."""
     rows: tuple[Any, ...] = (np.zeros(3), np.zeros(3 * method.KEPT), np.zeros(3 * method.BETWEEN), np.zeros(3))
     nothing: Any = np.zeros(0)
-    return Step(t, h, 3, y, nothing, *rows)  # type: ignore[arg-type]
+    return IntegrationStep(t, h, 3, y, nothing, *rows)  # type: ignore[arg-type]
 
 
 def test_a_step_is_that_of_scipy(name: str) -> None:

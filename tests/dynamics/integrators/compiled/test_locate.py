@@ -19,8 +19,8 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     VALUES,
     WATCHED,
     Integers,
+    IntegrationStep,
     Reals,
-    Step,
     Watch,
 )
 from abu_calc.dynamics.integrators.compiled.locate import CHECKS
@@ -102,7 +102,7 @@ def test_numbers_are_left_alone_that_cannot_fall(before: Reals, after: Reals, ma
     assert looked_at(before, after) == many
 
 
-STEP = Step(0.0, 1.0, 1, *([0.0] for _ in range(6)))
+STEP = IntegrationStep(0.0, 1.0, 1, *([0.0] for _ in range(6)))
 """A step from 0 to 1, of whose motion nothing is asked."""
 
 
@@ -117,7 +117,7 @@ def test_a_dip_anywhere_within_two_quarters_is_found(
     def value(x: float) -> float:
         return (CHECKS * x - (check - 2) - lowest) ** 2 - depth
 
-    def peeked(index: int, x: float, step: Step, watch: Watch) -> float:
+    def peeked(index: int, x: float, step: IntegrationStep, watch: Watch) -> float:
         watch.w[index] = value(x)
         return value(x)
 

@@ -61,7 +61,7 @@ def test_work_and_wheel_change_between_touching_and_apart() -> None:
     lay, count, numbers = layout(ONE_SIDED=4, TOUCHES=2, FRICTION=-1), [0] * arrays.COUNTS, np.array((0.0, 0.0, 1.0))
     count[arrays.FOUND] = 4
     nothing: Any = np.zeros(6)
-    run = arrays.Run(nothing, numbers, nothing, lay, [0.0] * 8, nothing, count)  # type: ignore[arg-type]
+    run = arrays.RunArrays(nothing, numbers, nothing, lay, [0.0] * 8, nothing, count)  # type: ignore[arg-type]
     for touching in (0.0, 1.0):
         assert switched(0.0, run, nothing, nothing)
         assert numbers[2] == touching
