@@ -13,20 +13,22 @@ if TYPE_CHECKING:
     pass
 
 
+Quantity = Annotated[
+    str,
+    typer.Option("--quantity", metavar="NAME", help="Quantity to compare: amplitude, level, settling or angles."),
+]
+Budget = Annotated[float, typer.Option("--time-budget", "--budget", metavar="S", help="Computing time to spend.")]
+
+
 def accuracy(
     how: Delivery,
     file: File,
     set_: Overrides = None,
     scene: WhichScene = None,
     start: WhichStart = None,
-    quantity: Annotated[
-        str,
-        typer.Option("--quantity", metavar="NAME", help="Quantity to compare: amplitude, level, settling or angles."),
-    ] = "amplitude",
+    quantity: Quantity = "amplitude",
     accuracy: Accuracy = 0.01,
-    budget_s: Annotated[
-        float, typer.Option("--time-budget", "--budget", metavar="S", help="Computing time to spend.")
-    ] = 20.0,
+    budget_s: Budget = 20.0,
     duration_s: Duration = None,
 ) -> Outcome:
     """Compare methods of simulation by error and computing time."""

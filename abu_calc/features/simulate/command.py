@@ -21,51 +21,55 @@ METHOD: Final = "Method"
 """Panel of the options about the integration."""
 
 
+RaceCentre = Annotated[
+    float | None,
+    typer.Option(
+        "--race-centre", metavar="DEG", help="Angle from the imbalance to the centre of the race; default 180."
+    ),
+]
+Integrator = Annotated[
+    str,
+    typer.Option("--integrator", metavar="NAME", help="auto, scipy, plain or compiled.", rich_help_panel=METHOD),
+]
+TrajectoryFile = Annotated[
+    Path | None,
+    typer.Option("--trajectory", metavar="FILE.csv", help="Also write the motion.", rich_help_panel=OUTPUT),
+]
+Samples = Annotated[
+    int | None,
+    typer.Option("--samples", metavar="N", help=f"Times in the trajectory; default {SAMPLES}.", rich_help_panel=OUTPUT),
+]
+MostEvaluations = Annotated[
+    int | None,
+    typer.Option(
+        "--most-evaluations",
+        metavar="N",
+        help="Most evaluations of the equations; default ten million, a minute or two.",
+        rich_help_panel=METHOD,
+    ),
+]
+Audit = Annotated[
+    bool,
+    typer.Option("--audit", help="Repeat the run with every effect and report the difference.", rich_help_panel=METHOD),
+]
+
+
 def simulate(
     how: Delivery,
     file: File,
     set_: Overrides = None,
     scene: WhichScene = None,
     start: WhichStart = None,
-    race_centre_deg: Annotated[
-        float | None,
-        typer.Option(
-            "--race-centre", metavar="DEG", help="Angle from the imbalance to the centre of the race; default 180."
-        ),
-    ] = None,
+    race_centre_deg: RaceCentre = None,
     accuracy: Accuracy = 0.01,
-    integrator: Annotated[
-        str,
-        typer.Option("--integrator", metavar="NAME", help="auto, scipy, plain or compiled.", rich_help_panel=METHOD),
-    ] = "auto",
+    integrator: Integrator = "auto",
     duration_s: Duration = None,
-    trajectory: Annotated[
-        Path | None,
-        typer.Option("--trajectory", metavar="FILE.csv", help="Also write the motion.", rich_help_panel=OUTPUT),
-    ] = None,
-    samples: Annotated[
-        int | None,
-        typer.Option(
-            "--samples", metavar="N", help=f"Times in the trajectory; default {SAMPLES}.", rich_help_panel=OUTPUT
-        ),
-    ] = None,
+    trajectory: TrajectoryFile = None,
+    samples: Samples = None,
     with_effects: With = None,
     without_effects: Without = None,
-    most_evaluations: Annotated[
-        int | None,
-        typer.Option(
-            "--most-evaluations",
-            metavar="N",
-            help="Most evaluations of the equations; default ten million, a minute or two.",
-            rich_help_panel=METHOD,
-        ),
-    ] = None,
-    audit: Annotated[
-        bool,
-        typer.Option(
-            "--audit", help="Repeat the run with every effect and report the difference.", rich_help_panel=METHOD
-        ),
-    ] = False,
+    most_evaluations: MostEvaluations = None,
+    audit: Audit = False,
 ) -> Outcome:
     """Simulate one scene: amplitude, level, settling time, ball angles."""
     from abu_calc.features.simulate.study import simulate as study

@@ -35,101 +35,111 @@ Vary = Annotated[
 ]
 
 
+Runs = Annotated[
+    int | None,
+    typer.Option("--runs", metavar="N", help="Number of samples; default 100.", rich_help_panel=SAMPLING),
+]
+What = Annotated[
+    str | None,
+    typer.Option(
+        "--what",
+        metavar="NAME",
+        help="build: size once, then build and start each sample; design: size each sample.",
+    ),
+]
+Tolerances = Annotated[
+    bool,
+    typer.Option(
+        "--tolerances", help="Vary the drawing's tolerances and the usual scatter of use.", rich_help_panel=SAMPLING
+    ),
+]
+Grid = Annotated[
+    tuple[str, str] | None,
+    typer.Option("--grid", metavar="KEY KEY", help="Chart two keys that have listed values.", rich_help_panel=SAMPLING),
+]
+Sensitivity = Annotated[
+    bool,
+    typer.Option(
+        "--sensitivity",
+        help="Use a Saltelli design of N × (varied values + 2) samples.",
+        rich_help_panel=SAMPLING,
+    ),
+]
+Sampling = Annotated[
+    str | None,
+    typer.Option("--sampling", metavar="NAME", help="latin-hypercube (default) or sobol.", rich_help_panel=SAMPLING),
+]
+Seed = Annotated[
+    int | None,
+    typer.Option("--seed", metavar="N", help="Seed of the random numbers; default 0.", rich_help_panel=SAMPLING),
+]
+SampleAccuracy = Annotated[
+    float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in each simulation.")
+]
+TimeLimit = Annotated[
+    float | None,
+    typer.Option(
+        "--time-limit",
+        metavar="S",
+        help="Longest computing time of one sample; default 60.",
+        rich_help_panel=COMPUTING,
+    ),
+]
+StoreFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--store", metavar="FILE.sqlite", help="Store every sample when it is computed.", rich_help_panel=COMPUTING
+    ),
+]
+Resume = Annotated[bool, typer.Option("--resume", help="Continue with the store.", rich_help_panel=COMPUTING)]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        "--workers",
+        metavar="N",
+        help="Number of processes; default one for each processor.",
+        rich_help_panel=COMPUTING,
+    ),
+]
+Cluster = Annotated[
+    str | None,
+    typer.Option(
+        "--cluster",
+        metavar="ADDRESS",
+        help="Compute on the Dask scheduler at this address.",
+        rich_help_panel=COMPUTING,
+    ),
+]
+ClusterWait = Annotated[
+    float,
+    typer.Option(
+        "--cluster-wait",
+        metavar="S",
+        help="Longest wait for the scheduler and its workers.",
+        rich_help_panel=COMPUTING,
+    ),
+]
+
+
 def sweep(
     how: Delivery,
     machine: File,
     set_: Overrides = None,
     vary: Vary = None,
-    runs: Annotated[
-        int | None,
-        typer.Option("--runs", metavar="N", help="Number of samples; default 100.", rich_help_panel=SAMPLING),
-    ] = None,
-    what: Annotated[
-        str | None,
-        typer.Option(
-            "--what",
-            metavar="NAME",
-            help="build: size once, then build and start each sample; design: size each sample.",
-        ),
-    ] = None,
-    tolerances: Annotated[
-        bool,
-        typer.Option(
-            "--tolerances", help="Vary the drawing's tolerances and the usual scatter of use.", rich_help_panel=SAMPLING
-        ),
-    ] = False,
-    grid: Annotated[
-        tuple[str, str] | None,
-        typer.Option(
-            "--grid", metavar="KEY KEY", help="Chart two keys that have listed values.", rich_help_panel=SAMPLING
-        ),
-    ] = None,
-    sensitivity: Annotated[
-        bool,
-        typer.Option(
-            "--sensitivity",
-            help="Use a Saltelli design of N × (varied values + 2) samples.",
-            rich_help_panel=SAMPLING,
-        ),
-    ] = False,
-    sampling: Annotated[
-        str | None,
-        typer.Option(
-            "--sampling", metavar="NAME", help="latin-hypercube (default) or sobol.", rich_help_panel=SAMPLING
-        ),
-    ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option("--seed", metavar="N", help="Seed of the random numbers; default 0.", rich_help_panel=SAMPLING),
-    ] = None,
-    accuracy: Annotated[
-        float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in each simulation.")
-    ] = 0.01,
-    time_limit_s: Annotated[
-        float | None,
-        typer.Option(
-            "--time-limit",
-            metavar="S",
-            help="Longest computing time of one sample; default 60.",
-            rich_help_panel=COMPUTING,
-        ),
-    ] = None,
-    store: Annotated[
-        Path | None,
-        typer.Option(
-            "--store", metavar="FILE.sqlite", help="Store every sample when it is computed.", rich_help_panel=COMPUTING
-        ),
-    ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue with the store.", rich_help_panel=COMPUTING)
-    ] = False,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            "--workers",
-            metavar="N",
-            help="Number of processes; default one for each processor.",
-            rich_help_panel=COMPUTING,
-        ),
-    ] = None,
-    cluster: Annotated[
-        str | None,
-        typer.Option(
-            "--cluster",
-            metavar="ADDRESS",
-            help="Compute on the Dask scheduler at this address.",
-            rich_help_panel=COMPUTING,
-        ),
-    ] = None,
-    cluster_wait_s: Annotated[
-        float,
-        typer.Option(
-            "--cluster-wait",
-            metavar="S",
-            help="Longest wait for the scheduler and its workers.",
-            rich_help_panel=COMPUTING,
-        ),
-    ] = 60.0,
+    runs: Runs = None,
+    what: What = None,
+    tolerances: Tolerances = False,
+    grid: Grid = None,
+    sensitivity: Sensitivity = False,
+    sampling: Sampling = None,
+    seed: Seed = None,
+    accuracy: SampleAccuracy = 0.01,
+    time_limit_s: TimeLimit = None,
+    store: StoreFile = None,
+    resume: Resume = False,
+    workers: Workers = None,
+    cluster: Cluster = None,
+    cluster_wait_s: ClusterWait = 60.0,
 ) -> Outcome:
     """Vary values over many samples: share that passes, deciding values."""
     from abu_calc.features.sweep.store_faults import checked_path
