@@ -10,7 +10,8 @@ import typer
 from abu_calc.cli.help import SectionedGroup
 from abu_calc.cli.output import fail
 from abu_calc.cli.streams import make_safe
-from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place, escaped, shortened
+from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place
+from abu_calc.foundation.escaping import escaped, shortened
 from abu_calc.foundation.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
 from abu_calc.registry import BY_NAME, FEATURES, imported
 from abu_calc.version import __version__

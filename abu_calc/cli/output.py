@@ -14,7 +14,8 @@ from typing import Annotated, Final, NamedTuple
 import typer
 
 from abu_calc.cli.help import OUTPUT as PANEL
-from abu_calc.foundation.errors import AbuError, InputError, OutputError, Place, escaped, escaped_lines, shortened
+from abu_calc.foundation.errors import AbuError, InputError, OutputError, Place
+from abu_calc.foundation.escaping import escaped, escaped_lines, shortened
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.registry import BY_NAME, known, names_of
 from abu_calc.reporting.outcome import Outcome, document, error_document, to_json

@@ -14,7 +14,7 @@ from time import monotonic
 from typing import Final, TextIO
 
 from abu_calc.cli.output import Delivery
-from abu_calc.foundation.errors import escaped, shortened
+from abu_calc.foundation.escaping import escaped, shortened
 from abu_calc.foundation.progress import Progress, Stage, silent
 
 SOON = 0.7

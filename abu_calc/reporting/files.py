@@ -6,7 +6,8 @@ import io
 from collections.abc import Callable
 from typing import Any, Final
 
-from abu_calc.foundation.errors import OutputError, escaped, escaped_toml
+from abu_calc.foundation.errors import OutputError
+from abu_calc.foundation.escaping import escaped, escaped_toml
 from abu_calc.foundation.quantity import flattened
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.outcome import Outcome, document, to_json

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from abu_calc.foundation.errors import escaped
+from abu_calc.foundation.escaping import escaped
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 
 STYLES = {

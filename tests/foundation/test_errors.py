@@ -1,11 +1,8 @@
 """Messages of errors: place, facts and remedy, safe for a terminal and of bounded length."""
 
-import tomllib
-
 import pytest
 
 from abu_calc.foundation.errors import (
-    LONGEST_FOUND,
     AbuError,
     ChaoticError,
     InputError,
@@ -14,11 +11,8 @@ from abu_calc.foundation.errors import (
     Place,
     RangeError,
     StoppedError,
-    escaped,
-    escaped_lines,
-    escaped_toml,
-    shortened,
 )
+from abu_calc.foundation.escaping import LONGEST_FOUND
 
 HOSTILE = "a\nb\r\x1b[31m\x00\u202e\ufeff\u2028é"
 
@@ -47,19 +41,11 @@ def test_each_error_has_its_exit_status(error: AbuError, status: int) -> None:
 
 
 def test_nothing_in_a_message_acts_on_a_terminal() -> None:
-    for text in (escaped(HOSTILE), str(Place(HOSTILE, 1, HOSTILE)), str(InputError("bad", found=HOSTILE))):
+    for text in (str(Place(HOSTILE, 1, HOSTILE)), str(InputError("bad", found=HOSTILE))):
         assert text.isprintable() and "é" in text
-    assert [line.isprintable() for line in escaped_lines(HOSTILE).split("\n")] == [True, True]
-
-
-def test_toml_reads_escaped_text_as_it_was() -> None:
-    text = HOSTILE.replace("\n", "")  # a basic string has one line
-    assert tomllib.loads(f'a = "{escaped_toml(text)}"')["a"] == text
-    assert tomllib.loads(f'a = "{escaped_toml(chr(0xD800))}"')["a"] == "?"
 
 
 def test_long_values_are_cut() -> None:
-    assert shortened("x" * LONGEST_FOUND) == "x" * LONGEST_FOUND
     cut = InputError("bad", found="x" * 10_000, remedy="write " + "y" * 10_000)
     assert cut.found is not None and len(cut.found) == LONGEST_FOUND and cut.found.endswith("…")
     assert len(str(cut)) < 3 * LONGEST_FOUND

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.foundation.errors import escaped, escaped_lines
+from abu_calc.foundation.escaping import escaped, escaped_lines
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 from abu_calc.reporting.text import as_text
 from tests.cli.runner import abu

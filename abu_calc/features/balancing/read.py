@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from abu_calc.features.balancing.tables import ReadingsFile
-from abu_calc.foundation.errors import InputError, Place, shortened
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading import sources as presets
 from abu_calc.inputs.reading.document import Document, FileReading, named, open_document, parsed_overrides, validate

@@ -11,7 +11,7 @@ from typing import Final, TypeAlias
 from abu_calc.features.seats.interference import of_all
 from abu_calc.features.seats.records import Clearance, Pair, Repair, Requirements, SeatResult
 from abu_calc.features.seats.study import CheckFitResult
-from abu_calc.foundation.errors import shortened
+from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number

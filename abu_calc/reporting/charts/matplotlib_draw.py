@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
 
-from abu_calc.foundation.errors import OutputError, escaped
+from abu_calc.foundation.errors import OutputError
+from abu_calc.foundation.escaping import escaped
 from abu_calc.reporting.charts.chart import Bars, Cells, Plot
 from abu_calc.reporting.charts.figure import Figure, RotorMotionFigure, angles
 from abu_calc.reporting.charts.matplotlib_charts import FONT, LIKE_IT, styled

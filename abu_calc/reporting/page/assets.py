@@ -5,7 +5,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from abu_calc.foundation.errors import escaped
+from abu_calc.foundation.escaping import escaped
 
 
 def text(words: str) -> str:

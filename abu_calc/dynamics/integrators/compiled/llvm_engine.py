@@ -22,7 +22,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from abu_calc.foundation.errors import shortened
+from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.frozen import dataclass
 
 FOLDER = "ABU_CALC_CACHE"
