@@ -156,14 +156,14 @@ class Until:
 class Sampling:
     """Times [s] at which a run is sampled, ascending; `readers` are shown all samples, block by block, in their order.
 
-    `held`: those of the times that stay in the trajectory; None: all of them. `told` gets the share that is done.
+    `held`: those of the times that stay in the trajectory; None: all of them. `report` gets the share that is done.
     `until`: when all are held, where the run may end early.
     """
 
     times: Array
     held: Array | None = None
     readers: tuple[Reader, ...] = ()
-    told: Share | None = None
+    report: Share | None = None
     until: Until | None = None
 
     @classmethod
@@ -177,7 +177,7 @@ class Sampling:
 
     def telling(self, report: Share | None) -> "Sampling":
         """The same times, with somebody who watches."""
-        return replace(self, told=report)
+        return replace(self, report=report)
 
 
 Times = Sequence[float] | Array | Sampling

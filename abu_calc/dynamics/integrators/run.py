@@ -57,8 +57,8 @@ class Recorder:
             filled, self.done = filled + part.shape[1], self.done + part.shape[1]
             if self.done - self.read == self.block.shape[1]:
                 self._hand_on()
-        if self.sampling.told:
-            self.sampling.told(self.done / len(self.sampling.times))
+        if self.sampling.report:
+            self.sampling.report(self.done / len(self.sampling.times))
 
     def samples(self) -> Samples:
         """Held samples, when the run is over."""

@@ -153,12 +153,12 @@ class CompareResult(Result):
 
 def checks_named(result: CompareResult, name: str) -> list[Check | None]:
     """The check of each machine with this code, or with this code and name; None: it is not asked there."""
-    found: dict[str, Check] = {}
+    by_letter: dict[str, Check] = {}
     for check in result.checks:
         own, _, letter = check.name.rpartition(", ")
         if name in (check.code, f"{check.code} {own}"):
-            found.setdefault(letter, check)
-    return [found.get(file.letter) for file in result.files]
+            by_letter.setdefault(letter, check)
+    return [by_letter.get(file.letter) for file in result.files]
 
 
 @checked

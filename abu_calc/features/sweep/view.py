@@ -169,12 +169,12 @@ def _about(result: SweepResult) -> list[Block]:
     low, high = met.confidence_interval
     does = "balance" if result.what == "scene" else "meet the limits"
     confidence = f"95 % confidence: {percent(low)} to {percent(high)}"
-    one, several = MEMBERS[result.what]
+    singular, plural = MEMBERS[result.what]
     failed = "" if met.share == 1 else f"{round(met.of * (1 - met.share))} of {met.of} do not."
-    text = f"{percent(met.share)} of {met.of} {several} {does} ({confidence}). {failed}".rstrip()
+    text = f"{percent(met.share)} of {met.of} {plural} {does} ({confidence}). {failed}".rstrip()
     if met.of == 1:
         verb = does.replace("meet", "meets").replace("balance", "balances") if met.share else f"does not {does}"
-        text = f"1 {one} {verb} ({confidence})."
+        text = f"1 {singular} {verb} ({confidence})."
     kept = f" Samples: {result.store}." if result.store else ""
     varied = many(len(result.varied), "value varies", "values vary")
     return [
