@@ -94,6 +94,8 @@ class Calls(Expressions):
 
     def store(self, target: ast.expr, value: Value) -> None:
         """Into a variable or an element."""
+        if isinstance(target, ast.Name) and target.id in self.grouped:
+            self.refuse(target, "the name of a group")
         if isinstance(target, ast.Name):
             kind = self.kinds.setdefault(target.id, value[0])
             self.put(f"store {shown(kind)} {self.as_kind(value, kind, target)}, ptr %{target.id}")
@@ -108,6 +110,8 @@ class Calls(Expressions):
         kind = ast.unparse(call.func)
         if not isinstance(target, ast.Name):
             self.refuse(target, "a group has a name")
+        if target.id in self.kinds or self.grouped.get(target.id, kind) != kind:
+            self.refuse(target, "the name of something else")
         if call.keywords or len(call.args) != len(self.groups[kind]):
             self.refuse(call, f"{len(self.groups[kind])} values without names")
         rows = zip(self.parts(target.id, kind).items(), call.args, strict=True)

@@ -49,7 +49,7 @@ BODIES = {
     "calls": "x[0] = half(x[1])\nraise_all(x[2:], 3)\nif large(k[1]):\n x[6] = 1.0",
     "groups": (
         "g = Pair(x[0] + 1, x[2:], k)\nx[0] = g.size\nx[1] = grown(3.0, g)\ng.row[1] = 2.0\n"
-        "g = Pair(x[1], x, k)\nx[3] = grown(x[4], g) + g.count[0]\nrow, j = g.row, g.count[1]\nrow[5] = j"
+        "g = Pair(g.size + x[1], g.row, k)\nx[3] = grown(x[4], g) + g.count[0]\nrow, j = g.row, g.count[1]\nrow[5] = j"
     ),
     "a return ends it": "if x[0] > -1.0:\n return 5\nx[0] = 3.0",
     "nothing": "pass",
@@ -63,6 +63,7 @@ BODIES = {
 
 OTHERS = (
     "class Pair(NamedTuple):\n 'A group.'\n size: float\n row: Reals\n 'A row.'\n count: Integers\n"
+    "class Single(NamedTuple):\n size: float\n"
     "def grown(by: float, pair: Pair) -> float:\n pair.row[0] = by\n pair.count[0] += 1\n return by * pair.size\n"
     "def half(a: float) -> float:\n return a / 2\n"
     "def large(a: int) -> bool:\n return a > 1\n"
@@ -133,6 +134,10 @@ REFUSED = {
     "g = Pair(1.0, x, k)\nx[0] = g": "no such name",
     "g = Pair(1.0, x, k)\nx[0] = g.depth": "no such name",
     "g = Pair(1.0, x, k)\ng.size = 2.0": "nothing can be stored",
+    "g = Pair(1.0, x, k)\ng = 1.0": "the name of a group",
+    "g = Pair(1.0, x, k)\nfor g in range(3):\n pass": "the name of a group",
+    "g = 1.0\ng = Pair(1.0, x, k)": "the name of something else",
+    "g = Pair(1.0, x, k)\ng = Single(1.0)": "the name of something else",
     "x[0] = grown(1.0, x)": "a variable that is a Pair",
     "x[0] = grown(1.0, Pair(1.0, x, k))": "a variable that is a Pair",
     "return": "to be returned",
