@@ -19,7 +19,7 @@ def endless(name: str, equations: Any, tolerance: float, times: Any, most: int) 
     """A run longer than any budget here, which tells how far it is; a test that waits for its end fails."""
     until = time.monotonic() + ENDLESS_S
     while time.monotonic() < until:
-        if tell := getattr(times, "told", None):
+        if tell := getattr(times, "report", None):
             tell(0.0)
     raise AssertionError("nobody broke it off")
 
