@@ -192,6 +192,18 @@ FEATURES: Final[tuple[Feature, ...]] = (
         group="Measure",
     ),
     Feature(
+        "declare",
+        "declare.command",
+        ("declare.study:DeclareResult",),
+        "declare.view:declare_extras",
+        figures=(
+            Known("values"),
+            Known("runs", "runs of the simulated type test differ"),
+            Known("eccentricity", "a break-even eccentricity was searched"),
+        ),
+        group="Measure",
+    ),
+    Feature(
         "factory",
         "factory.command",
         ("factory.study:FactoryResult",),

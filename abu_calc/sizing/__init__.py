@@ -16,6 +16,7 @@ from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.operating_speed import frequency_region, region_check
 from abu_calc.sizing.track import track, track_checks
+from abu_calc.sizing.type_test import declared_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *candidate_checks(case, best),
         *track_checks(case, best, race),
         *vibration_checks(case, imbalance.value, best, idle, levels),
+        *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
         *(arm.checks if arm else ()),
     )

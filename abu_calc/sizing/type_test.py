@@ -1,0 +1,200 @@
+"""Declared vibration value of a design in closed form, without and with the autobalancer.
+
+`abu declare` simulates the type test; this estimate costs nothing, so that `abu size` can warn.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+
+from abu_calc.formulas.suspension import dynamic_stiffness
+from abu_calc.formulas.type_test import (
+    MANY,
+    HandleMotion,
+    TypeTestBody,
+    acceleration_per_displacement,
+    break_even,
+    evenly,
+    friction_displacement,
+    frictionless_break_even,
+    mean_motion,
+)
+from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
+from abu_calc.foundation.units import from_si, to_si
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.sizing.actions import CALCULATED, followed, set_action
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import Case
+from abu_calc.standards.type_test import (
+    balancing_factor,
+    declared_uncertainty,
+    reproducibility,
+    test_wheel,
+    test_wheel_source,
+)
+from abu_calc.standards.vibration import third_octaves
+
+IN_FILE = "machine file"
+"""Source of a test wheel whose imbalance the file gives."""
+WHEEL_PLANE = "wheel plane"
+
+
+@dataclass(frozen=True)
+class ChosenWheel:
+    """Test wheel of a machine [SI]; the diameter and the feed force are None if the file gives an imbalance alone."""
+
+    diameter: float | None
+    imbalance: float
+    feed_force: float | None
+    source: str
+    status: str
+
+
+def chosen_wheel(table: MachineFile) -> ChosenWheel | None:
+    """The test wheel that the file gives, else the built-in one of its diameter; None if there is none."""
+    test = table.type_test
+    given = None if test is None else test.test_wheel_diameter_mm
+    known = test_wheel(to_si(table.wheel.diameter_mm if given is None else given, "mm"))
+    if test is not None and test.test_wheel_imbalance_g_mm is not None:
+        diameter = None if given is None else to_si(given, "mm")
+        return ChosenWheel(diameter, to_si(test.test_wheel_imbalance_g_mm, "g_mm"), None, IN_FILE, "given")
+    if known is None:
+        return None
+    return ChosenWheel(known.diameter, known.imbalance, known.feed_force, *test_wheel_source())
+
+
+def type_test_body(case: Case, added: float) -> TypeTestBody:
+    """The machine with so much mass added [kg]: races and handles per imbalance, its suspension included."""
+    body, race, wheel = case.body, case.race_place, case.body.wheel
+    mass = body.effective_mass(added)
+    x, y = (-mass * case.speed**2 / dynamic_stiffness(case.suspension, axis, case.speed, mass) for axis in (0, 1))
+
+    def motion(at: float, force_at: float) -> tuple[complex, complex, complex]:
+        inertance = body.inertance(at, force_at, added)
+        return inertance * x, -1j * inertance * y, 0j
+
+    forward = (x + y) / 2
+    places = [(handle.name, handle.place) for handle in case.handles] or [(WHEEL_PLANE, wheel)]
+    return TypeTestBody(
+        body.inertance(race, wheel, added) * forward,
+        body.inertance(race, race, added) * forward,
+        tuple(HandleMotion(name, motion(place, wheel), motion(place, race)) for name, place in places),
+    )
+
+
+@dataclass(frozen=True)
+class DeclaredEstimate:
+    """Declared values [m/s²] in closed form, at the highest handle of each state; eccentricities [m] or None."""
+
+    without: float
+    with_balls: float
+    factor: float
+    frictionless_break_even: float | None
+    break_even: float | None
+
+    @property
+    def declared(self) -> float:
+        """The value with the autobalancer, times the factor."""
+        return self.factor * self.with_balls
+
+    @property
+    def uncertainty(self) -> float:
+        """K [m/s²] of the value without the autobalancer: a smaller change cannot be told."""
+        return declared_uncertainty(reproducibility(self.without))
+
+
+def background(table: MachineFile) -> float:
+    """a_hv of motor and gear [m/s²]; 0 if the file gives none."""
+    test = table.type_test
+    return 0.0 if test is None or test.background_a_hv_m_per_s2 is None else test.background_a_hv_m_per_s2
+
+
+def band(case: Case, candidate: Candidate) -> float:
+    """Friction band b = k_r·R_p/r [m]."""
+    return case.friction_arm * candidate.pitch_radius / (candidate.ball_diameter / 2)
+
+
+def declared_estimate(case: Case, candidate: Candidate, imbalance: float) -> DeclaredEstimate:
+    """The type test with a test wheel of this imbalance [kg m], as mean over starts and orientations."""
+    gain = acceleration_per_displacement(case.speed)
+    noise = background(case.table) / gain
+    bare, gains = type_test_body(case, 0.0).gains, type_test_body(case, candidate.mass).gains
+    friction = friction_displacement(candidate.ball_count, band(case, candidate))
+    without = max(math.hypot(each.without(imbalance), noise) for each in bare)
+    with_balls = max(mean_motion(each, imbalance, case.race_eccentricity, friction, noise) for each in gains)
+    factor = balancing_factor()
+    ideal = frictionless_break_even(gains, imbalance, without / factor, evenly(MANY), noise)
+    return DeclaredEstimate(
+        gain * without, gain * with_balls, factor, ideal, None if ideal is None else break_even(ideal, friction)
+    )
+
+
+def weighted_speed(speed: float) -> bool:
+    """True if W_h is defined at a speed [rad/s]."""
+    bands, half = third_octaves(), 10**0.05
+    return bands[0].centre / half <= speed <= bands[-1].centre * half
+
+
+def declared_checks(case: Case, candidate: Candidate, possible: bool) -> Iterator[Check]:
+    """ABU431 for a rigid body in the hands; a point mass would be judged too hard, so nothing is said of one."""
+    wheel = chosen_wheel(case.table)
+    if wheel is None or not case.body.is_rigid or case.table.swing_arm is not None or not weighted_speed(case.speed):
+        return
+    if not possible or not carried(case, candidate, wheel.imbalance):
+        return  # ABU101 and ABU201 say so, and `abu declare`
+    estimate = declared_estimate(case, candidate, wheel.imbalance)
+    yield declared_check(
+        estimate.without, estimate.declared, CALCULATED,
+        lambda: lower_declared(case, candidate, wheel.imbalance),
+    )  # fmt: skip
+
+
+def carried(case: Case, candidate: Candidate, imbalance: float) -> bool:
+    """True if the balls can balance a test wheel with the race eccentricity at its worst angle."""
+    return required(case, candidate, imbalance) <= candidate.capacity
+
+
+def required(case: Case, candidate: Candidate, imbalance: float) -> float:
+    """Capacity [kg m] that a test wheel requires: |g_rw/g_rr|·U + m_F·Δ."""
+    body = type_test_body(case, candidate.mass)
+    return abs(body.race_by_wheel / body.race_by_race) * imbalance + body.effective_mass * case.race_eccentricity
+
+
+def declared_check(without: float, declared: float, how: str, action: Callable[[], Action | str | None]) -> Check:
+    """ABU431: passes if the declared value [m/s²] falls; `how` it is known, `action`: asked for if it does not."""
+    message = (
+        f"Type test, highest handle ({how}): {without:.3g} m/s² without the autobalancer, {declared:.3g} m/s² with it, "
+        f"the factor {balancing_factor():g} included"
+    )
+    lower = declared < without
+    return coded(
+        "ABU431", verdict(True, lower), message, declared, without, "m/s²", None if lower else action()
+    )
+
+
+def lower_declared(case: Case, candidate: Candidate, imbalance: float) -> Action | str:
+    """The first change of race and friction with which the declared value falls, sized anew and calculated."""
+    estimate = declared_estimate(case, candidate, imbalance)
+    for entries in _truer(case, estimate):
+        after = followed(case, entries)
+        if after is None or not carried(after.case, after.candidate, imbalance):
+            continue
+        then = declared_estimate(after.case, after.candidate, imbalance)
+        if then.declared < then.without:
+            moved = Moved("the declared value with the autobalancer", estimate.declared, then.declared, "m/s²")
+            return set_action(entries, after.candidate, moved)
+    return "No smaller race eccentricity or friction was found that lowers it. `abu declare FILE` gives the part of each cause."
+
+
+def _truer(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]]:
+    """Entries of a race that runs truer, down to half its eccentricity, or rolls more easily."""
+    abu, limit = case.autobalancer, estimate.break_even
+    true = [] if limit is None else [float(f"{share * from_si(limit, 'mm'):.2g}") for share in (0.9, 0.6)]
+    eccentricities = [value for value in true if 0 < value < abu.race_eccentricity_mm]
+    for value in eccentricities:
+        yield {"autobalancer.race_eccentricity_mm": value}
+    for share in (0.5, 0.25):
+        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": float(f"{share * abu.rolling_friction_mm:.3g}")}
+        yield smooth
+        yield {**smooth, "autobalancer.race_eccentricity_mm": float(f"{share * abu.race_eccentricity_mm:.3g}")}
