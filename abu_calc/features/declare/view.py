@@ -6,15 +6,14 @@ from typing import Final
 from abu_calc.features.declare.study import DeclareResult
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.foundation.units import to_si
-from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number, with_unit
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import file_of, notices, provenance_blocks
-from abu_calc.reporting.screen import many, one_screen, sections, verdict_line
+from abu_calc.reporting.screen import many, one_screen, verdict_line
 
 SHARE: Final = 0.001
 """Least share of a cause that is listed."""
-SINGLE: Final = "Single runs from 5 to 95 %"
 
 
 def declare_blocks(result: DeclareResult) -> tuple[Block, ...]:
@@ -43,12 +42,13 @@ def _head(result: DeclareResult) -> tuple[Block, ...]:
     force = f", feed force {wheel.feed_force_N:g} N" if wheel.feed_force_N is not None else ""
     runs = f" × {many(plan.runs, 'run')}" if plan.runs > 1 else ""
     series = f"{many(len(plan.orientations_deg), 'orientation')}{runs} × {many(plan.operators, 'operator')}"
-    rows = [
-        ("Test wheel", "", f"{of}{number(wheel.imbalance_g_mm, 3)} g·mm{force} ({_status(result)})"),
-        ("Type test", "", f"{series}; {plan.starts} starts simulated" if plan.starts else series),
-        ("Machine", "", f"{result.body}; highest: {_place(result.handle)}"),
-    ]
-    return (Heading(f"{result.title}: declared vibration value"), verdict_line(result), Facts(tuple(rows)))
+    rows = (
+        ("Test wheel", f"{of}{number(wheel.imbalance_g_mm, 3)} g·mm{force} ({_status(result)})"),
+        ("Type test", f"{series}; {plan.starts} starts simulated" if plan.starts else series),
+        ("Machine", f"{result.body}; highest value at: {_place(result.handle)}"),
+    )
+    title = Heading(f"{result.title}: declared vibration value")
+    return (title, verdict_line(result), Paragraph(""), Grid(("", ""), rows))
 
 
 def _status(result: DeclareResult) -> str:
@@ -77,19 +77,17 @@ def _values(result: DeclareResult) -> list[Block]:
         (f"wheel in use, {number(used.imbalance_g_mm, 3)} g·mm", _short(used.without_m_per_s2), _short(used.with_m_per_s2), "")
     )
     declared = "not known" if with_ is None else _declared(with_.declared_m_per_s2, with_.K_m_per_s2)
-    facts = [("Declared without", "a_hd, K", _declared(without.a_hv_m_per_s2, without.K_m_per_s2))]
-    facts.append((f"Declared with, × {factor:g}", "a_hd, K", declared))
+    facts = [("declared without", _declared(without.a_hv_m_per_s2, without.K_m_per_s2))]
+    facts.append((f"declared with, × {factor:g}", declared))
     if with_ is not None:
+        low, high = with_.declared_low_m_per_s2, with_.declared_high_m_per_s2
         facts += [
-            (SINGLE, "", f"{_short(with_.p05)} … {_short(with_.p95)} m/s², median {_short(with_.p50)}"),
-            (
-                "Declared by 90 % of type tests", "",
-                f"{_short(with_.declared_low_m_per_s2)} … {_short(with_.declared_high_m_per_s2)} m/s²",
-            ),
-            ("Mean known to", "±", f"{number(with_.standard_error_m_per_s2, 2)} m/s² (standard error)"),
-        ]  # fmt: skip
-    facts.append(("Break-even race eccentricity", "Δ*", _break_even(result)))
-    return [Grid(header, tuple(rows), frozenset({1, 2, 3})), Facts(tuple(facts))]
+            ("  90 % of type tests", f"{_short(low)} … {_short(high)} m/s²"),
+            ("  90 % of single runs, × 1", f"{_short(with_.p05)} … {_short(with_.p95)}, median {_short(with_.p50)} m/s²"),
+            ("  standard error, × 1", f"{number(with_.standard_error_m_per_s2, 2)} m/s²"),
+        ]
+    facts.append(("break-even eccentricity", _break_even(result)))
+    return [Grid(header, tuple(rows), frozenset({1, 2, 3})), Paragraph(""), Grid(("", ""), tuple(facts))]
 
 
 def _declared(value: float, uncertainty: float) -> str:
