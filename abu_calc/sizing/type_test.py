@@ -146,7 +146,7 @@ def declared_checks(case: Case, candidate: Candidate, possible: bool) -> Iterato
     estimate = declared_estimate(case, candidate, wheel.imbalance)
     yield declared_check(
         estimate.without, estimate.declared, CALCULATED,
-        lambda: lower_declared(case, candidate, wheel.imbalance),
+        lambda: lower_declared(case, candidate, wheel.imbalance, estimated(wheel.imbalance)),
     )  # fmt: skip
 
 
@@ -173,18 +173,37 @@ def declared_check(without: float, declared: float, how: str, action: Callable[[
     )
 
 
-def lower_declared(case: Case, candidate: Candidate, imbalance: float) -> Action | str:
-    """The first change of race and friction with which the declared value falls, sized anew and calculated."""
-    estimate = declared_estimate(case, candidate, imbalance)
-    for entries in _truer(case, estimate):
+Judged = Callable[[Case, Candidate], tuple[float, float]]
+"""Declared values [m/s²] of a design without and with the autobalancer."""
+
+
+def estimated(imbalance: float) -> Judged:
+    """The closed form with a test wheel of this imbalance [kg m]."""
+
+    def judged(case: Case, candidate: Candidate) -> tuple[float, float]:
+        estimate = declared_estimate(case, candidate, imbalance)
+        return estimate.without, estimate.declared
+
+    return judged
+
+
+def lower_declared(
+    case: Case, candidate: Candidate, imbalance: float, judged: Judged, how: str = CALCULATED
+) -> Action | str:
+    """The first change of race and friction with which the declared value falls, sized anew and judged."""
+    _, present = judged(case, candidate)
+    for entries in _truer(case, declared_estimate(case, candidate, imbalance)):
         after = followed(case, entries)
         if after is None or not carried(after.case, after.candidate, imbalance):
             continue
-        then = declared_estimate(after.case, after.candidate, imbalance)
-        if then.declared < then.without:
-            moved = Moved("the declared value with the autobalancer", estimate.declared, then.declared, "m/s²")
-            return set_action(entries, after.candidate, moved)
-    return "No smaller race eccentricity or friction was found that lowers it. `abu declare FILE` gives the part of each cause."
+        without, declared = judged(after.case, after.candidate)
+        if declared < without:
+            moved = Moved("the declared value with the autobalancer", present, declared, "m/s²", without)
+            return set_action(entries, after.candidate, moved, how)
+    return (
+        "None of the smaller race eccentricities and friction arms that were tried lowers it. `abu declare FILE` lists "
+        "the causes."
+    )
 
 
 def _truer(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]]:

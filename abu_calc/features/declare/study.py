@@ -17,6 +17,7 @@ from abu_calc.features.declare.records import (
     WithAutobalancer,
     WithoutAutobalancer,
 )
+from abu_calc.features.declare.remarks import remarks
 from abu_calc.features.declare.simulated_test import (
     STARTS,
     BreakEven,
@@ -39,7 +40,9 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.sizing import size as size_design
-from abu_calc.sizing.actions import SIMULATED, set_action
+from abu_calc.sizing.actions import SIMULATED
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.type_test import (
     ChosenWheel,
@@ -50,13 +53,11 @@ from abu_calc.sizing.type_test import (
     required,
     weighted_speed,
 )
-from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels, uncertainty_source
+from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels
 
 NUMBER: Final = Range("number of starts", 100, 1_000_000, key="starts")
 NORMAL_95: Final = 1.6449
 """95 % of a normal distribution lie below its mean and so many standard deviations."""
-DOUBTFUL: Final = 0.01
-"""Share of starts without an end that calls for a remark."""
 
 
 @record
@@ -200,7 +201,7 @@ def _result(
     return DeclareResult(
         title=table.machine.name,
         checks=(balancing, *_comparison(design, wheel, bare[highest], uncertainty, tested, with_)),
-        warnings=(*machine.warnings, *_remarks(design, wheel, spindle, imbalance_alone, tested, with_)),
+        warnings=(*machine.warnings, *remarks(design, wheel, spindle, imbalance_alone, test, with_)),
         provenance=Provenance.of(machine),
         model=DeclareModel(
             speed_rad_per_s=case.speed,
@@ -330,55 +331,17 @@ def _comparison(
         yield coded("ABU432", "not-done", reason, None, uncertainty, "m/s²", bound="least")
         return
     declared = tested.test.declared
-    yield declared_check(without, declared, SIMULATED, lambda: lower_declared(design.case, design.autobalancer, wheel.imbalance))
+
+
+    def judged(case: Case, candidate: Candidate) -> tuple[float, float]:
+        spindle = Spindle.of(case, candidate)
+        test = simulated_test(spindle, wheel.imbalance, case.race_eccentricity, len(tested.test.turns))
+        return max(spindle.without(wheel.imbalance).values()), test.declared
+
+    yield declared_check(
+        without, declared, SIMULATED,
+        lambda: lower_declared(design.case, design.autobalancer, wheel.imbalance, judged, SIMULATED),
+    )  # fmt: skip
     change, K = abs(without - declared), max(uncertainty, with_.K_m_per_s2)
     message = f"The declared value {'falls' if declared < without else 'rises'} by {change:.3g} m/s²; K is {K:.3g} m/s²"
     yield coded("ABU432", verdict(True, change > K), message, change, K, "m/s²", bound="least")
-
-
-def _remarks(
-    design: Design, wheel: ChosenWheel, spindle: Spindle, imbalance_alone: float, tested: _Tested | None,
-    with_: WithAutobalancer | None,
-) -> Iterator[str]:  # fmt: skip
-    """What a reader must know of the simulated test."""
-    case, table = design.case, design.case.table
-    if not case.body.is_rigid:
-        yield (
-            "The machine is a point mass here, which judges the autobalancer too hard: a rigid body has up to 3.4 times "
-            "the break-even eccentricity. Give the moments of inertia, and the handles."
-        )
-    if not case.handles:
-        yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."
-    if wheel.status == "secondary":
-        source, status = uncertainty_source()
-        yield f"Test wheels and the factor 1.3 are from {wheel.source}. K is by {source}: {status}."
-    if table.machine.layout != "straight" and wheel.status == "secondary":
-        yield (
-            f'The layout is "{table.machine.layout}", and ISO 28927-4 is for straight grinders. Angle and vertical '
-            "grinders have test wheels of their own (ISO 28927-1), which are not built in: set "
-            "type_test.test_wheel_imbalance_g_mm."
-        )
-    limit = imbalance_alone / math.sqrt(spindle.factor**2 - 1)
-    if spindle.background > limit:
-        yield (
-            f"The background of {spindle.background:.3g} m/s² exceeds {limit:.3g} m/s²: no autobalancer, however "
-            "perfect, lowers this declared value. Compare the values without the factor."
-        )
-    elif not spindle.background:
-        yield (
-            f"The background of motor and gear is left out. Above {limit:.3g} m/s² of it no autobalancer lowers the "
-            "declared value: set type_test.background_a_hv_m_per_s2 as measured with a balanced wheel."
-        )
-    if tested is not None and tested.test.ends.moving > DOUBTFUL * len(tested.test.turns):
-        yield f"In {tested.test.ends.moving} of {len(tested.test.turns)} starts the balls had not come to rest."
-    if tested is not None:
-        yield (
-            "Balls start at rest in the race at random places. They pass each other as points, and gravity is left out. "
-            "`abu size` judges whether they stall and how soon they settle."
-        )
-    if with_ is not None and with_.shaken_free:
-        yield (
-            "With the spindle horizontal, gravity shakes the balls free of rolling friction: the type test then gives "
-            f"{with_.no_friction_m_per_s2:.3g} m/s², declared {spindle.factor * with_.no_friction_m_per_s2:.3g} m/s². "
-            "With the spindle upright, friction stands."
-        )

@@ -139,7 +139,7 @@ def _conventions(result: DeclareResult) -> list[Block]:
     ]
 
 
-def declare_extras(result: DeclareResult) -> Extras:
+def simulated_extras(result: DeclareResult) -> Extras:
     """Figures and formulas of the page."""
     note = step_blocks(STEPS["declare"])
     return Extras((*_bars(result), *_distribution(result), *_over_eccentricity(result)), tuple(note))
