@@ -38,11 +38,14 @@ class TypeTest(Table):
         le=1e6,
         json_schema_extra=usual(2, 1000),
     )
-    orientations: Annotated[
-        tuple[Angle, ...],
-        Field(strict=False, min_length=1, max_length=360),
-        BeforeValidator(_even, json_schema_input_type=int | tuple[Angle, ...]),
-    ] | None = Field(
+    orientations: (
+        Annotated[
+            tuple[Angle, ...],
+            Field(strict=False, min_length=1, max_length=360),
+            BeforeValidator(_even, json_schema_input_type=int | tuple[Angle, ...]),
+        ]
+        | None
+    ) = Field(
         default=None,
         description="Orientations of the test wheel on the spindle: their number, evenly spaced, or a list of angles "
         "[degrees]. Without it: 5.",

@@ -168,9 +168,7 @@ def declared_check(without: float, declared: float, how: str, action: Callable[[
         f"the factor {balancing_factor():g} included"
     )
     lower = declared < without
-    return coded(
-        "ABU431", verdict(True, lower), message, declared, without, "m/s²", None if lower else action()
-    )
+    return coded("ABU431", verdict(True, lower), message, declared, without, "m/s²", None if lower else action())
 
 
 Judged = Callable[[Case, Candidate], tuple[float, float]]
@@ -214,6 +212,8 @@ def _truer(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]
     for value in eccentricities:
         yield {"autobalancer.race_eccentricity_mm": value}
     for share in (0.5, 0.25):
-        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": float(f"{share * abu.rolling_friction_mm:.3g}")}
+        smooth: dict[str, object] = {
+            "autobalancer.rolling_friction_mm": float(f"{share * abu.rolling_friction_mm:.3g}")
+        }
         yield smooth
         yield {**smooth, "autobalancer.race_eccentricity_mm": float(f"{share * abu.race_eccentricity_mm:.3g}")}

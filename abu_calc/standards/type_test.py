@@ -112,7 +112,7 @@ def reproducibility(declared: float, measured: float = 0.0) -> float:
     (0.3875, 0.5)
     """
     rule = toml_table("test_wheels")["uncertainty"]
-    return max(_DEVIATION.check(measured), rule["slope"] * _DECLARED.check(declared) + rule["constant"])
+    return max(_DEVIATION.check(measured), float(rule["slope"]) * _DECLARED.check(declared) + float(rule["constant"]))
 
 
 @formula(

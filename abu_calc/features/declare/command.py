@@ -10,7 +10,6 @@ from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
 
-
 MEASURED: Final = "Measured runs"
 """Panel of the options about recordings."""
 
@@ -58,7 +57,9 @@ def declare(
         for name, given in (("MACHINE", machine), ("--set", set_)):
             if given:
                 raise InputError(
-                    "a machine or recordings, not both", place=Place(key=name), remedy=f"Leave {name} out, or --recordings."
+                    "a machine or recordings, not both",
+                    place=Place(key=name),
+                    remedy=f"Leave {name} out, or --recordings.",
                 )
         return _measured(how, recordings, sensitivity or [], automatic_balancing)
     if machine is None:

@@ -69,7 +69,9 @@ class MeasuredHandle(Record):
 
     name: Annotated[str, Quantity("handle")]
     a_hv_m_per_s2: Annotated[float | None, Quantity("mean over operators", "a_hv", 4)]
-    standard_deviation_m_per_s2: Annotated[float | None, Quantity("standard deviation of the operators' means", "s_m", 3)]
+    standard_deviation_m_per_s2: Annotated[
+        float | None, Quantity("standard deviation of the operators' means", "s_m", 3)
+    ]
 
 
 @record
@@ -122,8 +124,9 @@ def declare_recordings(
 ) -> MeasuredDeclareResult:  # fmt: skip
     """Evaluate the recordings of a type test: a file that lists them, as read, or names of recorded files.
 
-    `sensitivity`: of recorded files in V or mV, for all channels or as CHANNEL=VALUE. `automatic_balancing`: the machine balances itself, so that the factor counts; a file may say so, too. Raises
-    InputError with file, line and column for what is wrong.
+    `sensitivity`: of recorded files in V or mV, for all channels or as CHANNEL=VALUE. `automatic_balancing`: the
+    machine balances itself, so that the factor counts; a file may say so, too. Raises InputError with file, line and
+    column for what is wrong.
     """
     source = recordings if isinstance(recordings, Recordings) else of_files(recordings, sensitivity)
     with source.located():
@@ -207,9 +210,7 @@ def _record(key: tuple[str, int, str], group: Sequence[Run]) -> MeasuredRun:
         run=number,
         handle=handle,
         a_hv_m_per_s2=math.hypot(*known) if len(known) == len(values) else None,
-        axes=tuple(
-            MeasuredAxis(name=name, a_hw_m_per_s2=value) for name, value in zip(names, values, strict=True)
-        ),
+        axes=tuple(MeasuredAxis(name=name, a_hw_m_per_s2=value) for name, value in zip(names, values, strict=True)),
         duration_s=min(run.recording.duration for run in group),
         overload=overload,
         why_not=reasons[0] if reasons else None,
@@ -305,8 +306,8 @@ def _remarks(measured: Sequence[_Measured], factor: float) -> Iterator[str]:
         yield f"{', '.join(names[:MOST_NAMED])}{more}: {remark}"
     if factor == 1:
         yield (
-            "The factor 1.3 for machines that balance themselves is not included. If the machine has an autobalancer, set "
-            "type_test.automatic_balancing = true, or add --automatic-balancing."
+            "The factor 1.3 for machines that balance themselves is not included. If the machine has an autobalancer, "
+            "set type_test.automatic_balancing = true, or add --automatic-balancing."
         )
     source, status = uncertainty_source()
     yield f"K is by {source}: {status}. The measured part of s_R is the standard deviation of the operators' means."

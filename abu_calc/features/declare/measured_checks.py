@@ -53,7 +53,7 @@ def _spread(series: Sequence[Series]) -> Iterator[Check]:
         failing = [each for each in known if not _scatters_little(each)]
         worst = max(failing or known, key=_variation)
         message = (
-            f"Operator {worst.operator}: standard deviation {worst.deviation:.3g} m/s² of {worst.runs} runs with the mean "
+            f"Operator {worst.operator}: standard deviation {worst.deviation:.3g} m/s² of {worst.runs} runs, mean "
             f"{worst.mean:.3g} m/s²"
         )
         if not failing and _variation(worst) >= rules.variation:
@@ -80,7 +80,9 @@ def _whole(series: Sequence[Series], axes: Sequence[tuple[str, int]]) -> Check:
         short = [each for each in operators if each.runs < rules.runs]
         faults += [f"{handle}, operator {each.operator}: {each.runs} of {rules.runs} runs" for each in short]
     fewer = [f"{name}: {count} of {AXES} axes" for name, count in axes if count < AXES]
-    faults += fewer[:MOST_NAMED] + ([f"{len(fewer) - MOST_NAMED} more runs with fewer axes"] if len(fewer) > MOST_NAMED else [])
+    faults += fewer[:MOST_NAMED] + (
+        [f"{len(fewer) - MOST_NAMED} more runs with fewer axes"] if len(fewer) > MOST_NAMED else []
+    )
     message = f"Each handle has {rules.operators} operators or more with {rules.runs} runs or more, three axes each"
     remedy = "Measure what is missing, so that the value is that of a whole type test." if faults else None
     return coded("ABU442", verdict(True, not faults), ". ".join(faults) or message, remedy=remedy)
@@ -90,8 +92,8 @@ def _calibration(channels: Sequence[Calibrated]) -> Iterator[Check]:
     """ABU443: the channel that is off most; nothing to check without a calibrator run."""
     if not channels:
         message = "No calibrator run is given, so the sensitivities are taken as they are"
-        remedy = "Record a calibrator with each channel, and list it as [[calibration]]."
-        yield coded("ABU443", "warn", message, remedy=remedy)
+        advice = "Record a calibrator with each channel, and list it as [[calibration]]."
+        yield coded("ABU443", "warn", message, remedy=advice)
         return
     unknown = [channel for channel in channels if channel.ratio is None]
     if unknown:

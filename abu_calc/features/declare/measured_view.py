@@ -23,8 +23,8 @@ def measured_blocks(result: MeasuredDeclareResult) -> tuple[Block, ...]:
         *check_blocks(result.checks),
         Heading("Conventions", "conventions"),
         Paragraph(
-            "a_hv is the W_h-weighted vector total of the axes, rms. The value of a handle is the mean over the runs of "
-            "each operator, then over the operators. The highest handle decides."
+            "a_hv is the W_h-weighted vector total of the axes, rms. The value of a handle is the mean over the runs "
+            "of each operator, then over the operators. The highest handle decides."
         ),
         *notices(result),
         *provenance_blocks(result.provenance),
@@ -48,7 +48,7 @@ def _values(result: MeasuredDeclareResult) -> list[Block]:
     if result.factor != 1:
         rows.append((f"declared, × {result.factor:g}", _unit(result.declared_m_per_s2)))
     rows.append(("uncertainty K", f"{_unit(result.K_m_per_s2)} = 1.65 × s_R, s_R {_unit(result.s_R_m_per_s2)}"))
-    return [Paragraph(""), Grid(("", ""), tuple(rows))]
+    return [Grid(("", ""), tuple(rows))]
 
 
 def _unit(value: float | None) -> str:

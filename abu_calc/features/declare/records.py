@@ -48,7 +48,8 @@ class WithAutobalancer(Record):
     declared_high_m_per_s2: Annotated[float, Quantity("5 % of type tests declare more than", "", 3)]
     no_friction_m_per_s2: Annotated[float, Quantity("with, no rolling friction", "a_hv", 4, "without factor")]
     shaken_free: Annotated[
-        bool, Quantity("gravity shakes the balls free", "", 4, "on a horizontal spindle; the value is then without friction")
+        bool,
+        Quantity("gravity shakes the balls free", "", 4, "on a horizontal spindle; the value is then without friction"),
     ]
 
 

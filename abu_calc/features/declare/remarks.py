@@ -23,8 +23,8 @@ def remarks(
     case = design.case
     if not case.body.is_rigid:
         yield (
-            "The machine is a point mass here, which judges the autobalancer too hard: a rigid body has up to 3.4 times "
-            "the break-even eccentricity. Give the moments of inertia and the handles."
+            "The machine is a point mass here, which judges the autobalancer too hard: a rigid body has up to 3.4 "
+            "times the break-even eccentricity. Give the moments of inertia and the handles."
         )
     if not case.handles:
         yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."
@@ -40,8 +40,8 @@ def remarks(
         yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
     if test is not None and test.spindle.balls.band:
         yield (
-            "Balls start at rest in the race at random places. They pass each other as points, and gravity is left out. "
-            "`abu size` judges whether they stall and how soon they settle."
+            "Balls start at rest in the race at random places. They pass each other as points, and gravity is left "
+            "out. `abu size` judges whether they stall and how soon they settle."
         )
 
 
@@ -63,8 +63,8 @@ def _sources(design: Design, wheel: ChosenWheel) -> Iterator[str]:
     layout = design.case.table.machine.layout
     if layout != STRAIGHT and wheel.status == "secondary":
         yield (
-            f'The layout is "{layout}", and ISO 28927-4 is for straight grinders. Angle and vertical grinders have test '
-            "wheels of their own (ISO 28927-1), which are not built in: set type_test.test_wheel_imbalance_g_mm."
+            f'The layout is "{layout}", and ISO 28927-4 is for straight grinders. Angle and vertical grinders have '
+            "their own test wheels (ISO 28927-1), which are not built in: set type_test.test_wheel_imbalance_g_mm."
         )
     source, status = uncertainty_source()
     if wheel.status == "secondary":

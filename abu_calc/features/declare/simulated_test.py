@@ -74,9 +74,7 @@ class Spindle:
 
     def without(self, imbalance: float) -> dict[str, float]:
         """a_hv of each handle without the autobalancer [m/s²]."""
-        return {
-            each.name: math.hypot(self.gain * each.without(imbalance), self.background) for each in self.bare.gains
-        }
+        return {each.name: math.hypot(self.gain * each.without(imbalance), self.background) for each in self.bare.gains}
 
 
 @dataclass(frozen=True, eq=False)

@@ -166,7 +166,9 @@ def _balancing(design: Design, wheel: ChosenWheel) -> Check:
         message = "Balls do not balance at the rated speed: it is not above the natural frequencies of the suspension"
         return coded("ABU433", "fail", message, capacity, need, "g·mm", "See ABU101 of `abu size`.", "least")
     enough = carried(case, candidate, wheel.imbalance)
-    message = f"The test wheel requires {need:.4g} g·mm, race eccentricity included; the balls carry {capacity:.4g} g·mm"
+    message = (
+        f"The test wheel requires {need:.4g} g·mm, race eccentricity included; the balls carry {capacity:.4g} g·mm"
+    )
     remedy = None
     if not enough:
         remedy = f"Specify more or larger balls, so that their capacity rises to {need:.4g} g·mm or more."
@@ -221,7 +223,8 @@ def _result(
         without=WithoutAutobalancer(handle=highest, a_hv_m_per_s2=bare[highest], K_m_per_s2=uncertainty),
         with_=with_,
         handles=tuple(
-            HandleValue(name=name, without_m_per_s2=value, with_m_per_s2=means.get(name)) for name, value in bare.items()
+            HandleValue(name=name, without_m_per_s2=value, with_m_per_s2=means.get(name))
+            for name, value in bare.items()
         ),
         break_even_eccentricity_mm=None if tested is None else _mm(tested.even.simulated),
         break_even_frictionless_mm=None if tested is None else _mm(tested.even.frictionless),
@@ -331,7 +334,6 @@ def _comparison(
         yield coded("ABU432", "not-done", reason, None, uncertainty, "m/s²", bound="least")
         return
     declared = tested.test.declared
-
 
     def judged(case: Case, candidate: Candidate) -> tuple[float, float]:
         spindle = Spindle.of(case, candidate)

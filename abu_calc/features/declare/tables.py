@@ -41,7 +41,9 @@ class RecordedFile(Table):
     """A recorded file and how it is read."""
 
     file: Name = Field(
-        description="CSV or WAV file: its whole path, or beside this file.", examples=["operator1-run1.csv"], min_length=1
+        description="CSV or WAV file: its whole path, or beside this file.",
+        examples=["operator1-run1.csv"],
+        min_length=1,
     )
     columns: Columns | None = Field(
         default=None,

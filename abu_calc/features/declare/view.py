@@ -31,7 +31,7 @@ def declare_blocks(result: DeclareResult) -> tuple[Block, ...]:
 
 def declare_screen(result: DeclareResult) -> tuple[Block, ...]:
     """One screen of it."""
-    body = [Paragraph(""), *_values(result), *_causes(result)]
+    body = [*_values(result), *_causes(result)]
     file = file_of(result)
     return one_screen(result, _head(result), body, more=(f"`abu size {file}`, the design",))
 
@@ -74,7 +74,12 @@ def _values(result: DeclareResult) -> list[Block]:
         )
     used = result.wheel_in_use
     rows.append(
-        (f"wheel in use, {number(used.imbalance_g_mm, 3)} g·mm", _short(used.without_m_per_s2), _short(used.with_m_per_s2), "")
+        (
+            f"wheel in use, {number(used.imbalance_g_mm, 3)} g·mm",
+            _short(used.without_m_per_s2),
+            _short(used.with_m_per_s2),
+            "",
+        )
     )
     declared = "not known" if with_ is None else _declared(with_.declared_m_per_s2, with_.K_m_per_s2)
     facts = [("declared without", _declared(without.a_hv_m_per_s2, without.K_m_per_s2))]
@@ -83,7 +88,10 @@ def _values(result: DeclareResult) -> list[Block]:
         low, high = with_.declared_low_m_per_s2, with_.declared_high_m_per_s2
         facts += [
             ("  90 % of type tests", f"{_short(low)} … {_short(high)} m/s²"),
-            ("  90 % of single runs, × 1", f"{_short(with_.p05)} … {_short(with_.p95)}, median {_short(with_.p50)} m/s²"),
+            (
+                "  90 % of single runs, × 1",
+                f"{_short(with_.p05)} … {_short(with_.p95)}, median {_short(with_.p50)} m/s²",
+            ),
             ("  standard error, × 1", f"{number(with_.standard_error_m_per_s2, 2)} m/s²"),
         ]
     facts.append(("break-even eccentricity", _break_even(result)))
@@ -120,10 +128,12 @@ def _causes(result: DeclareResult) -> list[Block]:
     rows = tuple((cause.name, _short(cause.a_hv_m_per_s2), f"{100 * cause.share:.0f} %") for cause in listed)
     blocks: list[Block] = [
         Heading(f"Causes with the autobalancer, {_place(result.handle)}", "causes"),
-        Grid(("", "alone, m/s²", "share of the square"), rows, frozenset({1, 2})),
+        Grid(("", "alone, m/s²", "share of the mean square"), rows, frozenset({1, 2})),
     ]
     if result.friction_rms_mm:
-        blocks.append(Paragraph(f"Friction leaves the race {_um(result.friction_rms_mm)} off its place, rms over starts."))
+        blocks.append(
+            Paragraph(f"Friction leaves the race {_um(result.friction_rms_mm)} off its place, rms over starts.")
+        )
     return blocks
 
 
@@ -162,8 +172,8 @@ def _bars(result: DeclareResult) -> Iterator[Figure]:
     axis = Axis.around("weighted acceleration a_hv [m/s²]", highest, zero=True)
     text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
     caption = (
-        "Weighted acceleration at each handle in the type test, and the declared value with the autobalancer, which 90 % "
-        "of type tests give within the span. It should stay left of the dashed line."
+        "Weighted acceleration at each handle in the type test, and the declared value with the autobalancer, which "
+        "90 % of type tests give within the span. It should stay left of the dashed line."
     )
     yield Figure("values", "values", Bars("Declared value", text, axis, rows, limit), caption)
 
@@ -184,8 +194,11 @@ def _distribution(result: DeclareResult) -> Iterator[Figure]:
         MarkedPoint(result.with_.a_hv_m_per_s2, _share_below(values, result.with_.a_hv_m_per_s2), "mean"),
         MarkedPoint(result.without.a_hv_m_per_s2, 100.0, "without", 2),
     ]
-    text = f"5 % below {_told(result.with_.p05)}, 50 % below {_told(result.with_.p50)}, 95 % below {_told(result.with_.p95)}"
-    caption = "Share of single runs with the autobalancer below a value, at the highest handle, the factor not included."
+    marks = ((5, result.with_.p05), (50, result.with_.p50), (95, result.with_.p95))
+    text = ", ".join(f"{percent} % below {_told(value)}" for percent, value in marks)
+    caption = (
+        "Share of single runs with the autobalancer below a value, at the highest handle, the factor not included."
+    )
     plot = Plot("Single runs", text, across, Axis("share of the runs [%]", 0.0, 105.0), (curve,), points)
     yield Figure("runs", "values", plot, caption)
 
@@ -206,7 +219,13 @@ def _over_eccentricity(result: DeclareResult) -> Iterator[Figure]:
     up = Axis.around("declared value [m/s²]", [*(y for _, y in points), without], zero=True)
     text = "; ".join(f"{number(x, 3)} µm: {_told(y)}" for x, y in points)
     limit = without, f"without: {_told(without)}"
-    caption = "Declared value with the autobalancer, the factor included, against race eccentricity. Below the dashed line it is lower."
+    caption = (
+        "Declared value with the autobalancer, the factor included, against race eccentricity. Below the dashed line "
+        "it is lower."
+    )
     yield Figure(
-        "eccentricity", "values", Plot("Break-even eccentricity", text, across, up, (Curve(points),), marked, limit), caption
+        "eccentricity",
+        "values",
+        Plot("Break-even eccentricity", text, across, up, (Curve(points),), marked, limit),
+        caption,
     )

@@ -1,4 +1,4 @@
-"""`abu schema [machine|scene|readings|recordings|result]`: JSON Schema of files, for editors, or results, for programs."""
+"""`abu schema [machine|scene|readings|recordings|result]`: JSON Schema of files, for editors, or of results."""
 
 from typing import Annotated, Any
 
