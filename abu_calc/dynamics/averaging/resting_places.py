@@ -61,10 +61,14 @@ class SlowBalls:
 
 @dataclass(frozen=True)
 class RestingPlaces:
-    """Displacement c [m] of the race's centre that friction leaves in each run; `moving`: runs without an end."""
+    """Displacement c [m] of the race's centre that friction leaves in each run; `moving`: runs without an end.
+
+    `angles`: of the balls at the end [rad], balls × runs; none if there is no friction to hold them.
+    """
 
     displacements: Complex
     moving: int
+    angles: NDArray[np.float64]
 
 
 def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> RestingPlaces:
@@ -80,7 +84,7 @@ def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> 
     band, runs = _BAND.check(balls.band), len(undisturbed)
     random = np.random.default_rng(seed)
     angles = random.uniform(-math.pi, math.pi, (balls.count, runs))
-    speeds, ends = np.zeros_like(angles), np.zeros(runs, dtype=complex)
+    speeds, ends, places = np.zeros_like(angles), np.zeros(runs, dtype=complex), np.zeros_like(angles)
     open_runs, target = np.arange(runs), np.asarray(undisturbed, dtype=complex)
     step = STEP / balls.fastest_rate
     pull = step * balls.speed**2 / (balls.pitch_radius * balls.inertia_factor)
@@ -98,10 +102,11 @@ def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> 
         angles += step / 2 * speeds
         if stopped is not None and stopped.any():
             ends[open_runs[stopped]] = real[stopped] + 1j * imaginary[stopped]
+            places[:, open_runs[stopped]] = angles[:, stopped]
             going = ~stopped
             open_runs, target = open_runs[going], target[going]
             angles, speeds = angles[:, going], speeds[:, going]
             if not len(open_runs):
                 break
-    ends[open_runs] = target - weight * np.exp(1j * angles).sum(axis=0)
-    return RestingPlaces(ends, len(open_runs))
+    ends[open_runs], places[:, open_runs] = target - weight * np.exp(1j * angles).sum(axis=0), angles
+    return RestingPlaces(ends, len(open_runs), places)

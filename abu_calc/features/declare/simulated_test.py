@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.averaging.resting_places import SEED, RestingPlaces, SlowBalls, resting_places
 from abu_calc.formulas.type_test import (
+    MANY,
     HandleGain,
     TypeTestBody,
     acceleration_per_displacement,
     break_even,
+    evenly,
     frictionless_break_even,
 )
 from abu_calc.foundation.frozen import dataclass
@@ -36,6 +38,8 @@ EXACT: Final = 0.002
 FURTHER: Final = 1.3
 """Factor by which the search goes on where friction lowers a value."""
 MOST_FURTHER: Final = 5
+GOLDEN: Final = (math.sqrt(5) - 1) / 2
+"""Share of a turn between the race eccentricities of two series: they spread evenly, however many there are."""
 
 Array = NDArray[np.float64]
 
@@ -122,18 +126,17 @@ class SimulatedTest:
         return float(np.sqrt((np.abs(self.ends.displacements) ** 2).mean()))
 
     def standard_error(self, name: str) -> float:
-        """Standard error of the mean at a handle [m/s²], from the spread within each orientation."""
-        squares = self._variances(name) / (len(self.turns) / len(self.spindle.orientations))
-        return float(math.sqrt(squares.sum()) / len(squares))
+        """Standard error of the mean at a handle [m/s²], from the spread of the series."""
+        series = self._series(name)
+        return float(series.std(ddof=1) / math.sqrt(len(series)))
 
     def deviation_of_series(self, name: str, runs: int) -> float:
         """Standard deviation [m/s²] of a series: its mean over the orientations, with so many runs at each."""
-        variances = self._variances(name) / runs
-        return float(math.sqrt(variances.sum()) / len(variances))
+        return float(self._series(name).std(ddof=1) / math.sqrt(runs))
 
-    def _variances(self, name: str) -> Array:
-        count = len(self.spindle.orientations)
-        return np.asarray(self.values[name].reshape(-1, count).var(axis=0, ddof=1))
+    def _series(self, name: str) -> Array:
+        """Means of one run at each orientation."""
+        return np.asarray(self.values[name].reshape(-1, len(self.spindle.orientations)).mean(axis=1))
 
 
 def simulated_test(
@@ -141,13 +144,18 @@ def simulated_test(
 ) -> SimulatedTest:
     """Simulate at least so many starts, as many at each orientation.
 
+    Nobody knows the angle of the race eccentricity, so each series of orientations has another one, evenly spread.
     Without friction every start ends with the race where its eccentricity puts it: c = 0.
     """
     rounds = max(2, -(-starts // len(spindle.orientations)))
-    turns = np.tile(np.array(spindle.orientations), rounds)
+    turns = (np.array(spindle.orientations) + 2 * math.pi * GOLDEN * np.arange(rounds)[:, None]).ravel()
     if not spindle.balls.band:
         return SimulatedTest(
-            spindle, imbalance, eccentricity, turns, RestingPlaces(np.zeros(len(turns), dtype=complex), 0)
+            spindle,
+            imbalance,
+            eccentricity,
+            turns,
+            RestingPlaces(np.zeros(len(turns), dtype=complex), 0, np.zeros((0, len(turns)))),
         )
     undisturbed = eccentricity - spindle.body.race_by_wheel * imbalance * np.exp(1j * turns)
     return SimulatedTest(spindle, imbalance, eccentricity, turns, resting_places(spindle.balls, undisturbed, seed))
@@ -173,7 +181,7 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
     limit = max(spindle.without(imbalance).values())
     noise = spindle.background / spindle.gain
     ideal = frictionless_break_even(
-        spindle.body.gains, imbalance, limit / (spindle.factor * spindle.gain), spindle.orientations, noise
+        spindle.body.gains, imbalance, limit / (spindle.factor * spindle.gain), evenly(MANY), noise
     )
     if ideal is None:
         return BreakEven(None, None, None, ())

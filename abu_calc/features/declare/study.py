@@ -27,7 +27,7 @@ from abu_calc.features.declare.simulated_test import (
     search_break_even,
     simulated_test,
 )
-from abu_calc.formulas.type_test import mean_over_orientations
+from abu_calc.formulas.type_test import MANY, evenly, mean_over_orientations
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
@@ -266,9 +266,7 @@ def _with(design: Design, test: SimulatedTest) -> WithAutobalancer:
     spread = NORMAL_95 * factor * series / math.sqrt(operators)
     spindle = test.spindle
     ideal = max(
-        mean_over_orientations(
-            gain, test.imbalance, test.eccentricity, spindle.orientations, spindle.background / spindle.gain
-        )
+        mean_over_orientations(gain, test.imbalance, test.eccentricity, evenly(MANY), spindle.background / spindle.gain)
         for gain in spindle.body.gains
     )
     return WithAutobalancer(

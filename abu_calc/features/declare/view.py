@@ -9,7 +9,7 @@ from abu_calc.foundation.units import to_si
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.parts import file_of, notices, provenance_blocks
+from abu_calc.reporting.parts import check_blocks, file_of, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen, verdict_line
 
 SHARE: Final = 0.001
@@ -23,6 +23,7 @@ def declare_blocks(result: DeclareResult) -> tuple[Block, ...]:
         Heading("Vibration value", "values"),
         *_values(result),
         *_causes(result),
+        *check_blocks(result.checks),
         *_conventions(result),
         *notices(result),
         *provenance_blocks(result.provenance),
@@ -188,8 +189,8 @@ def _distribution(result: DeclareResult) -> Iterator[Figure]:
     if result.with_ is None or values[-1] - values[0] < 1e-9 * values[-1]:
         return
     last = len(values) - 1
-    curve = Curve([(value, 100.0 * k / last) for k, value in enumerate(values)])
-    across = Axis.around("a_hv of one run [m/s²]", [*values, result.without.a_hv_m_per_s2], zero=True)
+    curve = Curve([(value, 100.0 * k / last) for k, value in enumerate(values[:-1])])  # the last one is a rare outlier
+    across = Axis.around("a_hv of one run [m/s²]", [*values[:-1], result.without.a_hv_m_per_s2], zero=True)
     points = [
         MarkedPoint(result.with_.a_hv_m_per_s2, _share_below(values, result.with_.a_hv_m_per_s2), "mean"),
         MarkedPoint(result.without.a_hv_m_per_s2, 100.0, "without", 2),
