@@ -23,8 +23,8 @@ class TypeTest(Table):
 
     test_wheel_diameter_mm: float | None = Field(
         default=None,
-        description="Diameter of the test wheel [mm]: 25, 50, 80, 100, 125, 150 or 200, whose imbalance is built in. "
-        "Without it: the diameter of the wheel.",
+        description="Diameter of the test wheel [mm]; {range}. The imbalance is built in for 25, 50, 80, 100, 125, 150 "
+        "and 200 mm. Without it: the diameter of the wheel.",
         examples=[150.0],
         gt=0,
         le=1000,

@@ -62,17 +62,20 @@ def test_a_value_that_rises_warns_with_an_action_that_helps() -> None:
 
 
 def test_the_estimate_is_that_of_the_reference_machine() -> None:
-    """Without 1.4577, times 1.0003 for the suspension; break-even 25.0 µm within 3 %."""
+    """Without 1.4577, times 1.0003 for the suspension; break-even 25.0 µm within 3 %.
+
+    The declared value is known to 10 %: the friction displacement of four balls is 1.0–1.3 bands.
+    """
     design = rigid(
         machine__mass_kg=5.3, wheel__mass_kg=0.7, autobalancer__ball_count=4, autobalancer__ball_diameter_mm=10.0,
-        autobalancer__race_radius_mm=31.0, autobalancer__plane_offset_mm=-20.0, autobalancer__max_outer_diameter_mm=80.0,
-        wheel__imbalance_g_mm=120.0,
+        autobalancer__race_radius_mm=31.0, autobalancer__plane_offset_mm=-20.0, wheel__imbalance_g_mm=120.0,
+        autobalancer__max_outer_diameter_mm=80.0,
     )  # fmt: skip
     estimate = declared_estimate(design.case, design.autobalancer, 65e-6)
     assert estimate.without == pytest.approx(1.0003 * 1.45775, rel=2e-4)
     assert estimate.frictionless_break_even == pytest.approx(25.946e-6, rel=0.01)
     assert estimate.break_even == pytest.approx(25.0e-6, rel=0.03)
-    assert estimate.declared == pytest.approx(0.717, rel=0.06)
+    assert estimate.declared == pytest.approx(0.717, rel=0.10)
 
 
 def test_the_suspension_counts() -> None:

@@ -95,7 +95,7 @@ class MeasuredDeclareResult(Result):
     handle: Annotated[str | None, Quantity("highest handle")]
     factor: Annotated[float, Quantity("factor for automatic balancing", "k_d", 2)]
     declared_m_per_s2: Annotated[float | None, Quantity("declared", "", 4, "the value times the factor")]
-    K_m_per_s2: Annotated[float | None, Quantity("uncertainty", "K", 3)]
+    K_m_per_s2: Annotated[float | None, Quantity("uncertainty", "K_d", 3)]
     s_R_m_per_s2: Annotated[float | None, Quantity("standard deviation of reproducibility", "s_R", 3)]
     coefficient_of_variation: Annotated[
         float | None, Quantity("coefficient of variation", "", 3, "largest of the series at the highest handle")

@@ -26,7 +26,7 @@ class WithoutAutobalancer(Record):
 
     handle: Annotated[str, Quantity("handle")]
     a_hv_m_per_s2: Annotated[float, Quantity("without autobalancer", "a_hv", 4)]
-    K_m_per_s2: Annotated[float, Quantity("uncertainty", "K", 3)]
+    K_m_per_s2: Annotated[float, Quantity("uncertainty", "K_d", 3)]
 
 
 @record
@@ -43,7 +43,7 @@ class WithAutobalancer(Record):
     p95: Annotated[float, Quantity("95 % of the runs are below", "", 3, "m/s²")]
     factor: Annotated[float, Quantity("factor for automatic balancing", "k_d", 2)]
     declared_m_per_s2: Annotated[float, Quantity("declared", "a_hd", 4, "the mean times the factor")]
-    K_m_per_s2: Annotated[float, Quantity("uncertainty", "K", 3)]
+    K_m_per_s2: Annotated[float, Quantity("uncertainty", "K_d", 3)]
     declared_low_m_per_s2: Annotated[float, Quantity("5 % of type tests declare less than", "", 3)]
     declared_high_m_per_s2: Annotated[float, Quantity("5 % of type tests declare more than", "", 3)]
     no_friction_m_per_s2: Annotated[float, Quantity("with, no rolling friction", "a_hv", 4, "without factor")]
