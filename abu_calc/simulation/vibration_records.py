@@ -2,16 +2,17 @@
 
 from typing import Annotated, ClassVar, Self
 
+from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.budget import displacement_level
-from abu_calc.sizing.case import Case
+from abu_calc.sizing.case import WHEEL_PLANE, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.imbalance import measured_velocity
 from abu_calc.sizing.instruments import UNITS, as_shown, in_words, readings
-from abu_calc.sizing.vibration import LevelPlace
+from abu_calc.sizing.places import LevelPlace
 
 
 @dataclass(frozen=True)
@@ -35,10 +36,10 @@ class Compared:
         return level_from_velocity(self.measured) - level_from_velocity(self.predicted)
 
 
-def measured_place(case: Case, shown: Shown) -> tuple[str, float]:
+def measured_place(case: Case, shown: Shown) -> tuple[str, Vector]:
     """Name and place [m] from the centre of mass of where it was measured."""
     named_handle = next((handle for handle in case.handles if handle.name == shown.at), None)
-    return ("wheel plane", case.body.wheel) if named_handle is None else (named_handle.name, named_handle.place)
+    return (WHEEL_PLANE, case.body.wheel) if named_handle is None else (named_handle.name, named_handle.place)
 
 
 def compared(case: Case, level: float | None) -> Compared | None:

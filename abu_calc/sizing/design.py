@@ -15,8 +15,9 @@ from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.drawing_requirements import DrawingRequirement
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.operating_speed import FrequencyRegion, frequency_region
+from abu_calc.sizing.places import VibrationLevels
 from abu_calc.sizing.track import Track, track
-from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, VibrationLevels, WorstResidual, worst_residuals
+from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, WorstResidual, worst_residuals
 
 if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds

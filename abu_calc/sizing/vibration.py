@@ -6,7 +6,7 @@ holds the axis farthest off, and all parts are in line.
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -20,9 +20,16 @@ from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.actions import Followed, followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
+from abu_calc.sizing.budget import (
+    ResidualBudget,
+    accuracy_budget,
+    displacement_level,
+    judged_speeds,
+    loudest_transmission,
+)
 from abu_calc.sizing.capacity import steady_contact
-from abu_calc.sizing.case import EQUAL_SPEEDS, Case
+from abu_calc.sizing.case import EQUAL_SPEEDS, WHEEL_PLANE, Case
+from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels, in_space
 
 _friction = lru_cache(maxsize=64)(worst_friction)
 """Worst friction, cached: races that differ only in their eccentricity have the same."""
@@ -61,47 +68,11 @@ CURVE_STEPS = 6
 
 
 @dataclass(frozen=True)
-class Levels:
-    """Levels [dB] without and with the autobalancer; `after` is null where balls cannot balance, each under load where
-    it is not known.
-    """
-
-    before: float | None
-    after: float | None
-
-    @property
-    def reduction(self) -> float | None:
-        """before − after [dB]."""
-        return None if self.before is None or self.after is None else self.before - self.after
-
-
-@dataclass(frozen=True)
-class LevelPlace:
-    """A handle, or the wheel plane; `effective_mass` [kg] is imbalance at the wheel over the motion it makes here."""
-
-    name: str
-    effective_mass: float | None
-    levels: Levels
-
-
-@dataclass(frozen=True)
 class LevelAtSpeed:
     """Level with the autobalancer [dB] at the loudest place, at a speed [rad/s]."""
 
     speed: float
     level_after: float
-
-
-@dataclass(frozen=True)
-class VibrationLevels:
-    """Levels at the rated speed where the machine is held (the wheel plane when no handle is given).
-
-    `worst` is the loudest place; `lowered`: whether the wheel itself moves less with the autobalancer.
-    """
-
-    places: tuple[LevelPlace, ...]
-    worst: Levels
-    lowered: bool
 
 
 @dataclass(frozen=True)
@@ -132,9 +103,11 @@ class SpeedLevels:
 def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> VibrationLevels:
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
-    return handle_levels(
-        case, before, _residual(case, imbalance, candidate, case.speed) if possible else None, candidate.mass
-    )
+    budget = _budget(case, imbalance, candidate, case.speed) if possible else None
+    levels = handle_levels(case, before, budget.residual if budget else None, candidate.mass)
+    if not (case.body.in_space and case.handles):
+        return levels
+    return replace(levels, places=in_space(case, imbalance, candidate, budget.at_race if budget else None))
 
 
 def idle_speed_levels(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Levels | None:
@@ -171,9 +144,13 @@ def _after(level: LevelAtSpeed) -> float:
 
 
 def _residual(case: Case, imbalance: float, candidate: Candidate, speed: float) -> float:
+    return _budget(case, imbalance, candidate, speed).residual
+
+
+def _budget(case: Case, imbalance: float, candidate: Candidate, speed: float) -> ResidualBudget:
     return accuracy_budget(
         case, imbalance, candidate.requirement, candidate.balls, candidate.budget.resting_angles, speed
-    ).residual
+    )
 
 
 @dataclass(frozen=True)
@@ -233,37 +210,6 @@ def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possibl
     return LevelsUnderLoad(valid, levels.worst, parts_before, parts_after)
 
 
-def handle_levels(case: Case, before: float | None, after: float | None, added_mass: float) -> VibrationLevels:
-    """Levels at every handle of displacements at the wheel [m] at the rated speed, None: not known."""
-    handles = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    places = []
-    for name, place in handles:
-        bare = None if before is None else _level(case, before * case.body.transmission(place))
-        fitted = None if after is None else _level(case, after * case.body.transmission(place, added_mass))
-        inertance = abs(case.body.inertance(place, case.body.wheel, added_mass))
-        places.append(LevelPlace(name, 1 / inertance if inertance else None, Levels(bare, fitted)))
-    worst = Levels(_loudest(each.levels.before for each in places), _loudest(each.levels.after for each in places))
-    return VibrationLevels(tuple(places), worst, before is not None and after is not None and after < before)
-
-
-def _loudest(levels: Iterable[float | None]) -> float | None:
-    return max((level for level in levels if level is not None), default=None)
-
-
-def level_at_loudest(case: Case, candidate: Candidate, displacement: float) -> float:
-    """The level [dB] at the loudest handle of a displacement 0–peak [m] of the race, idle.
-
-    What rests at a wheel off the race's plane is added as squares.
-    """
-    places = [handle.place for handle in case.handles] or [case.body.wheel]
-    at_wheel = math.hypot(displacement, candidate.budget.plane_offset)
-    return max(_level(case, at_wheel * case.body.transmission(place, candidate.mass)) for place in places)
-
-
-def _level(case: Case, displacement: float) -> float:
-    return displacement_level(displacement, case.speed, case.background_level)
-
-
 SHARES = (0.5, 0.25)
 """Shares of the race's eccentricity and of the friction's lever arm that are tried."""
 EXPECTED, FRICTION = "the expected level", "the worst friction case"
@@ -296,8 +242,7 @@ def vibration_checks(
 
 def loudest_place(vibration: VibrationLevels) -> str:
     """The loudest place in words: a handle, or the wheel plane if the file defines no handle."""
-    name = max(vibration.places, key=lambda place: place.levels.after or -math.inf).name
-    return "Wheel plane" if name == "wheel plane" else f'Handle "{name}"'
+    return "Wheel plane" if vibration.judged == WHEEL_PLANE else f'Handle "{vibration.judged}"'
 
 
 def decibels(level: float, limit: float) -> str:

@@ -28,9 +28,9 @@ from abu_calc.sizing.drawing_requirements import (
     bore_limits,
 )
 from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
-from abu_calc.sizing.vibration import VibrationLevels as Levelled
 
 if TYPE_CHECKING:
     from abu_calc.features.design.section import TurnedPart
