@@ -37,12 +37,16 @@ _friction = lru_cache(maxsize=64)(worst_friction)
 
 @dataclass(frozen=True)
 class WorstResidual:
-    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad]."""
+    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad].
+
+    `at_race`: the residual without what a race off the wheel's plane leaves at the wheel.
+    """
 
     speed: float
     rolling_friction: float
     angles: tuple[float, ...]
     residual: float
+    at_race: float
 
 
 def worst_residuals(case: Case, imbalance: float, candidate: Candidate) -> tuple[WorstResidual, ...]:
@@ -59,8 +63,9 @@ def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> 
     band = case.friction_arm * balls.pitch_radius / balls.radius
     held = _friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)
     friction = max(held.displacement, usual.rolling_friction)
-    parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.plane_offset
-    return WorstResidual(speed, friction, held.angles, math.fsum(parts) + usual.capacity_shortfall)
+    parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.capacity_shortfall
+    at_race = math.fsum(parts)
+    return WorstResidual(speed, friction, held.angles, at_race + usual.plane_offset, at_race)
 
 
 CURVE_STEPS = 6
@@ -225,8 +230,12 @@ def vibration_checks(
     candidate: Candidate,
     idle: VibrationLevels,
     levels: SpeedLevels | None,
+    band: tuple[float, float] | None = None,
 ) -> tuple[Check, ...]:
-    """The idle level against the limit over the speed range, and that the autobalancer lowers it."""
+    """The idle level against the limit over the speed range, and that the autobalancer lowers it.
+
+    `band`: of the highest level [dB], if the inertia is estimated.
+    """
     limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None or levels is None:
         reason = "The level is not known: the balls cannot balance at these speeds"
@@ -234,7 +243,7 @@ def vibration_checks(
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     message = "The idle level with the autobalancer must be below the level without it"
     return (
-        _level_check(case, candidate, levels, loudest_place(idle)),
+        _level_check(case, candidate, levels, loudest_place(idle), band),
         coded("ABU402", verdict(idle.lowered), message, after, before, "dB",
               None if idle.lowered else _lower(case, candidate, after)),
     )  # fmt: skip
@@ -257,7 +266,9 @@ def decibels(level: float, limit: float) -> str:
     )
 
 
-def _level_check(case: Case, candidate: Candidate, levels: SpeedLevels, place: str) -> Check:
+def _level_check(
+    case: Case, candidate: Candidate, levels: SpeedLevels, place: str, band: tuple[float, float] | None
+) -> Check:
     """Fails on the level as expected where it is highest, warns on that of the worst friction case.
 
     Gravity shakes balls free of the worst friction case only while the spindle is horizontal. A hand-held machine is
@@ -273,8 +284,14 @@ def _level_check(case: Case, candidate: Candidate, levels: SpeedLevels, place: s
     )
     if not safe and shaken_free(case, candidate, arranged.speed):
         message += f". {SHAKEN}"
-    action = None if kept and safe else _truer_race(case, candidate, levels, worst=kept)
-    return coded("ABU401", verdict(kept, safe), message, highest.level_after, limit, "dB", action)
+    action: Action | None = None if kept and safe else _truer_race(case, candidate, levels, worst=kept)
+    within = band is None or band[1] <= limit
+    if band is not None:
+        low, high = (decibels(level, limit) for level in band)
+        message += f". The estimated inertia leaves {low.removesuffix(' dB')} … {high} as expected"
+    if kept and safe and not within:
+        action = Action("Measure the inertia: the band of the estimate crosses the limit.")
+    return coded("ABU401", verdict(kept, safe and within), message, highest.level_after, limit, "dB", action)
 
 
 def shaken_free(case: Case, candidate: Candidate, speed: float) -> bool:
@@ -295,7 +312,7 @@ def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst:
             "quieter machine, or change limits.vibration_level_db."
         )
     before, least = (levels.arranged if worst else levels.highest).level_after, math.inf
-    for entries in _truer(case):
+    for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
         level = math.inf if after is None else level_of(after, worst=worst)
         least = min(least, level)
@@ -322,7 +339,7 @@ def _lower(case: Case, candidate: Candidate, level: float) -> Action:
     """A truer race with which the autobalancer lowers the idle level; else that none is needed."""
     if candidate.budget.capacity_shortfall:
         return Action("See the action of ABU201.")
-    for entries in _truer(case):
+    for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
         idle = None if after is None else idle_vibration(*after, possible=True)
         if after is not None and idle is not None and idle.lowered and idle.worst.after is not None:
@@ -337,7 +354,7 @@ def _left(candidate: Candidate) -> str:
     return f"{capacity}a race nearer to the wheel's plane, " if candidate.budget.plane_offset else capacity
 
 
-def _truer(case: Case) -> Iterator[dict[str, object]]:
+def truer_races(case: Case) -> Iterator[dict[str, object]]:
     """Entries of a race that is less eccentric, or has less friction, or both."""
     abu = case.autobalancer
     for share in SHARES:
