@@ -123,7 +123,7 @@ def handle_checks(
 
 
 def _band_end(expected: HighestTotal, bands: BodyBands | None, case: Case) -> float | None:
-    """Upper end of the band of the highest a_hv [m/s²]; None if nothing is estimated. Above the suspension bands scale."""
+    """Upper end of the band of the highest a_hv [m/s²], in proportion to the speed; None if nothing is estimated."""
     if bands is None:
         return None
     ends = [
