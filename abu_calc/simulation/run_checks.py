@@ -36,7 +36,8 @@ def levels_at_places(design: Design, response: Response) -> tuple[SimulatedPlace
     """Levels where the machine is held: what the race plane does, carried there as by a free rigid body.
 
     What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
-    background as energy. Valid well above the suspension, as in sizing. No places for a machine on a swing arm.
+    background as energy. Valid well above the suspension, as in sizing. The wheel plane of a body in space, whose level
+    is limited, comes last. No places for a machine on a swing arm.
     """
     held = _held(design, response) if response.scene in HELD else []
     return tuple(SimulatedPlaceLevel(name, level(response.velocity_rms)) for name, level in held)
@@ -44,7 +45,9 @@ def levels_at_places(design: Design, response: Response) -> tuple[SimulatedPlace
 
 def _held(design: Design, response: Response) -> list[tuple[str, Level]]:
     """The level at each place where the machine is held, of a velocity."""
-    return [(held.name, _level_of(design, response, held.place)) for held in design.case.places]
+    case = design.case
+    places = dict.fromkeys((*case.places, *case.judged_places))
+    return [(held.name, _level_of(design, response, held.place)) for held in places]
 
 
 def loudest(design: Design, response: Response) -> Level:
