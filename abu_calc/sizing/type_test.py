@@ -5,11 +5,16 @@
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
+from abu_calc.formulas.body_estimate import PlacedBody
+from abu_calc.formulas.body_motion import BodyMotion
+from abu_calc.formulas.rigid_body import Vector
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.formulas.type_test import (
     MANY,
     HandleMotion,
+    Motion,
     TypeTestBody,
     acceleration_per_displacement,
     break_even,
@@ -26,6 +31,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.actions import CALCULATED, followed, set_action
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.places import body_suspension
 from abu_calc.standards.type_test import (
     balancing_factor,
     declared_uncertainty,
@@ -37,7 +43,6 @@ from abu_calc.standards.vibration import third_octaves
 
 IN_FILE = "machine file"
 """Source of a test wheel whose imbalance the file gives."""
-WHEEL_PLANE = "wheel plane"
 
 
 @dataclass(frozen=True)
@@ -64,23 +69,52 @@ def chosen_wheel(table: MachineFile) -> ChosenWheel | None:
     return ChosenWheel(known.diameter, known.imbalance, known.feed_force, *test_wheel_source())
 
 
-def type_test_body(case: Case, added: float) -> TypeTestBody:
-    """The machine with so much mass added [kg]: races and handles per imbalance, its suspension included."""
-    body, race, wheel = case.body, case.race_place, case.body.wheel
-    mass = body.effective_mass(added)
-    x, y = (-mass * case.speed**2 / dynamic_stiffness(case.suspension, axis, case.speed, mass) for axis in (0, 1))
+def type_test_body(case: Case, candidate: Candidate | None = None) -> TypeTestBody:
+    """The machine without or with an autobalancer: race and handles per imbalance, its suspension included."""
+    wheel, race = case.body.wheel, case.race_place
+    motion = _motion_in_space(case, candidate) if case.body.in_space else _motion_along_spindle(case, candidate)
 
-    def motion(at: float, force_at: float) -> tuple[complex, complex, complex]:
-        inertance = body.inertance(at, force_at, added)
-        return inertance * x, -1j * inertance * y, 0j
+    def forward(force_at: Vector) -> complex:
+        x, y, _ = motion(race, force_at)
+        return (x + 1j * y) / 2
 
-    forward = (x + y) / 2
-    places = [(handle.name, handle.place) for handle in case.handles] or [(WHEEL_PLANE, wheel)]
     return TypeTestBody(
-        body.inertance(race, wheel, added) * forward,
-        body.inertance(race, race, added) * forward,
-        tuple(HandleMotion(name, motion(place, wheel), motion(place, race)) for name, place in places),
-    )
+        forward(wheel), forward(race),
+        tuple(HandleMotion(held.name, motion(held.place, wheel), motion(held.place, race)) for held in case.places),
+    )  # fmt: skip
+
+
+Answers = Callable[[Vector, Vector], Motion]
+"""Displacement at a place by an imbalance at another, with the sign of accelerations [1/kg]."""
+
+
+def _motion_in_space(case: Case, candidate: Candidate | None) -> Answers:
+    """Six degrees of freedom on their suspension; the balls' own mass is left out, which moves a value by 1 %."""
+    body = case.body.body
+    if candidate is not None:
+        body = replace(body, mass=body.mass + candidate.mass - candidate.ball_count * candidate.ball_mass)
+    motion = BodyMotion(body, case.speed, body_suspension(case, carrying=candidate is not None))
+
+    def answer(at: Vector, force_at: Vector) -> Motion:
+        x, y, z = motion.response(at, force_at)
+        return -x, -y, -z
+
+    return answer
+
+
+def _motion_along_spindle(case: Case, candidate: Candidate | None) -> Answers:
+    """A point mass, or a body whose places lie on its spindle; the suspension acts as at the wheel."""
+    added = 0.0 if candidate is None else candidate.mass
+    mass = case.body.effective_mass(added)
+    factors = [
+        -mass * case.speed**2 / dynamic_stiffness(case.suspension, axis, case.speed, mass) for axis in (0, 1)
+    ]
+
+    def answer(at: Vector, force_at: Vector) -> Motion:
+        x, y, z = case.body.body.acceleration(at, force_at, added=added)
+        return factors[0] * x, factors[1] * y, z
+
+    return answer
 
 
 @dataclass(frozen=True)
@@ -119,7 +153,7 @@ def declared_estimate(case: Case, candidate: Candidate, imbalance: float) -> Dec
     """The type test with a test wheel of this imbalance [kg m], as mean over starts and orientations."""
     gain = acceleration_per_displacement(case.speed)
     noise = background(case.table) / gain
-    bare, gains = type_test_body(case, 0.0).gains, type_test_body(case, candidate.mass).gains
+    bare, gains = type_test_body(case).gains, type_test_body(case, candidate).gains
     friction = friction_displacement(candidate.ball_count, band(case, candidate))
     without = max(math.hypot(each.without(imbalance), noise) for each in bare)
     with_balls = max(mean_motion(each, imbalance, case.race_eccentricity, friction, noise) for each in gains)
@@ -157,7 +191,7 @@ def carried(case: Case, candidate: Candidate, imbalance: float) -> bool:
 
 def required(case: Case, candidate: Candidate, imbalance: float) -> float:
     """Capacity [kg m] that a test wheel requires: |g_rw/g_rr|·U + m_F·Δ."""
-    body = type_test_body(case, candidate.mass)
+    body = type_test_body(case, candidate)
     return abs(body.race_by_wheel / body.race_by_race) * imbalance + body.effective_mass * case.race_eccentricity
 
 
@@ -217,3 +251,17 @@ def _truer(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]
         }
         yield smooth
         yield {**smooth, "autobalancer.race_eccentricity_mm": float(f"{share * abu.race_eccentricity_mm:.3g}")}
+
+
+def declared_bands(case: Case, candidate: Candidate, imbalance: float) -> tuple[tuple[float, float], ...] | None:
+    """Bands of the values without and with the autobalancer, over the nominal ones; None if nothing is estimated."""
+    estimate = case.body.estimate
+    if estimate is None:
+        return None
+    nominal = declared_estimate(case, candidate, imbalance)
+
+    def values(placed: PlacedBody) -> tuple[float, float]:
+        other = declared_estimate(case.with_body(placed), candidate, imbalance)
+        return other.without / nominal.without, other.declared / nominal.declared
+
+    return estimate.bands(values)

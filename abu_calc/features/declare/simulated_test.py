@@ -66,13 +66,13 @@ class Spindle:
         given = None if test is None else test.orientations
         usual = usual_orientations()
         angles = given or tuple(360.0 * k / usual for k in range(usual))
-        body = type_test_body(case, candidate.mass)
+        body = type_test_body(case, candidate)
         balls = SlowBalls(
             candidate.ball_count, candidate.ball_mass * candidate.pitch_radius, candidate.pitch_radius, case.drag,
             case.inertia_factor, band(case, candidate), body.race_by_race, case.speed,
         )  # fmt: skip
         return cls(
-            type_test_body(case, 0.0), body, balls, tuple(to_si(angle, "deg") for angle in angles),
+            type_test_body(case), body, balls, tuple(to_si(angle, "deg") for angle in angles),
             acceleration_per_displacement(case.speed), background(case.table), balancing_factor(),
         )  # fmt: skip
 

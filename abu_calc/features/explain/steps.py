@@ -51,8 +51,15 @@ STEPS: Final[Mapping[str, Step]] = {
     "mass": Step(
         "Mass that moves",
         (
-            "sizing.case:RigidMachine.inertance",
-            "sizing.case:RigidMachine.effective_mass",
+            "formulas.rigid_body:RigidBody.inertance",
+            "formulas.rigid_body:RigidBody.forward",
+            "formulas.rigid_body:RigidBody.effective_mass",
+            "formulas.body_estimate:estimated_body",
+            "formulas.body_estimate:BodyEstimate.band",
+            "formulas.body_motion:BodyMotion.receptance",
+            "formulas.body_motion:BodyMotion.ball_resultant",
+            "formulas.body_motion:weighted_acceleration",
+            "formulas.body_motion:vector_total",
             "formulas.suspension:Hands",
         ),
     ),

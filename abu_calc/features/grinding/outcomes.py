@@ -26,7 +26,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.instruments import readings
-from abu_calc.sizing.vibration import handle_levels
+from abu_calc.sizing.places import handle_levels
 
 State = Literal["balanced", "held by friction", "not balanced", "swinging", "stalled", "bouncing"]
 
