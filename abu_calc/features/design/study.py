@@ -11,6 +11,7 @@ from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
+    BodyRecord,
     DrawingLine,
     Frequency,
     IdleSpeedLevels,
@@ -118,6 +119,7 @@ class SizeResult(Result):
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
     effective_mass_kg: Annotated[float, Quantity("effective mass at the wheel", "m_eff")]
+    body: BodyRecord
     frequency: Frequency
     idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
@@ -198,6 +200,7 @@ def size(
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
         effective_mass_kg=need.effective_mass,
+        body=BodyRecord.of(design),
         frequency=Frequency.of(design, region),
         idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
         imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
@@ -212,7 +215,8 @@ def size(
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=replace(
-            Vibration.of(design.idle, design.speed_levels, design.case.speed), at_idle_speed=IdleSpeedLevels.of(design)
+            Vibration.of(design.idle, design.speed_levels, design.case.speed, design.bands),
+            at_idle_speed=IdleSpeedLevels.of(design),
         ),
         vibration_loaded=None
         if loaded is None
