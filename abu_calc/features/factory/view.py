@@ -14,13 +14,14 @@ NOTE = (
     "median of all start cases, hot and cold oil included; loaded: pressed to the workpiece after the balls have "
     "settled. Miss: outside the published range. –: no motion of the model in that octave."
 )
-ALONG = (
-    "Sensors at {axes} measured along the spindle, where the plane model has no motion. There only the column at "
-    "handles compares: a rigid body estimated from assumed lengths, with assumed places of the handles."
+ALONG = "Sensors of {machines} measured along the spindle, where the plane model has no motion."
+ESTIMATED = (
+    "At handles: a rigid body estimated from assumed lengths, with assumed places of the handles. Along the spindle "
+    "only this column compares."
 )
 LOWERED = (
-    "Without: measured, and in the model. Lowered: measured, by the median of all start cases, and by that at the given "
-    "drag rate. Loudest: level with the autobalancer of the loudest start case, or expected from manufacture and "
+    "Without: measured, and in the model. Lowered: measured, by the median of all start cases, and by that at the "
+    "given drag rate. Loudest: level with the autobalancer of the loudest start case, or expected from manufacture and "
     "friction if that is higher."
 )
 SPENT = (
@@ -28,8 +29,8 @@ SPENT = (
     "autobalancer is an input: it gives the imbalance."
 )
 SOFT_WHY = (
-    "Friction in a soft race holds the balls before they balance. Nothing else is published of these machines: the "
-    "computation assumes the {machine} with its design; only the friction arm changes."
+    "Friction in a soft race holds the balls before they balance. Nothing else is published of these machines. The "
+    "computation assumes the machine {machine} and its design; only the friction arm changes."
 )
 
 
@@ -39,13 +40,15 @@ def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
     heading = "machine", "Hz", "published", "model", "miss", "at handles", "miss", "spent"
     cells = tuple((_title(number, row), *_cells(row)) for number, row in enumerate(rows, 1))
     along = ", ".join(dict.fromkeys(row.short for row in rows if row.axis == "z"))
+    where = [ALONG.format(machines=along)] if along else []
+    where += [ESTIMATED] if any(row.axis == "z" and row.at_handles_db is not None for row in rows) else []
     return (
         Heading(result.title),
         Paragraph(_verdict(rows)),
         Paragraph(""),
         Grid(heading, cells, frozenset(range(1, 8))),
         Paragraph(NOTE),
-        *([Paragraph(ALONG.format(axes=along))] if along else []),
+        *([Paragraph(" ".join(where))] if where else []),
         Paragraph(_at_given_drag(rows)),
         Paragraph(""),
         Paragraph(SPENT),
@@ -108,7 +111,7 @@ def _cells(row: FactoryLevel) -> tuple[str, ...]:
     sign = "" if is_level else "Δ "
     handles = "–" if model is None else "not comparable"
     if row.at_handles_db is not None:
-        handles = sign + "–".join(f"{value:.0f}" for value in row.at_handles_db)
+        handles = sign + "–".join(dict.fromkeys(f"{value:.0f}" for value in row.at_handles_db))
     return (
         f"{row.octave_hz:g}",
         row.named or sign + _span(published),
