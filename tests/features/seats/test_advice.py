@@ -7,7 +7,8 @@ import pytest
 from abu_calc.features.seats.seats import seat_bearing
 from abu_calc.standards.bearing_catalogue import bearing
 from abu_calc.standards.tables import csv_rows
-from abu_calc.standards.tolerance_classes import load_ratings, maker_fits, tolerance_classes
+from abu_calc.standards.catalogue import load_ratings
+from abu_calc.standards.tolerance_classes import maker_fits, tolerance_classes
 from tests.features.seats.samples import by_designation, seats
 
 RATIOS = (0.03, 0.06, 0.08, 0.12)
