@@ -199,8 +199,8 @@ class Bearing(RollingBearing):
     )
     lubricant_viscosity_mm2_per_s: float | None = Field(
         default=None,
-        description="Kinematic viscosity of the oil, or of the grease's base oil, at the bearing's temperature [mm²/s]; "
-        "{range}. With the speed it gives the modified rating life (a_ISO); without it that is not evaluated.",
+        description="Kinematic viscosity of the oil, or of the grease's base oil, at the bearing's temperature "
+        "[mm²/s]; {range}. With the speed it gives the modified rating life (a_ISO); without it that is not evaluated.",
         examples=[20.0],
         gt=0,
         le=1e5,
@@ -312,8 +312,8 @@ class Bearing(RollingBearing):
     )
     temperature_range_K: Pair | None = Field(
         default=None,
-        description="Lowest and highest temperature of all parts above that of mounting (20 °C) [K], ascending, {usual} "
-        "either way. When given, the fits are shown and advised for both ends, too.",
+        description="Lowest and highest temperature of all parts above that of mounting (20 °C) [K], ascending, "
+        "{usual} either way. When given, the fits are shown and advised for both ends, too.",
         examples=[[-40.0, 60.0]],
         json_schema_extra=usual(1, 150),
     )

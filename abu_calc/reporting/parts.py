@@ -121,7 +121,9 @@ def not_requested(checks: Iterable[Check]) -> list[Paragraph]:
             wanted.setdefault((check.remedy or "").removesuffix("."), []).append(check.code)
     if not wanted:
         return []
-    texts = (f"{', '.join(dict.fromkeys(codes))} ({action[:1].lower()}{action[1:]})" for action, codes in wanted.items())
+    texts = (
+        f"{', '.join(dict.fromkeys(codes))} ({action[:1].lower()}{action[1:]})" for action, codes in wanted.items()
+    )
     return [Paragraph(f"Not evaluated for lack of optional data: {'; '.join(texts)}.", hang=MARGIN)]
 
 

@@ -106,7 +106,7 @@ _ESTIMATES: Final[dict[Kind, tuple[tuple[float, ...], tuple[float, ...]]]] = {
     "drawn-cup": ((0.0694, -0.027, 0.706, 1.087), (0.02195, -0.561, 1.245, 1.389)),
 }
 ESTIMATE_ERROR: Final = {
-    "ball": 0.25, "angular-contact": 0.15, "cylindrical": 0.35, "tapered": 0.2, "spherical": 0.2, "needle": 0.2,
+    "ball": 0.25, "angular-contact": 0.16, "cylindrical": 0.35, "tapered": 0.2, "spherical": 0.2, "needle": 0.2,
     "drawn-cup": 0.1,
 }  # fmt: skip
 """Relative error of an estimated C or C0 that 95 of 100 catalogue rows stay within."""
@@ -154,9 +154,11 @@ def fatigue_limit(kind: Kind, static: float, mean_diameter: float) -> float:
 
 def _row(row: tuple[str, ...]) -> CatalogueBearing:
     name, kind, *cells, maker = row
-    bore, outer, width, chamfer, outer_width, outer_chamfer, *figures = (float(cell) if cell else None for cell in cells)
+    bore, outer, width, chamfer, outer_width, outer_chamfer, *figures = (
+        float(cell) if cell else None for cell in cells
+    )
     dynamic, static, fatigue, reference, limiting, f0, e, Y, Y0 = figures
-    lengths = (to_si(size or 0.0, "mm") for size in (bore, outer, width, chamfer, outer_width, outer_chamfer))
+    lengths = (round(to_si(size or 0.0, "mm"), 9) for size in (bore, outer, width, chamfer, outer_width, outer_chamfer))
     ratings = None
     if dynamic is not None and static is not None:
         limit = None if fatigue is None else to_si(fatigue, "kN")

@@ -3,6 +3,7 @@
 Deep groove, roller and tapered bearings have radial clearance; that of pairs of angular contact bearings is axial.
 """
 
+import itertools
 from functools import cache
 from typing import Final, NamedTuple
 
@@ -83,7 +84,7 @@ def pair_preload(clearance: float, bore: float) -> float | None:
     first, last = points[0], points[-1]
     if -clearance <= -first.clearance:
         return first.preload * float((clearance / first.clearance) ** _HERTZ)
-    for low, high in zip(points, points[1:], strict=False):
+    for low, high in itertools.pairwise(points):
         if -clearance <= -high.clearance:
             share = (clearance - low.clearance) / (high.clearance - low.clearance)
             return low.preload + share * (high.preload - low.preload)

@@ -181,9 +181,9 @@ def _grade(tolerance_class: str) -> str:
 
 SHARE_TO_ORDER: Final = 0.01
 """Share of bearings without clearance up to which a group is still the one to order; assumed."""
-SHARE_OF_MAKERS: Final = 0.07
-"""The same where the catalogue itself means the usual group: its class on the shaft, a row that asks for no more
-clearance, a loose ring in the housing. Its js5 … j6 with CN stay below it for every bore."""
+SHARE_OF_MAKERS: Final = 0.05
+"""The same for a catalogue's own class on the shaft with a loose ring in the housing; assumed. The makers' js5 … j6
+with CN stay below it but for two bearings. Their k5, for which they ask for more clearance, lies above."""
 
 
 class SeatAdvice(NamedTuple):
@@ -278,10 +278,9 @@ def _group(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> str | None:
 
 def _share_to_order(shaft: Joint, housing: Joint) -> float:
     """Share of bearings without clearance up to which a group is the one to order with two seats."""
-    asks_for_none = shaft.maker is not None and "clearance" not in shaft.maker.note
     own = shaft.maker is not None and shaft.tolerance_class in shaft.maker.classes
     loose = not housing.must_grip and housing.clearance_probability >= LOOSE_ENOUGH
-    return SHARE_OF_MAKERS if own and asks_for_none and loose else SHARE_TO_ORDER
+    return SHARE_OF_MAKERS if own and loose else SHARE_TO_ORDER
 
 
 def _group_for_given(

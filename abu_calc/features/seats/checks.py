@@ -27,6 +27,8 @@ _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
 _MOST: Final = 0.5
 _KEPT: Final = 0.995
+_SMALL: Final = 0.006
+"""Bores [m] of rings that are bonded rather than pressed."""
 _ROLLER_SAFETY: Final = 1.5
 """C0/P0 that the makers advise for roller bearings in normal running (SKF General Catalogue, 2006, table 10)."""
 
@@ -37,7 +39,6 @@ def seat_checks(bearing: SeatedBearing, joint: Joint, recommended: str | None) -
     return (
         first(bearing, joint, recommended),
         _stress(bearing.name, joint, recommended),
-        *_short(bearing.name, joint, recommended),
         *_expansion(bearing, joint),
     )
 
@@ -121,7 +122,9 @@ def _speed(bearing: SeatedBearing, life: RatingLife) -> Check:
         action = "Specify speed_rpm." if not speed else "Specify designation."
         return coded("ABU634", "not-done", why, None, None, "rpm", action, of=bearing.name, requested=False)
     entry = bearing.entry
-    where = f"limit of {entry.designation}{' with grease' if entry.with_grease else ''} ({entry.source})" if entry else ""
+    where = (
+        f"limit of {entry.designation}{' with grease' if entry.with_grease else ''} ({entry.source})" if entry else ""
+    )
     passed = speed <= most * (1 + 1e-9)
     return coded(
         "ABU634", verdict(passed), f"speed of the shaft against the {where}", round(from_si(speed, "rpm"), 3),
@@ -145,7 +148,7 @@ def _axial(bearing: SeatedBearing, life: RatingLife) -> Check:
     )  # fmt: skip
 
 
-def _short(bearing: str, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
+def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
     """Check the share of pairs with less interference than the specified rule demands."""
     if not joint.must_grip:
         return ()
@@ -154,12 +157,14 @@ def _short(bearing: str, joint: Joint, recommended: str | None) -> tuple[Check, 
         missing = "radial load" if joint.radial_load is None else "chamfer"
         key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
         why = f"no {missing} is given, so the interference that the ring needs is not known"
-        return (coded(code, "not-done", why, None, 100 * warn, "%", f"Specify {key}.", of=bearing),)
-    grade, share = joint.short_grade, joint.short_pairs
+        action = f"Specify {key}."  # ABU601 is not evaluated for the same reason, and decides
+        return (coded(code, "not-done", why, None, 100 * warn, "%", action, of=bearing, requested=False),)
+    grade, share, demand = joint.short_grade, joint.short_pairs, _um(joint.demand.value)
     limit = fail if grade == "fail" else warn
+    least = f"less than the {demand:.3g} µm" if demand >= 0 else f"more clearance than the {-demand:.2g} µm"
     return (coded(
-        code, grade, f"{of_all(share)} in {joint.told} have less than the {_um(joint.demand.value):.3g} µm demanded by "
-        f"{joint.demand.by}{_losses(joint)}", round(100 * share, 6), round(100 * limit, 6), "%",
+        code, grade, f"{of_all(share)} in {joint.told} have {least} demanded by {joint.demand.by}{_losses(joint)}",
+        round(100 * share, 6), round(100 * limit, 6), "%",
         None if grade == "pass" else _fewer(joint, recommended), of=bearing,
     ),)  # fmt: skip
 
@@ -180,10 +185,11 @@ def _raceway(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> C
     least = _um(-joint.interference.largest)
     passed = least >= 0
     return coded(
-        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.told}. The shaft is "
-        "the raceway: ground, at least 58 HRC", least, 0.0, "µm",
+        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.told}. The "
+        "shaft is the raceway: ground, at least 58 HRC", least, 0.0, "µm",
         None if passed or recommended is None else f"Specify {recommended}.", "least", of=bearing.name,
     )  # fmt: skip
+
 
 def start_checks(
     bearing: str, joint: Joint, creep: CreepJudgement, torque: float | None, recommended: str | None
@@ -241,8 +247,8 @@ def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
         return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
     passed, safe = most <= limits[1], most <= limits[0]
     return coded(
-        "ABU621", verdict(passed, safe), f"largest probable preload of a pair of group {left.group} after mounting. The "
-        f"limit is the most of group {heavier[max(place - 1, 0)] if passed else heavier[0]} before mounting",
+        "ABU621", verdict(passed, safe), f"largest probable preload of a pair of group {left.group} after mounting. "
+        f"The limit is the most of group {heavier[max(place - 1, 0)] if passed else heavier[0]} before mounting",
         round(most, 1), limits[0] if passed else limits[1], "N",
         None if safe else "Specify looser tolerance classes or a lighter group.", of=bearing.name,
     )  # fmt: skip
@@ -280,10 +286,8 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         best = joint.with_class(better) if better else None
         action = None
         if best is not None:
-            action = (
-                f"Specify {better}: then {of_all(best.loose_share(best.coldest_or_hottest.loss))} have clearance {when} "
-                "(calculated)."
-            )
+            free = of_all(best.loose_share(best.coldest_or_hottest.loss))
+            action = f"Specify {better}: then {free} have clearance {when} (calculated)."
         return coded(
             _CODES[joint.seat][0], "warn", f"least interference of {joint.told}. {judgement}",
             _um(joint.interference.smallest), None, "µm", action, "least", of=bearing.name,
@@ -358,6 +362,8 @@ def _remedy(joint: Joint, recommended: str | None) -> str:
     """Action: the advised tolerance class, as tried, and its result."""
     if recommended is None and joint.split:
         return "A split housing cannot hold a ring whose load turns round it. Specify a one-piece housing."
+    if recommended is None and joint.diameter < _SMALL and joint.must_grip:
+        return "A class that holds so small a ring overstresses it. Specify h5 and bond the ring."
     if recommended is None:
         return "No tabulated class both holds the ring and is permitted. Specify a longer seat or a larger bearing."
     best = joint.with_class(recommended)

@@ -87,9 +87,9 @@ def _between(table: tuple[tuple[float, float, float], ...], place: float) -> tup
     "P = X_b·F_r + Y_b·F_a",
     "N",
     where=(
-        "Up to F_a/F_r = e, X_b is 1 and Y_b is 0 (spherical roller bearings: Y1). Above it, X_b and Y_b are the factors "
-        "of the type. Those of ball bearings depend on f0·F_a/C0. Cylindrical and needle roller bearings carry no axial load: "
-        "P = F_r."
+        "Up to F_a/F_r = e, X_b is 1 and Y_b is 0 (spherical roller bearings: Y1). Above it, X_b and Y_b are the "
+        "factors of the type. Those of ball bearings depend on f0·F_a/C0. Cylindrical and needle roller bearings carry "
+        "no axial load, so that P is F_r."
     ),
     checked=(LOADS,),
     source="ISO 281:2007",

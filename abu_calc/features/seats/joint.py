@@ -168,7 +168,7 @@ class ThermalCase(NamedTuple):
 _SURE: Final = 2.33
 """Standard deviations below the mean that 99 of 100 pairs exceed."""
 _SOLID: Final = 0.9
-"""Share of the pressure from which on makers leave the class of a hollow shaft as it is (bore up to half the diameter)."""
+"""Share of the pressure from which on makers leave the class of a hollow shaft as it is: bore up to half of d."""
 _GRADES: Final = re.compile(r"[a-zA-Z]+")
 
 
@@ -180,7 +180,7 @@ class Joint:
     [Pa/m], `raceway_rate` change of the raceway's diameter [1]; `part_strength` [Pa]. `maker`: the catalogue's classes
     for this seat and load, None where it has none or C is not known; `split` of a housing in halves. `pressure_kept`:
     share of the pressure that a solid shaft or a thick housing would give; `thermal_cases` at which the seat is judged;
-    `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: the shaft of a bearing without inner ring.
+    `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: a shaft without inner ring.
     """
 
     seat: Seat
@@ -324,7 +324,9 @@ class Joint:
         sure = listed.mean - _SURE * sigma + self.counted_losses
         if sure >= self.required.value:
             return self.required
-        return InterferenceBound(sure, f"the catalogue's class {self.catalogue_class}, of which 99 of 100 pairs have it")
+        return InterferenceBound(
+            sure, f"the catalogue's class {self.catalogue_class}, of which 99 of 100 pairs have it"
+        )
 
     @cached_property
     def short_pairs(self) -> float | None:

@@ -36,7 +36,8 @@ ADVISED: Final = {"shaft": "k6", "housing": "H7"}
 HIGHEST_RATIO: Final = 0.5
 """P/C up to which the catalogue's rows and ISO 281 hold."""
 THIN: Final = 0.85
-"""Share of the pressure in a thick steel housing below which a housing counts as thin-walled or of light alloy; assumed.
+"""Share of the pressure in a thick steel housing below which one counts as thin-walled or of light alloy; assumed.
+
 A thick housing of aluminium keeps 0.74."""
 _LIGHT: Final = frozenset({"aluminium", "magnesium"})
 _OWN_REFERENCE: Final = frozenset({"cast-iron"})

@@ -79,7 +79,7 @@ def from_table(table: "BearingTable") -> SeatedBearing:
         series=table.series or (size.series if size.designation else "light"),
         internal_clearance=group,
         asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
-        remarks=(*_lent(lent), *rated),
+        remarks=(*_taken_as(table, size, like), *_lent(lent), *rated),
         designation=size.designation or None,
         entry=entry,
         no_inner_ring=identity.kind == "drawn-cup" or size.designation.startswith("RNA"),
@@ -155,6 +155,12 @@ def _lent(like: Dimensions | None) -> tuple[str, ...]:
     return (f"No chamfer is given: that of {like.designation}, which has the same sizes, is taken.",)
 
 
+def _taken_as(table: "BearingTable", size: Dimensions, like: Dimensions | None) -> tuple[str, ...]:
+    if size.designation or table.bearing_type is not None or like is None:
+        return ()
+    return (f"No bearing_type is given: the sizes are those of {like.designation}, a {like.kind} bearing.",)
+
+
 def _ratings(
     table: "BearingTable", size: Dimensions, entry: CatalogueBearing | None
 ) -> tuple[Ratings | None, tuple[str, ...]]:
@@ -166,16 +172,18 @@ def _ratings(
     kind = entry.kind if entry else table.bearing_type
     if listed is None and kind is not None:
         listed = estimated_ratings(kind, size.bore, size.outer, size.inner_width)
-        source = f"{_kN(listed)} are estimated from the sizes of the {kind} bearing, within {ESTIMATE_ERROR[kind]:.0%}."
+        source = (
+            f"{_both(listed)} are estimated from the sizes of the {kind} bearing, within {ESTIMATE_ERROR[kind]:.0%}."
+        )
         source = f"No catalogue bearing has these sizes: {source}" if entry is None else source
     elif listed is not None and entry is not None:
-        source = f"{_kN(listed)} are those of {entry.designation} ({entry.source})."
+        source = f"{_both(listed)} are those of {entry.designation} ({entry.source})."
     else:
         return (None if given[0] is None else Ratings(given[0], given[1] or 0.0)), ()
     return listed._replace(dynamic=given[0] or listed.dynamic, static=given[1] or listed.static), (source,)
 
 
-def _kN(ratings: Ratings) -> str:
+def _both(ratings: Ratings) -> str:
     dynamic, static = from_si(ratings.dynamic, "kN"), from_si(ratings.static, "kN")
     return f"C = {dynamic:.3g} kN and C0 = {static:.3g} kN"
 

@@ -212,8 +212,8 @@ def _kept(joint: Joint) -> tuple[str, ...]:
     part = "hollow or soft shaft" if joint.seat == "shaft" else "thin or soft housing"
     like = "a solid shaft" if joint.seat == "shaft" else "a thick housing"
     return (
-        f"The {part} keeps {kept:.0%} of the pressure in {like} of steel (Lamé): the load needs {1 / kept:.3g} times the "
-        "interference.",
+        f"The {part} keeps {kept:.0%} of the pressure in {like} of steel (Lamé): the load needs {1 / kept:.3g} times "
+        "the interference.",
     )
 
 
@@ -225,10 +225,11 @@ def _differs(joint: Joint, own: "SeatAdvice", rule: str | None) -> tuple[str, ..
     needed, least = from_si(joint.required.value, "um"), joint.with_class(listed).interference.smallest
     asks = f"asks for {rule}" if rule else "finds no tabulated class tight enough"
     loosest = f"{least_text(least)} of the loosest pair of {listed}"
+    best = own.best.tolerance_class if own.best else listed
+    moved = "" if best == listed else f" The losses or the stress move it to {best}."
     return (
-        f"The rule {joint.required.by} {asks}: {needed:.3g} µm required, {loosest}. The catalogue's {listed} governs, as "
-        f"it rests on the makers' experience with this type, size and P/C"
-        f"{'' if own.best is None or own.best.tolerance_class == listed else '; the losses or the stress move it'}.",
+        f"The rule {joint.required.by} {asks}: {needed:.3g} µm required, {loosest}.",
+        f"The catalogue's {listed} governs: it rests on experience with this type, size and P/C.{moved}",
     )
 
 
@@ -285,8 +286,8 @@ def _moved(joint: Joint, best: str) -> str:
     listed = joint.catalogue_class or ""
     if joint.maker is not None and listed != joint.maker.classes[0] and best == listed:
         return (
-            f"{best} is recommended: on this shaft its mean interference is nearest to that of {joint.maker.classes[0]} "
-            f"on a solid one over {joint.pressure_kept:.0%} (SKF's rule for hollow shafts)."
+            f"{best} is recommended: its mean interference is nearest to that of {joint.maker.classes[0]} over "
+            f"{joint.pressure_kept:.0%} (SKF's rule for hollow shafts)."
         )
     if not joint.must_grip:
         case = joint.coldest_or_hottest

@@ -33,7 +33,7 @@ def exponent(kind: Kind) -> float:
     "L_10h = 2π·10⁶·(C/P)^p_L/Ω",
     "s",
     shown="h",
-    where="The exponent p_L is 3 for ball bearings and 10/3 for roller bearings. 10 of 100 bearings fail within this life.",
+    where="The exponent p_L is 3 for ball and 10/3 for roller bearings. 10 of 100 bearings fail within this life.",
     checked=(TURNING, LOAD_OVER_C),
     assumed="constant load and speed; P at most C/2, else the number is too large",
     source="ISO 281:2007",
@@ -75,8 +75,8 @@ _ROLLERS: Final = (1.5859, ((0.4, 1.3993, 0.054381), (1.0, 1.2348, 0.19087), (ma
     "a_ISO = 0.1·[1 − (2.5671 − b_κ/κ_v^c_κ)^0.83·(e_C·C_u/P)^(1/3)]^−9.3",
     where=(
         "The equation is that of radial ball bearings. Radial roller bearings have 0.1·[1 − (1.5859 − b_κ/κ_v^c_κ)·"
-        "(e_C·C_u/P)^0.4]^−9.185. The constants b_κ and c_κ change at κ_v = 0.4 and 1. Above κ_v = 4 the value at 4 is taken. "
-        "Below κ_v = 0.1 it is 0.1. It is at most 50."
+        "(e_C·C_u/P)^0.4]^−9.185. The constants b_κ and c_κ change at κ_v = 0.4 and 1. Above κ_v = 4 the value at 4 is "
+        "taken. Below κ_v = 0.1 it is 0.1. It is at most 50."
     ),
     checked=(KAPPA,),
     assumed="no solid-film lubricant, no extreme-pressure additives",

@@ -256,7 +256,8 @@ class SeatResult(Record):
     ]
     catalogue_fit: Annotated[str | None, Quantity("tolerance class by the catalogue's row")]
     rule_fit: Annotated[
-        str | None, Quantity("tolerance class by the rules for the load", "", 4, "its loosest pair has what is required")
+        str | None,
+        Quantity("tolerance class by the rules for the load", "", 4, "its loosest pair has what is required"),
     ]
     recommended_fit: Annotated[str | None, Quantity("recommended tolerance class")]
     recommended_clearance: Annotated[str | None, Quantity("clearance to order")]

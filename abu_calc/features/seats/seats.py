@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice, rule_class
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.checks import clearance_checks, life_checks, seat_checks, start_checks
+from abu_calc.features.seats.checks import clearance_checks, life_checks, seat_checks, short_pair_checks, start_checks
 from abu_calc.features.seats.creep import CreepJudgement, creep
 from abu_calc.features.seats.drawing_requirements import SeatRequirements, seat_requirements
 from abu_calc.features.seats.interference import Interval, probable_interference, truncated_clearance_probability
@@ -43,8 +43,8 @@ class SeatFit(NamedTuple):
 
     `required_interference` is that of a ring under a rotating load; a ring under a load fixed in direction is not held
     to it. `losses` are those included in it beside the load, `ledger` all that are known, counted or not; `groups`
-    those of the `selection`; `repair` of a seat whose limits are measured; `rule_fit`: what the rules for the load alone
-    ask for.
+    those of the `selection`; `repair` of a seat whose limits are measured; `rule_fit`: the class by the rules for the
+    load alone.
     """
 
     name: str
@@ -173,7 +173,7 @@ class BearingSeats(NamedTuple):
         """The checks of both seats, of the bearing's life, and of the clearance."""
         left = clearance_checks(self.bearing, self.clearance)
         in_use = self.life_in_use.checks if self.life_in_use else ()
-        return (*self.shaft.checks, *self.housing.checks, *left, *life_checks(self.bearing, self.life), *in_use)
+        return (*self.shaft.checks, *self.housing.checks, *life_checks(self.bearing, self.life), *in_use, *left)
 
 
 def seat_bearing(table: "BearingTable") -> BearingSeats:
@@ -245,7 +245,8 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
         repair=_repair(bearing, joint, wanted),
         notes=seat_notes(bearing, joint, own, given, intensity, asked, selection, rule),
         checks=seat_checks(bearing, joint, recommended)
-        + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended),
+        + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended)
+        + short_pair_checks(bearing.name, joint, recommended),
         rule_fit=rule,
     )
 
