@@ -31,7 +31,8 @@ def test_suffixes_are_read(text, name, group, accuracy):
     ("text", "said"),
     [
         ("NN 3008", "cylindrical roller bearings"), ("NU 4908", "cylindrical roller"),
-        ("24140", "spherical roller bearings"), ("HK9999", "drawn-cup"), ("6203-FOO", "suffix FOO"), ("62033", "unknown bearing designation"),
+        ("24140", "spherical roller bearings"), ("HK9999", "drawn-cup"),
+        ("6203-FOO", "suffix FOO"), ("62033", "unknown bearing designation"),
         ("7216", "two meanings"), ("6203 C3 QQQ8", "suffix 8"), ("", "unknown bearing designation"),
         ("6203-P7", "suffix P7|suffix 7"),
     ],

@@ -235,7 +235,7 @@ def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tu
 
 
 def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
-    """The probable preload of a pair against that of the next heavier group, and of the heaviest."""
+    """The probable preload of a pair against that of the next heavier group, and twice that of the heaviest."""
     heavier = groups_of("angular-contact")
     place, bore = heavier.index(left.group), bearing.inner.diameter
     limits = [
@@ -245,11 +245,12 @@ def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
     most = left.preload[1] if left.preload else None
     if most is None or limits[0] is None or limits[1] is None:
         return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
-    passed, safe = most <= limits[1], most <= limits[0]
+    heaviest = 2 * limits[1]
+    passed, safe = most <= heaviest, most <= limits[0]
     return coded(
         "ABU621", verdict(passed, safe), f"largest probable preload of a pair of group {left.group} after mounting. "
-        f"The limit is the most of group {heavier[max(place - 1, 0)] if passed else heavier[0]} before mounting",
-        round(most, 1), limits[0] if passed else limits[1], "N",
+        f"The limit is {'the' if passed else 'twice the'} most of group {heavier[max(place - 1, 0) if passed else 0]} "
+        "before mounting", round(most, 1), limits[0] if passed else heaviest, "N",
         None if safe else "Specify looser tolerance classes or a lighter group.", of=bearing.name,
     )  # fmt: skip
 
