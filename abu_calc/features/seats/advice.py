@@ -12,16 +12,12 @@ from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.clearance import Mounting
 from abu_calc.features.seats.creep import holds_at_start
 from abu_calc.features.seats.interference import of_all
-from abu_calc.features.seats.joint import Joint
+from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
 from abu_calc.features.seats.joints import makers_classes
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.internal_clearance import groups_of, internal_clearance, usual_group
 from abu_calc.standards.tolerance_classes import MakerFits, Seat, tolerance_classes
-
-LOOSE_ENOUGH: Final = 0.5
-"""A ring under a load fixed in direction should be loose in at least half of all pairs: it creeps, spreads its wear
-and can be moved along its seat."""
 
 _USUAL_GRADE: Final[dict[Seat, str]] = {"shaft": "6", "housing": "7"}
 _SLIDING: Final[dict[Seat, str]] = {"shaft": "h6", "housing": "H7"}
@@ -291,7 +287,7 @@ def _group_for_given(
         return group
     parts, joints = (bearing.shaft, bearing.housing), (shaft, housing)
     pair = [
-        joint if (part.fit or part.measured) and joint.holds else best
+        joint if (part.fit or part.measured) and joint.holds and not joint.turns_tight else best
         for part, joint, best in zip(parts, joints, advised_pair, strict=True)
     ]
     given, groups = _group(bearing, pair[0], pair[1]), groups_of(bearing.kind)

@@ -2,11 +2,10 @@
 
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.features.seats.advice import LOOSE_ENOUGH
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.creep import CreepJudgement
 from abu_calc.features.seats.interference import of_all
-from abu_calc.features.seats.joint import ARTICLE, TEMPERATURE, Joint
+from abu_calc.features.seats.joint import ARTICLE, LOOSE_ENOUGH, TEMPERATURE, Joint
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.moved import Moved
@@ -33,11 +32,19 @@ _ROLLER_SAFETY: Final = 1.5
 """C0/P0 that the makers advise for roller bearings in normal running (SKF General Catalogue, 2006, table 10)."""
 
 
-def seat_checks(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
-    """Check the interference where it is needed, the stress of the tightest pair and the thermal effect."""
-    first = _raceway if joint.runs_on_needles else _grip if joint.must_grip else _loose
+def seat_checks(
+    bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: str | None = None
+) -> tuple[Check, ...]:
+    """Check the interference where it is needed, the stress of the tightest pair and the thermal effect.
+
+    `rule`: the class that the rules for the load alone ask for.
+    """
+    if joint.must_grip:
+        first = _grip(bearing, joint, recommended, rule)
+    else:
+        first = (_raceway if joint.runs_on_needles else _loose)(bearing, joint, recommended)
     return (
-        first(bearing, joint, recommended),
+        first,
         _stress(bearing.name, joint, recommended),
         *_expansion(bearing, joint),
     )
@@ -255,7 +262,7 @@ def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
     )  # fmt: skip
 
 
-def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
+def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: str | None) -> Check:
     code = _CODES[joint.seat][0]
     smallest, required, short = _um(joint.interference.smallest), joint.required, joint.short
     if required is None or short is None:
@@ -269,8 +276,8 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Chec
     mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
     return coded(
-        code, joint.grip, f"least interference of {joint.told} against {limit}{remark}{_makers(bearing, joint)}",
-        smallest, _um(required.value), "µm", _tighter(joint, recommended),
+        code, joint.grip, f"least interference of {joint.told} against {limit}{remark}{_makers(bearing, joint)}"
+        f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm", _tighter(joint, recommended),
         "least", of=bearing.name,
     )  # fmt: skip
 
@@ -278,8 +285,7 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Chec
 def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
     share = f"{of_all(joint.clearance_probability)} have clearance"
     tightest = joint.coldest_or_hottest
-    warm = joint.loose_share(tightest.loss)
-    if joint.clearance_probability >= LOOSE_ENOUGH > warm:
+    if joint.turns_tight:
         low, high = (_um(end - tightest.loss) for end in joint.interference)
         when = "at work" if tightest.rise is None else f"at {tightest.rise:+g} K"
         judgement = f"A load fixed in direction requires none, but {when} the seat is {low:.3g} … {high:.3g} µm tight"
@@ -314,6 +320,13 @@ def _makers(bearing: SeatedBearing, joint: Joint) -> str:
     if joint.catalogue_class != joint.maker.classes[0]:
         adapted = f", on this hollow shaft {joint.catalogue_class}"
     return f". For P/C = {bearing.load_ratio:.2g} the catalogue gives {joint.maker.classes[0]}{adapted} ({SOURCE})"
+
+
+def _other_class(joint: Joint, rule: str | None) -> str:
+    """What the rule alone asks for, where the catalogue gives another class."""
+    if joint.catalogue_class in (None, rule):
+        return ""
+    return f". The rule alone asks for {rule}" if rule else ". The rule alone finds no class"
 
 
 def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:

@@ -165,6 +165,9 @@ class ThermalCase(NamedTuple):
     loss: float
 
 
+LOOSE_ENOUGH: Final = 0.5
+"""A ring under a load fixed in direction should be loose in at least half of all pairs: it creeps, spreads its wear
+and can be moved along its seat."""
 _SURE: Final = 2.33
 """Standard deviations below the mean that 99 of 100 pairs exceed."""
 _SOLID: Final = 0.9
@@ -349,6 +352,13 @@ class Joint:
     def coldest_or_hottest(self) -> ThermalCase:
         """The case in which the seat is tightest."""
         return min(self.thermal_cases, key=lambda case: case.loss)
+
+    @property
+    def turns_tight(self) -> bool:
+        """True if a ring that needs no interference is loose at mounting, and tight in some temperature case."""
+        if self.must_grip or self.runs_on_needles:
+            return False
+        return self.loose_share() >= LOOSE_ENOUGH > self.loose_share(self.coldest_or_hottest.loss)
 
     def loose_share(self, loss: float = 0.0) -> float:
         """Share of pairs that are loose when the interference has lost some [m]."""

@@ -244,7 +244,7 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
         groups=groups,
         repair=_repair(bearing, joint, wanted),
         notes=seat_notes(bearing, joint, own, given, intensity, asked, selection, rule),
-        checks=seat_checks(bearing, joint, recommended)
+        checks=seat_checks(bearing, joint, recommended, rule)
         + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended)
         + short_pair_checks(bearing.name, joint, recommended),
         rule_fit=rule,
