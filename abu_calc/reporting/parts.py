@@ -89,7 +89,7 @@ def without_entries(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     for alike in groups:
         action, code = alike[0].remedy or "", alike[0].code
         first = code_of.setdefault(action, code)
-        lines.append(_reason(alike, f"See the action of {first}." if first != code else action))
+        lines.append(_reason(alike, f"See the action of {first}." if action and first != code else action))
     return lines
 
 

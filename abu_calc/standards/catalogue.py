@@ -149,20 +149,25 @@ def fatigue_limit(kind: Kind, static: float, mean_diameter: float) -> float:
     355
     """
     small, exponent = (8.2, 0.3) if kind in ROLLERS else (22.0, 0.5)
-    return static / small * min(1.0, (0.1 / mean_diameter) ** exponent)
+    return static / small * min(1.0, float((0.1 / mean_diameter) ** exponent))
 
 
 def _row(row: tuple[str, ...]) -> CatalogueBearing:
     name, kind, *cells, maker = row
-    bore, outer, width, chamfer, outer_width, outer_chamfer, *figures = (
-        float(cell) if cell else None for cell in cells
+    figures = [float(cell) if cell else None for cell in cells]
+    bore, outer, width, chamfer, outer_width, outer_chamfer = (
+        round(to_si(size or 0.0, "mm"), 9) for size in figures[:6]
     )
-    dynamic, static, fatigue, reference, limiting, f0, e, Y, Y0 = figures
-    lengths = (round(to_si(size or 0.0, "mm"), 9) for size in (bore, outer, width, chamfer, outer_width, outer_chamfer))
+    dynamic, static, fatigue, reference, limiting, f0, e, Y, Y0 = figures[6:]
     ratings = None
     if dynamic is not None and static is not None:
         limit = None if fatigue is None else to_si(fatigue, "kN")
         ratings = Ratings(to_si(dynamic, "kN"), to_si(static, "kN"), limit)
-    speeds = (None if speed is None else to_si(speed, "rpm") for speed in (reference, limiting))
+    reference_speed, limiting_speed = (
+        None if speed is None else to_si(speed, "rpm") for speed in (reference, limiting)
+    )
     found = next(kind_ for kind_ in KINDS if kind_ == kind)
-    return CatalogueBearing(name, found, *lengths, ratings, *speeds, f0, e, Y, Y0, _MAKERS[maker], maker != "SKF")
+    return CatalogueBearing(
+        name, found, bore, outer, width, chamfer, outer_width, outer_chamfer, ratings, reference_speed, limiting_speed,
+        f0, e, Y, Y0, _MAKERS[maker], maker != "SKF",
+    )  # fmt: skip

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
@@ -13,13 +14,18 @@ from abu_calc.foundation.units import from_si
 
 _STEPS: Final = 180
 _SAME_PLACE: Final = 1e-6
+_LEAST_LOAD: Final = 1e-3
+"""Load [N] that stands in for none."""
 
 
 class UseLoads(NamedTuple):
-    """Forces at the wheel [N]: the rotating ones without and with the autobalancer, and the constant one at work."""
+    """Forces at the wheel [N]: the rotating ones without and with the autobalancer, and the constant one at work.
+
+    `rotating_with` is None if no start balances.
+    """
 
     rotating_without: float
-    rotating_with: float
+    rotating_with: float | None
     constant: float
 
 
@@ -41,7 +47,7 @@ class LifeInUse(NamedTuple):
 
 @formula(
     "Equivalent load of a constant and a rotating force",
-    "P = [(1/2π)·∫|F_c + F_Ω·e^{iθ}|^p_L dθ]^(1/p_L)",
+    "P = [mean of |F_c + F_Ω·e^{iθ}|^p_L over one revolution]^(1/p_L)",
     "N",
     where="A constant force F_c and a force F_Ω that rotates with the spindle act in one plane.",
     checked=("both forces at one bearing",),
@@ -57,14 +63,18 @@ def combined_load(constant: float, rotating: float, power: float) -> float:
         return max(constant, rotating)
     angles = (2 * math.pi * step / _STEPS for step in range(_STEPS))
     forces = (math.hypot(constant + rotating * math.cos(angle), rotating * math.sin(angle)) for angle in angles)
-    return (sum([force**power for force in forces]) / _STEPS) ** (1 / power)
+    return math.pow(sum([math.pow(force, power) for force in forces]) / _STEPS, 1 / power)
 
 
-def lives_in_use(bearings: Sequence[SeatedBearing], loads: UseLoads) -> tuple[LifeInUse, ...]:
-    """Lives of all bearings of a spindle; lever rule between the first two places that differ, from the wheel's plane.
+def lives_in_use(bearings: Sequence[SeatedBearing], loads: UseLoads, speed: float) -> tuple[LifeInUse, ...]:
+    """Lives of all bearings of a spindle by the lever rule from the wheel's plane, at the spindle's speed [rad/s].
 
-    Exactly two bearings with position_mm carry the wheel; others are not evaluated.
+    Exactly two bearings with position_mm carry the wheel; others are not evaluated. A speed of the bearing's own goes
+    before the spindle's.
     """
+    if loads.rotating_with is None:
+        why = "no start case balances, so the load with the autobalancer is not known"
+        return tuple(_unknown(bearing, why, "See ABU701.") for bearing in bearings)
     placed = [bearing for bearing in bearings if bearing.position is not None]
     shares = _shares(placed)
     if shares is None:
@@ -72,7 +82,7 @@ def lives_in_use(bearings: Sequence[SeatedBearing], loads: UseLoads) -> tuple[Li
         return tuple(_unknown(bearing, missing, "Specify position_mm of both bearings.") for bearing in bearings)
     share_of = {id(bearing): share for bearing, share in zip(placed, shares, strict=True)}
     return tuple(
-        _life(bearing, loads, share_of[id(bearing)])
+        _life(bearing, loads, loads.rotating_with, share_of[id(bearing)], speed)
         if id(bearing) in share_of
         else _unknown(bearing, "no place is given", "Specify position_mm of both bearings.")
         for bearing in bearings
@@ -89,15 +99,16 @@ def _shares(placed: Sequence[SeatedBearing]) -> tuple[float, float] | None:
     return abs(second / (second - first)), abs(first / (second - first))
 
 
-def _life(bearing: SeatedBearing, loads: UseLoads, share: float) -> LifeInUse:
-    if bearing.kind is None or bearing.ratings is None or not bearing.service.speed:
-        return _unknown(bearing, "no speed, type or load rating is known", "Specify designation and speed_rpm.")
+def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float, speed: float) -> LifeInUse:
+    if bearing.kind is None or bearing.ratings is None:
+        return _unknown(bearing, "no type or load rating is known", "Specify designation or bearing_type.")
     power = exponent(bearing.kind)
+    turning = replace(bearing, service=replace(bearing.service, speed=bearing.service.speed or speed))
     without, with_it = (
         combined_load(share * loads.constant, share * rotating, power)
-        for rotating in (loads.rotating_without, loads.rotating_with)
+        for rotating in (loads.rotating_without, residual)
     )
-    lives = [life_at(bearing, max(load, 1e-3)) for load in (without, with_it)]
+    lives = [life_at(turning, max(load, _LEAST_LOAD)) for load in (without, with_it)]
     if lives[0] is None or lives[1] is None:
         return _unknown(bearing, "no life can be computed", "Specify designation and speed_rpm.")
     message = (

@@ -43,7 +43,7 @@ def basic_rating_life(load_over_rating: float, speed: float, power: float) -> fl
     >>> round(basic_rating_life(10 / 55.3, 3000 * math.pi / 30, 3.0) / 3600)
     940
     """
-    return (1 / LOAD_OVER_C.check(load_over_rating)) ** power * 2e6 * math.pi / TURNING.check(speed)
+    return math.pow(LOAD_OVER_C.check(load_over_rating), -power) * 2e6 * math.pi / TURNING.check(speed)
 
 
 @formula(
@@ -62,8 +62,8 @@ def reference_viscosity(mean_diameter: float, speed: float) -> float:
     9.65
     """
     turns, mean = from_si(TURNING.check(speed), "rpm"), from_si(mean_diameter, "mm")
-    slow = 45_000 * turns**-0.83 if turns < 1000 else 4500 * turns**-0.5
-    return 1e-6 * slow * mean**-0.5
+    slow = 45_000 * math.pow(turns, -0.83) if turns < 1000 else 4500 / math.sqrt(turns)
+    return 1e-6 * slow / math.sqrt(mean)
 
 
 _BALLS: Final = (2.5671, ((0.4, 2.2649, 0.054381), (1.0, 1.9987, 0.19087), (math.inf, 1.9987, 0.071739)))
@@ -97,7 +97,7 @@ def life_modification(kind: Kind, kappa: float, contaminated_ratio: float) -> fl
     lost = grip * contaminated_ratio**0.4 if rollers else grip**0.83 * contaminated_ratio ** (1 / 3)
     if lost >= 1:
         return MOST_A_ISO
-    return min(MOST_A_ISO, 0.1 * (1 - lost) ** (-9.185 if rollers else -9.3))
+    return min(MOST_A_ISO, 0.1 * math.pow(1 - lost, -9.185 if rollers else -9.3))
 
 
 class RatingLife(NamedTuple):

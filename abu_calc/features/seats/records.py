@@ -156,6 +156,18 @@ class Requirements(Record):
 
 
 @record
+class DrawnForm(Record):
+    """Form and roughness that the drawing of a seat states, by a maker's catalogue."""
+
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
+
+    cylindricity_um: Annotated[float, Quantity("cylindricity", "", 2)]
+    shoulder_runout_um: Annotated[float, Quantity("total axial runout of the shoulder", "", 3)]
+    roughness_Ra_um: Annotated[float, Quantity("roughness", "Ra")]
+    source: Annotated[str, Quantity("source")]
+
+
+@record
 class ThermalInterference(Record):
     """Interference of a seat at one temperature case."""
 
@@ -266,6 +278,8 @@ class SeatResult(Record):
     load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·F_r/b_s")]
     creep: Creep
     requirements: Requirements
+    form: DrawnForm
+    bearing_kind: Annotated[str | None, Quantity("type of the bearing")]
     asked_interference_um: Annotated[Pair | None, Quantity("interference required of every pair")]
     selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n_g")]
     selective_interference_um: Annotated[Pair | None, Quantity("interference within the groups")]
@@ -327,6 +341,8 @@ class SeatResult(Record):
             maker_fits=(*maker.classes, *maker.special) if maker else (),
             recommended_clearance=bearing.group_to_order,
             creep=Creep.of(seat),
+            form=DrawnForm.read(seat.form),
+            bearing_kind=bearing.bearing.kind,
             selective_groups=sorted_out.groups if sorted_out else None,
             selective_interference_um=um_pair(sorted_out.interference) if sorted_out else None,
             sorting_groups=tuple(SortingGroup.of(group, seat.seat) for group in seat.groups),

@@ -10,7 +10,7 @@ from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissib
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.checks import clearance_checks, life_checks, seat_checks, short_pair_checks, start_checks
 from abu_calc.features.seats.creep import CreepJudgement, creep
-from abu_calc.features.seats.drawing_requirements import SeatRequirements, seat_requirements
+from abu_calc.features.seats.drawing_requirements import SeatForm, SeatRequirements, seat_form, seat_requirements
 from abu_calc.features.seats.interference import Interval, probable_interference, truncated_clearance_probability
 from abu_calc.features.seats.joint import InterferenceLoss, Joint
 from abu_calc.features.seats.joints import housing_joint, shaft_joint
@@ -58,6 +58,7 @@ class SeatFit(NamedTuple):
     load_intensity: float | None
     creep: CreepJudgement
     requirements: SeatRequirements
+    form: SeatForm
     asked_interference: Interval | None
     selection: "Selection | None"
     groups: "tuple[Group, ...]"
@@ -239,6 +240,7 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
         load_intensity=intensity,
         creep=creep_result,
         requirements=seat_requirements(joint, wanted, bearing.bearing_class),
+        form=seat_form(joint, joint.tolerance_class if given and not joint.measured else wanted, bearing.bearing_class),
         asked_interference=asked,
         selection=selection,
         groups=groups,

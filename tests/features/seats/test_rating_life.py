@@ -172,10 +172,10 @@ def test_two_bearings_share_the_wheel_s_forces_by_the_lever_rule() -> None:
         from_table(by_designation("6204", name=name, position_mm=place, speed_rpm=5800.0))
         for name, place in (("front", 40.0), ("rear", 140.0))
     ]
-    front, rear = lives_in_use(pair, UseLoads(100.0, 10.0, 0.0))
+    front, rear = lives_in_use(pair, UseLoads(100.0, 10.0, 0.0), 600.0)
     assert front.lives is not None and rear.lives is not None
     assert (front.lives.load_without, rear.lives.load_without) == pytest.approx((140, 40))
     assert front.lives.load_with == pytest.approx(14)
     assert front.lives.life_with == pytest.approx(min(1000 * front.lives.life_without, 1e12))
-    alone = lives_in_use(pair[:1], UseLoads(100.0, 10.0, 0.0))[0]
+    alone = lives_in_use(pair[:1], UseLoads(100.0, 10.0, 0.0), 600.0)[0]
     assert alone.lives is None and alone.checks[0].status == "not-done" and not alone.checks[0].requested
