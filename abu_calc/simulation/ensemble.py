@@ -32,7 +32,7 @@ from abu_calc.simulation.response import Response, needed_times
 from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
 from abu_calc.simulation.start_cases import DRAGS, Member, members, scene_of_member
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import level_at_loudest
+from abu_calc.sizing.places import level_at_loudest
 
 
 def hanging_bounds(design: Design) -> HangingBounds:

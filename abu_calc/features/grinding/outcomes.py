@@ -20,7 +20,7 @@ from abu_calc.features.grinding.start_cases import (
 from abu_calc.features.grinding.work import LOUDER, Work, below
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.sizing.vibration import handle_levels
+from abu_calc.sizing.places import handle_levels
 
 State = Literal["balanced", "held by friction", "not balanced", "swinging", "stalled", "bouncing"]
 

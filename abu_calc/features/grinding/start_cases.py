@@ -28,7 +28,7 @@ from abu_calc.simulation.residual_criteria import SLIPPING
 from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION
 from abu_calc.simulation.start_cases import Member, grinding_scene_of_member, members
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import handle_levels
+from abu_calc.sizing.places import handle_levels
 
 Pressed = Literal["settled", "at once"]
 
