@@ -26,6 +26,7 @@ from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
+from abu_calc.inputs.type_test import TypeTest
 from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import MeasuredAfter, Wheel
 
@@ -115,6 +116,7 @@ class MachineFile(Table):
         default=(), description="Levels measured by octaves, for `abu factory`: [[measured]], up to 200."
     )
     limits: Limits = Field(default_factory=Limits)
+    type_test: TypeTest | None = None
     sweep: Sweep | None = None
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 

@@ -26,6 +26,7 @@ from abu_calc.features.levels.octaves import (
     weighted_rms,
     why_not,
 )
+from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
 from abu_calc.simulation.simulate import Simulation
@@ -262,17 +263,26 @@ def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]
     Balls in another plane than the imbalance leave a tone of the spindle. It is added as energy, as in
     sizing. The background is left out, since its octaves are not known.
     """
-    case = design.case
-    held = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    return tuple(moved_at(design, at_race, name, place) for name, place in held)
+    return tuple(moved_at(design, at_race, held.name, held.place) for held in design.case.places)
 
 
-def moved_at(design: Design, at_race: PlaceLevels, name: str, place: float) -> PlaceLevels:
-    """Levels at one place [m] from the centre of mass, computed like `held_levels`."""
+def moved_at(design: Design, at_race: PlaceLevels, name: str, place: Vector) -> PlaceLevels:
+    """Levels at one place [m] from the centre of mass, computed like `held_levels`.
+
+    Its z axis, if it moves, has the spectrum of the race's x axis.
+    """
     case, added = design.case, design.autobalancer.mass
     body, race = case.body, case.race_place
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
-    moved = carried(at_race, name, abs(body.inertance(place, race, added)) / body.inertance(race, race, added))
-    rest = imbalance * body.inertance(place, body.wheel, added) - balls * body.inertance(place, race, added)
-    tone = abs(rest) * case.speed / math.sqrt(2)
-    return with_tone(moved, tone, abs(hand_arm_response(1j * case.speed)), case.speed) if tone else moved
+    by_race = body.body.acceleration(place, race, added=added)
+    by_wheel = body.body.acceleration(place, body.wheel, added=added)
+    sources = (*at_race.axes, at_race.axes[0])
+    axes = list[AxisLevels]()
+    for axis, source, at, wheel in zip("xyz", sources, by_race, by_wheel, strict=True):
+        share, rest = abs(at) / body.inertance(race, race, added), abs(imbalance * wheel - balls * at)
+        if axis == "z" and not share:
+            continue
+        moved = carried(PlaceLevels(name, (replace(source, name=axis),)), name, share)
+        tone = rest * case.speed / math.sqrt(2)
+        axes += (with_tone(moved, tone, abs(hand_arm_response(1j * case.speed)), case.speed) if tone else moved).axes
+    return PlaceLevels(name, tuple(axes))
