@@ -1,9 +1,8 @@
 """Measured levels of machines with autobalancers beside predicted ones, by one set of assumptions."""
 
-import math
 from collections.abc import Sequence
 from statistics import fmean
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Final
 
 from abu_calc.features.design.study import SizeResult, size
 from abu_calc.features.factory.at_handles import AtHandles, at_handles
@@ -28,6 +27,10 @@ from abu_calc.inputs.read_machine import Machine, read
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.standards.vibration import octave
+
+
+STILL_DB: Final = 60.0
+"""An axis so far below the highest level [dB] has no motion but rounding."""
 
 
 @record
@@ -280,21 +283,31 @@ def _row(
 def _there(
     row: MeasuredOctave, forecast: _Predicted, design: SizeResult, handles: AtHandles | None, *, is_level: bool
 ) -> tuple[Span | None, str | None]:
-    """Level at the handles along the sensor's axis, or how much it is lowered there [dB]; None with the reason."""
+    """Level at the handles along the sensor's axis, or how much it is lowered there [dB]; None with the reason.
+
+    At a handle of the file: the levels of its axis against the level that the start cases give.
+    """
     base = forecast.median if is_level else forecast.lowered(forecast.median)
     if base is None:
         return None, "the model has no motion in this octave"
     if handles is not None:
         low, high = handles.carried[row.axis] if is_level else handles.lowered
         return (base + low, base + high), None
-    masses = {place.name: place.effective_mass_kg for place in design.vibration.handles}
-    felt = masses.get(row.place)
-    if row.axis == "z":
-        return None, "the plane model has no motion along the spindle"
-    if felt is None:
+    vibration = design.vibration
+    place = next((place for place in vibration.handles if place.name == row.place), None)
+    if place is None:
         return None, "the file has no handle of this name"
-    shift = 20 * math.log10(min(mass for mass in masses.values() if mass is not None) / felt) if is_level else 0.0
-    return (base + shift, base + shift), None
+    axis = next((axis for axis in place.axes or () if axis.axis == row.axis), None)
+    before, after = vibration.level_before_db, vibration.level_after_db
+    if (
+        axis is None or axis.level_before_db is None or axis.level_after_db is None or before is None or after is None
+        or axis.level_before_db < before - STILL_DB
+    ):  # fmt: skip
+        return None, "the model has no motion along this axis"
+    there = axis.level_after_db - after
+    if not is_level:
+        there = axis.level_before_db - before - there
+    return (base + there, base + there), None
 
 
 def _miss(fitted: Span | None, lowered: Span | None, level: float | None, less: float | None) -> float | None:

@@ -92,7 +92,7 @@ def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> N
     # The effective mass is that without the autobalancer, which weighs 4 %.
     assert ratio == pytest.approx(shares[0] / shares[1], rel=0.02)
     assert front.at_handles_miss_db == pytest.approx(front.at_handles_db[0] - 81)
-    assert along.at_handles_db is None and along.not_comparable == "the plane model has no motion along the spindle"
+    assert along.at_handles_db is None and along.not_comparable == "the model has no motion along this axis"
     assert along.lowered_median_db is not None and along.miss_db == pytest.approx(along.lowered_median_db - 9)
     assert other.with_median_db is None and other.miss_db is None and guard.miss_db is None
     assert guard.not_comparable == "the file has no handle of this name"
@@ -100,6 +100,38 @@ def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> N
     result = factory([machine])
     values = sum("=" in line for line in MINE.splitlines())
     assert result.soft_races == () and result.fitted[0].not_said == values == 20
+
+
+def test_a_body_in_space_is_compared_along_the_spindle(tmp_path: Path) -> None:
+    """Estimated angle grinder: axes of `abu size` at its handle, moved to the median of the start cases."""
+    text = MINE.split("[suspension]")[1]
+    head = """
+[machine]
+name = "angle grinder"
+layout = "angle"
+mass_kg = 5.6
+speed_rpm = 5800
+spindle_axis = "vertical"
+length_mm = 465.0
+height_mm = 94.0
+[[machine.handle]]
+name = "side"
+position_mm = [95.0, 160.0, -15.0]
+[suspension]"""
+    tables = MEASURED.format(place="side", axis="z", octave=125, levels="level_db = [80, 81]") + MEASURED.format(
+        place="side", axis="z", octave=125, levels="lowered_db = [5, 9]"
+    )
+    file = tmp_path / "angle.toml"
+    file.write_text(head + text.replace('measured_at = "front"', "") + tables, encoding="utf-8")
+    machine = abu_calc.read(file)
+    level, lowered = factory([machine]).rows
+    design = recalled("size", machine)
+    axis = design.vibration.handles[0].axes[2]  # type: ignore[index]
+    assert level.at_handles_db is not None and lowered.at_handles_db is not None and level.with_median_db is not None
+    moved = axis.level_after_db - design.vibration.level_after_db
+    assert level.at_handles_db[0] == pytest.approx(level.with_median_db + moved, abs=1e-9)
+    # Race in the wheel plane: every axis of every place falls by as much.
+    assert lowered.at_handles_db[0] == pytest.approx(lowered.lowered_median_db, abs=0.3)
 
 
 def test_a_file_without_measurements_is_refused() -> None:
