@@ -17,6 +17,7 @@ from abu_calc.sizing.handles import body_bands, handle_checks
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.operating_speed import frequency_region, region_check
 from abu_calc.sizing.track import track, track_checks
+from abu_calc.sizing.type_test import declared_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *track_checks(case, best, race),
         *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
         *handle_checks(case, imbalance.value, best, frequency.balancing_possible, bands),
+        *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
         *(arm.checks if arm else ()),
     )

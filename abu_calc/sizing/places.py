@@ -131,9 +131,9 @@ def in_space(case: Case, imbalance: float, candidate: Candidate, residual: float
     axis by axis.
     """
     balls = candidate.ball_count * candidate.ball_mass
-    bare = BodyMotion(case.body.body, case.speed, _suspension(case))
+    bare = BodyMotion(case.body.body, case.speed, body_suspension(case))
     carried = replace(case.body.body, mass=case.body.mass + candidate.mass - balls)
-    fitted = BodyMotion(carried, case.speed, _suspension(case, carrying=True))
+    fitted = BodyMotion(carried, case.speed, body_suspension(case, carrying=True))
     wheel, race = case.body.wheel, case.race_place
     settled = partial(fitted.settled_balls, wheel=wheel, race=race, ball_mass=balls, inertia_factor=case.inertia_factor)
     still = settled(imbalance).loads
@@ -154,7 +154,7 @@ def in_space(case: Case, imbalance: float, candidate: Candidate, residual: float
     return tuple(places)
 
 
-def _suspension(case: Case, *, carrying: bool = False) -> BodySuspension | None:
+def body_suspension(case: Case, *, carrying: bool = False) -> BodySuspension | None:
     """The suspension of all six degrees of freedom; None: hands that the file gives no two handles for.
 
     `carrying`: the body carries the autobalancer, with which springs keep their stiffness.

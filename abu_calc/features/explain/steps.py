@@ -124,6 +124,16 @@ STEPS: Final[Mapping[str, Step]] = {
         "Levels as instruments show them, weighted acceleration, exposure",
         ("sizing.instruments:readings", "standards.vibration:hand_arm_response", "standards.vibration:daily_exposure"),
     ),
+    "declare": Step(
+        "Declared vibration value (`abu declare`)",
+        (
+            "formulas.type_test:acceleration_per_displacement",
+            "formulas.type_test:friction_displacement",
+            "formulas.type_test:break_even",
+            "standards.type_test:reproducibility",
+            "standards.type_test:declared_uncertainty",
+        ),
+    ),
     "grinding": Step(
         "Machine at its workpiece",
         (
