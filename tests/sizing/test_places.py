@@ -176,7 +176,7 @@ def test_hands_hold_a_body_in_space_at_two_handles() -> None:
     ids=["G230", "V305"],
 )
 def test_reference_bodies_as_files(case: SpaceCase, suspension: dict[str, str] | None, expected: Any) -> None:
-    """Velocity rms of both handles without balls [mm/s]; the face of the wheel works, so hands push along the spindle."""
+    """Velocity rms of both handles without balls [mm/s]; the wheel's face works, so hands push along the spindle."""
     inertia = case.body.inertia
     assert inertia is not None
     entries: dict[str, Any] = {
@@ -184,8 +184,11 @@ def test_reference_bodies_as_files(case: SpaceCase, suspension: dict[str, str] |
         "machine__spindle_axis": "vertical", "machine__center_of_mass_from_wheel_mm": [-1e3 * x for x in case.wheel],
         "machine__inertia_kg_m2": [inertia.xx, inertia.yy, inertia.zz], "machine__inertia_xz_kg_m2": inertia.xz,
         "machine__rotor_polar_inertia_kg_m2": case.body.rotor_polar_inertia, "wheel__mass_kg": 0.5,
-        "machine__handle": [{"name": name, "position_mm": [1e3 * x for x in place]} for name, place in case.handles.items()],
-        "wheel__imbalance_g_mm": 1e6 * case.imbalance, "autobalancer__plane_offset_mm": 1e3 * (case.race[2] - case.wheel[2]),
+        "machine__handle": [
+            {"name": name, "position_mm": [1e3 * x for x in place]} for name, place in case.handles.items()
+        ],
+        "wheel__imbalance_g_mm": 1e6 * case.imbalance,
+        "autobalancer__plane_offset_mm": 1e3 * (case.race[2] - case.wheel[2]),
     }  # fmt: skip
     if suspension:
         entries["suspension"] = suspension
