@@ -209,6 +209,13 @@ def test_estimate_takes_the_place_of_the_point_mass() -> None:
     assert polar == pytest.approx(0.2 * 0.0625**2 / 2)
 
 
+@pytest.mark.parametrize(("center", "words"), [([95.0, 0.0, -48.0], "x > 0"), ([-95.0, 0.0, 48.0], "z > 0")])
+def test_mistaken_signs_of_the_centre_of_mass_are_asked_about(center: list[float], words: str) -> None:
+    turned = size(angle_grinder(machine__center_of_mass_from_wheel_mm=center))
+    assert any(words in warning for warning in turned.warnings)
+    assert not any("signs" in warning for warning in size(angle_grinder()).warnings)
+
+
 def test_heavy_wheel_asks_for_its_polar_inertia() -> None:
     heavy = {"wheel__mass_kg": 0.4, "wheel__diameter_mm": 150.0}
     assert any("polar inertia" in warning for warning in size(angle_grinder(**heavy)).warnings)
