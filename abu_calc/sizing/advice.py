@@ -130,7 +130,7 @@ def design_warnings(
 ) -> tuple[str, ...]:
     """Warnings that a reader must know and that no check gives."""
     return (
-        *_body_warnings(case, bands),
+        *_body_warnings(case, bands, candidate.mass),
         *_sheet_warnings(case),
         *_contact_warnings(case, candidate),
         *_choice_warnings(case, candidate),
@@ -151,15 +151,15 @@ HEAVY_ROTOR = 0.03
 """Share of J_x from which the polar inertia of what spins counts."""
 
 
-def _body_warnings(case: Case, bands: BodyBands | None) -> list[str]:
+def _body_warnings(case: Case, bands: BodyBands | None, added: float) -> list[str]:
     signs = _sign_warning(case)
     if bands is not None:
         low, high = bands.effective_mass
-        mass = case.body.effective_mass()
+        mass = case.body.effective_mass(added)
         return [
             *signs,
-            f"The inertia is estimated from layout, mass and lengths, not measured: effective mass at the wheel "
-            f"{mass:.3g} kg, 95 % within {low:.3g} … {high:.3g} kg with the autobalancer. Levels at handles have bands.",
+            "The inertia is estimated from layout, mass and lengths, not measured. Effective mass at the wheel: "
+            f"{mass:.3g} kg, 95 % within {low:.3g} … {high:.3g} kg. Levels at handles have bands.",
         ]
     if case.body.is_rigid:
         return [*signs, *_rotor_warning(case), *_hands_warning(case)]
