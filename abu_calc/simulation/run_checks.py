@@ -8,7 +8,8 @@ from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.checks import Check, coded, overall, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
-from abu_calc.simulation.response import SLIPPING, Response, allowed_imbalance, balances, slip
+from abu_calc.simulation.balance import SLIPPING, allowed_imbalance, balances, slip
+from abu_calc.simulation.response import Response
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.case import WHEEL_PLANE
 from abu_calc.sizing.design import Design
@@ -78,6 +79,7 @@ def _level_of(design: Design, response: Response, place: Vector) -> Level:
     axes = [(abs(at), abs(imbalance * wheel - balls * at)) for at, wheel in zip(by_race, by_wheel, strict=True)][:count]
 
     def level(velocity: float) -> float:
+        """Level [dB] at the place, by the rms velocity [m/s] of the race."""
         swing = math.sqrt(2) * velocity / speed / held
         moved = max(math.hypot(swing * at, beside) for at, beside in axes)
         return displacement_level(moved, speed, case.background_level)

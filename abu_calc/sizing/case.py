@@ -216,6 +216,7 @@ def _idle_speed(motor: Motor | None, suspension: SuspensionReaction, displacemen
     from abu_calc.formulas.motor import idle_speed
 
     def reaction(speed: float) -> complex:
+        """Reaction of both axes [N/m] at a speed [rad/s]."""
         return suspension.reaction(0, speed) + suspension.reaction(1, speed)
 
     return idle_speed(motor.stall_torque_N_m, to_si(motor.no_load_speed_rpm, "rpm"), displacement, reaction)

@@ -14,6 +14,7 @@ from abu_calc.sizing import size
 from abu_calc.sizing.actions import with_entries
 from abu_calc.sizing.case import WHEEL_PLANE, read_case
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.places import in_space
 from tests.formulas.bodies import G125, G230, SpaceCase, settled_amplitudes
 from tests.sizing.machines import check_of, machine
 
@@ -228,8 +229,11 @@ def test_handles_of_the_straight_grinder_without_balls(body: dict[str, Any]) -> 
 @pytest.mark.slow
 @pytest.mark.parametrize("offset", [0.0, -25.0])
 def test_handles_of_the_straight_grinder_with_balls(offset: float) -> None:
-    """Within 0.2 dB: the motion that the eccentricity leaves, or a race off the wheel's plane."""
+    """Within 0.2 dB: the motion that the eccentricity leaves, or a race off the wheel's plane without it."""
     design = straight_grinder(IN_SPACE, offset)
+    places = design.idle.places
+    if offset:  # without the race's ovality, which the integration does not have
+        places = in_space(design.case, design.imbalance.value, design.autobalancer, 0.0)
     for name, velocity in integrated(design, balls=True).items():
-        place = next(place for place in design.idle.places if place.name == name)
+        place = next(place for place in places if place.name == name)
         assert place.levels.after == pytest.approx(level_from_velocity(max(velocity)), abs=0.2)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.features.design.region import TrueRegion
 from abu_calc.features.design.section import section
-from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
+from abu_calc.features.grinding.lower_bound import LevelBound
+from abu_calc.features.grinding.outcomes import LoadedStarts
 from abu_calc.formulas.body_estimate import estimate_source
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.foundation.quantity import Quantity, Record, record

@@ -3,6 +3,8 @@
 `SizeModel` holds the SI numbers behind a sized design, for those who check it by hand.
 """
 
+import math
+import statistics
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
@@ -22,9 +24,9 @@ from abu_calc.features.design.region import true_region
 from abu_calc.features.design.start_search import with_searched
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
 from abu_calc.features.design.verification import Proven, proven
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, LowerBound, lower_bound, with_starts
+from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
-from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
 from abu_calc.features.grinding.work import Work, loaded_levels, work_of
 from abu_calc.features.seats.records import SeatResult, seat_results
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
@@ -172,6 +174,7 @@ def size(
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
         work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads)
+        seats = _with_lives(seats, design, tried.ensemble, tables)
         region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress)
     stays = _on_work(design, runs, accuracy, progress)
@@ -263,6 +266,30 @@ def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
     from abu_calc.features.seats.seats import seat_bearings
 
     return seat_bearings(tables.bearing)
+
+
+def _with_lives(
+    seats: "tuple[BearingSeats, ...]", design: Design, ensemble: Ensemble | None, tables: MachineFile
+) -> "tuple[BearingSeats, ...]":
+    """Bearings with their lives under the loads of the simulation, without and with the autobalancer.
+
+    The rotating force is the imbalance, or the median residual displacement of the start cases that balance times the
+    effective mass; the constant one is the press force with its friction, of machines that grind.
+    """
+    if not seats:
+        return ()
+    from abu_calc.features.seats.life_in_use import UseLoads, lives_in_use
+
+    outcomes = () if ensemble is None else ensemble.given
+    residuals = [outcome.residual for outcome in outcomes if outcome.balanced]
+    speed, grinding = design.case.speed, tables.grinding
+    constant = 0.0
+    if grinding is not None:
+        constant = grinding.press_force_N * math.hypot(1.0, grinding.cutting_coefficient)
+    residual = statistics.median(residuals) * design.autobalancer.requirement.effective_mass if residuals else None
+    loads = UseLoads(design.imbalance.value * speed**2, None if residual is None else residual * speed**2, constant)
+    lives = lives_in_use([bearing.bearing for bearing in seats], loads, speed)
+    return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
 
 
 def _checks(tried: Proven, seat_checks: Sequence[Check], arm: "ArmJudgement | None") -> Iterator[Check]:
