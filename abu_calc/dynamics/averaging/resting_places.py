@@ -28,7 +28,7 @@ Complex = NDArray[np.complex128]
 SEED: Final = 28927
 """Seed of the random starts, so that a result is the same whenever it is computed."""
 STEP: Final = 0.15
-"""Step of time, in units of 1/rate of the fastest slow motion; half of it changes means by less than 0.1 %."""
+"""Step of time, in units of the shortest time of the slow motion; half of it changes means by less than 0.1 %."""
 MOST_STEPS: Final = 20_000
 """Steps after which balls that still move are taken where they are."""
 STILL: Final = 1e-9
@@ -88,7 +88,8 @@ def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> 
     angles = random.uniform(-math.pi, math.pi, (balls.count, runs))
     speeds, ends, places = np.zeros_like(angles), np.zeros(runs, dtype=complex), np.zeros_like(angles)
     open_runs, target = np.arange(runs), np.asarray(undisturbed, dtype=complex)
-    step = STEP / balls.fastest_rate
+    rate = balls.fastest_rate
+    step = STEP * max(1 / rate, balls.drag / (balls.inertia_factor * rate**2))  # heavily damped balls creep
     pull = step * balls.speed**2 / (balls.pitch_radius * balls.inertia_factor)
     kept = 1 / (1 + step * balls.drag / balls.inertia_factor)
     weight = complex(balls.receptance * balls.moment)
@@ -101,7 +102,7 @@ def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> 
         now = kept * (pushed - np.clip(pushed, -pull * band, pull * band))
         stopped = None
         if number % LOOK == 0:
-            stopped = np.maximum(np.abs(now), np.abs(speeds)).max(axis=0) < STILL * balls.fastest_rate
+            stopped = np.maximum(np.abs(now), np.abs(speeds)).max(axis=0) < STILL * rate
         speeds = now
         angles += step / 2 * speeds
         if stopped is not None and stopped.any():
