@@ -8,7 +8,7 @@ import math
 from functools import cached_property
 from typing import Final
 
-from abu_calc.foundation.errors import RangeError
+from abu_calc.foundation.errors import Place, RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
@@ -107,6 +107,7 @@ class RigidBody:
         if self.inertia is not None and polar**2 >= self.inertia.xx * self.inertia.yy * (1 - _ROUNDING):
             raise RangeError(
                 "the rotor's polar inertia is that of no part of this body",
+                place=Place(key="machine.rotor_polar_inertia_kg_m2"),
                 found=f"{polar:g} kg·m²",
                 allowed=f"below √(J_x·J_y) = {math.sqrt(self.inertia.xx * self.inertia.yy):.4g} kg·m²",
                 remedy="Give the polar inertia of wheel, flange and spindle alone.",

@@ -89,7 +89,8 @@ class Springs:
     where=(
         "Palm and arm (m1) are connected to the ground by element 1, the fingers (m2) to m1 by element 2. Elements 3 "
         "and 4 connect m1 and m2 to the handle. The skin masses m3 and m4 move with the handle. The forearms push "
-        "toward the workpiece: the z-axis of the hands is the machine's y-axis, their x-axis the machine's x-axis."
+        "toward the workpiece: the z-axis of the hands is the machine's y-axis, their x-axis the machine's x-axis. "
+        "For a body in space whose wheel works with its face, the z-axis of the hands is the spindle's axis."
     ),
     assumed="how the elements connect; direction of the forearms",
     source="ISO 10068:2012",

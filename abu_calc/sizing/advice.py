@@ -152,21 +152,38 @@ HEAVY_ROTOR = 0.03
 
 
 def _body_warnings(case: Case, bands: BodyBands | None) -> list[str]:
+    signs = _sign_warning(case)
     if bands is not None:
         low, high = bands.effective_mass
         mass = case.body.effective_mass()
         return [
+            *signs,
             f"The inertia is estimated from layout, mass and lengths, not measured: effective mass at the wheel "
-            f"{mass:.3g} kg, 95 % within {low:.3g} … {high:.3g} kg with the autobalancer. Levels at handles have bands."
+            f"{mass:.3g} kg, 95 % within {low:.3g} … {high:.3g} kg with the autobalancer. Levels at handles have bands.",
         ]
     if case.body.is_rigid:
-        return [*_rotor_warning(case), *_hands_warning(case)]
+        return [*signs, *_rotor_warning(case), *_hands_warning(case)]
     measured = " An imbalance that a measured level gives is as uncertain." if case.table.wheel.shown else ""
     handles = " All handles move alike." if case.handles else ""
     return [
         f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
         f"{handles} Specify {estimate_keys(case)} for an estimate, or machine.transverse_inertia_kg_m2 and "
         "machine.center_of_mass_to_wheel_mm."
+    ]
+
+
+def _sign_warning(case: Case) -> list[str]:
+    """Note on a centre of mass that lies where no such machine has it: a sign was mistaken."""
+    given = case.table.machine.center_of_mass_from_wheel_mm
+    if given is None:
+        return []
+    beyond, before = given[2] > 0, case.table.machine.layout == "angle" and given[0] > 0
+    if not (beyond or before):
+        return []
+    where = "beyond the wheel, seen from the machine (z > 0)" if beyond else "before the spindle (x > 0)"
+    return [
+        f"The centre of mass lies {where}. Check the signs of machine.center_of_mass_from_wheel_mm: it counts from the "
+        "wheel's centre, and both are negative at an angle grinder."
     ]
 
 

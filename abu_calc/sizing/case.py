@@ -150,7 +150,7 @@ class Case:
             for handle in self.handles
         )
         body = RigidMachine(placed.body, placed.wheel, self.body.in_space)
-        return replace(self, body=body, handles=handles, suspension=_suspension(self.table, body.effective_mass()))
+        return replace(self, body=body, handles=handles, suspension=_suspension(self.table, body))
 
 
 def read_case(machine: MachineFile) -> Case:
@@ -170,7 +170,7 @@ def read_case(machine: MachineFile) -> Case:
             remedy="Add a table [autobalancer] with max_outer_diameter_mm and max_width_mm.",
         )
     body, eccentricity = _body(machine), to_si(abu.race_eccentricity_mm, "mm")
-    suspension = _suspension(machine, body.effective_mass())
+    suspension = _suspension(machine, body)
     idle = _idle_speed(machine.motor, suspension, eccentricity)
     return Case(
         table=machine,
@@ -257,13 +257,23 @@ def _in_metres(position_mm: Sequence[float], sign: float = 1.0) -> Vector:
     return x, y, z
 
 
-def _suspension(machine: MachineFile, mass: float) -> SuspensionReaction:
-    table = machine.suspension
+def _suspension(machine: MachineFile, body: RigidMachine) -> SuspensionReaction:
+    """Suspension in the plane of the race; `hand_axes` turns the hands of a body in space."""
+    table, mass = machine.suspension, body.effective_mass()
     if table.frequencies is None or table.dampings is None:
-        return Hands((hand("x"), hand("z")))
+        along, across, _ = hand_axes(machine.machine.layout if body.in_space else "straight")
+        return Hands((hand(along), hand(across)))
     wx, wy = (to_si(frequency, "hz") for frequency in table.frequencies)
     zx, zy = table.dampings
     return Springs((mass * wx**2, mass * wy**2), (2 * zx * mass * wx, 2 * zy * mass * wy))
+
+
+def hand_axes(layout: str) -> tuple[str, str, str]:
+    """Axes of the hands along the body's x, y and z: forearms push toward the workpiece, along their own z.
+
+    Along y where the wheel's rim works (straight), along the spindle where its face does.
+    """
+    return ("x", "z", "y") if layout == "straight" else ("x", "y", "z")
 
 
 def _contact(grinding: Grinding | None) -> WorkContact | None:

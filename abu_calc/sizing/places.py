@@ -24,7 +24,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si, velocity_from_level
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import displacement_level
-from abu_calc.sizing.case import WHEEL_PLANE, Case
+from abu_calc.sizing.case import WHEEL_PLANE, Case, hand_axes
 from abu_calc.standards.vibration import hand
 
 AXES = ("x", "y", "z")
@@ -163,9 +163,7 @@ def body_suspension(case: Case, *, carrying: bool = False) -> BodySuspension | N
     if table.frequencies is None or table.dampings is None:
         if len(case.handles) < HANDS:
             return None
-        # The forearms push toward the workpiece: along y where the rim works, along the spindle where the face does.
-        names = ("x", "z", "y") if case.table.machine.layout == "straight" else ("x", "y", "z")
-        x, y, z = (hand(name) for name in names)
+        x, y, z = (hand(name) for name in hand_axes(case.table.machine.layout))
         return HandsOnHandles(tuple(held.place for held in case.handles[:HANDS]), (x, y, z))
     wx, wy = (to_si(frequency, "hz") for frequency in table.frequencies)
     return BodySprings((wx, wy), table.dampings, case.body.mass if carrying else None)

@@ -71,6 +71,8 @@ FULL: dict[str, dict[str, str]] = {
         "spindle_axis": '"horizontal"',
         "transverse_inertia_kg_m2": "0.10",
         "center_of_mass_to_wheel_mm": "200.0",
+        "length_mm": "450.0",
+        "height_mm": "120.0",
         "power_W": "1000.0",
         "background_level_db": "98.0",
     },
@@ -184,7 +186,7 @@ FULL: dict[str, dict[str, str]] = {
         "source": '"own measurement"',
         "remark": '"Two sensors."',
     },
-    "[limits]": {"vibration_level_db": "109.0", "settling_time_s": "1.0"},
+    "[limits]": {"vibration_level_db": "109.0", "a_hv_m_per_s2": "2.5", "settling_time_s": "1.0"},
 }
 
 

@@ -282,3 +282,24 @@ def test_hands_hold_the_machine_too() -> None:
     design = size(machine(suspension={"model": "hands"}))
     assert design.frequency.balancing_possible
     assert 1 < max(design.frequency.natural_frequencies) / (2 * math.pi) < 3
+
+
+@pytest.mark.parametrize(
+    ("entries", "key"),
+    [
+        ({"inertia_kg_m2": [0.004, 0.02, 0.03]}, "machine.inertia_kg_m2"),
+        ({"inertia_xz_kg_m2": 0.02}, "machine.inertia_kg_m2"),
+        ({"rotor_polar_inertia_kg_m2": 0.02}, "machine.rotor_polar_inertia_kg_m2"),
+    ],
+)
+def test_bodies_that_no_mass_has_are_refused_by_their_key(entries: dict[str, Any], key: str) -> None:
+    body = {"inertia_kg_m2": [0.004, 0.02, 0.019], "center_of_mass_from_wheel_mm": [-95.0, 0.0, -48.0], **entries}
+    with pytest.raises(InputError) as refused:
+        read_case(machine(**{f"machine__{name}": value for name, value in body.items()}))
+    assert refused.value.place.key == key
+
+
+def test_estimate_of_odd_proportions_is_refused() -> None:
+    with pytest.raises(InputError) as refused:
+        read_case(machine(machine__layout="angle", machine__length_mm=300.0, machine__height_mm=290.0))
+    assert refused.value.place.key == "machine.height_mm"

@@ -15,7 +15,7 @@ from abu_calc.sizing.actions import with_entries
 from abu_calc.sizing.case import WHEEL_PLANE, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.places import in_space
-from tests.formulas.bodies import G125, G230, SpaceCase, settled_amplitudes
+from tests.formulas.bodies import G125, G230, V305, SpaceCase, settled_amplitudes
 from tests.sizing.machines import check_of, machine
 
 HANDLES_125 = [
@@ -167,6 +167,36 @@ def test_hands_hold_a_body_in_space_at_two_handles() -> None:
     assert any("first two handles" in warning for warning in one.warnings)
 
 
+@pytest.mark.parametrize(
+    ("case", "suspension", "expected"),
+    [
+        (G230, None, [(11.7180, 1.62991, 9.09178), (15.0394, 14.5331, 36.8850)]),
+        (V305, {"model": "hands"}, [(13.9062, 2.31820, 10.4077), (19.9160, 27.9588, 20.3801)]),
+    ],
+    ids=["G230", "V305"],
+)
+def test_reference_bodies_as_files(case: SpaceCase, suspension: dict[str, str] | None, expected: Any) -> None:
+    """Velocity rms of both handles without balls [mm/s]; the wheel's face works, so hands push along the spindle."""
+    inertia = case.body.inertia
+    assert inertia is not None
+    entries: dict[str, Any] = {
+        "machine__layout": "angle", "machine__mass_kg": case.body.mass - 0.5, "machine__speed_rpm": float(case.rpm),
+        "machine__spindle_axis": "vertical", "machine__center_of_mass_from_wheel_mm": [-1e3 * x for x in case.wheel],
+        "machine__inertia_kg_m2": [inertia.xx, inertia.yy, inertia.zz], "machine__inertia_xz_kg_m2": inertia.xz,
+        "machine__rotor_polar_inertia_kg_m2": case.body.rotor_polar_inertia, "wheel__mass_kg": 0.5,
+        "machine__handle": [
+            {"name": name, "position_mm": [1e3 * x for x in place]} for name, place in case.handles.items()
+        ],
+        "wheel__imbalance_g_mm": 1e6 * case.imbalance,
+        "autobalancer__plane_offset_mm": 1e3 * (case.race[2] - case.wheel[2]),
+    }  # fmt: skip
+    if suspension:
+        entries["suspension"] = suspension
+    for place, velocities in zip(size(machine(**entries)).idle.places, expected, strict=True):
+        found = [1e3 * velocity_from_level(axis.before) for axis in place.axes if axis.before is not None]
+        assert found == pytest.approx(velocities, rel=5e-6)
+
+
 def test_estimate_takes_the_place_of_the_point_mass() -> None:
     point, estimated = (size(without_inertia(**lengths)) for lengths in (
         {}, {"machine__length_mm": 300.0, "machine__height_mm": 60.0}))  # fmt: skip
@@ -177,6 +207,13 @@ def test_estimate_takes_the_place_of_the_point_mass() -> None:
     assert estimated.case.body.effective_mass() == pytest.approx(0.47 * 2.4, rel=0.03)
     polar = estimated.case.body.body.rotor_polar_inertia
     assert polar == pytest.approx(0.2 * 0.0625**2 / 2)
+
+
+@pytest.mark.parametrize(("center", "words"), [([95.0, 0.0, -48.0], "x > 0"), ([-95.0, 0.0, 48.0], "z > 0")])
+def test_mistaken_signs_of_the_centre_of_mass_are_asked_about(center: list[float], words: str) -> None:
+    turned = size(angle_grinder(machine__center_of_mass_from_wheel_mm=center))
+    assert any(words in warning for warning in turned.warnings)
+    assert not any("signs" in warning for warning in size(angle_grinder()).warnings)
 
 
 def test_heavy_wheel_asks_for_its_polar_inertia() -> None:

@@ -70,9 +70,16 @@ def _ratio(scale: float) -> str:
 
 def _levels(result: SizeResult) -> Iterator[Figure]:
     """Figure of the levels without, with (expected) and as measured with the autobalancer at each place."""
-    rows = [row for place in result.vibration.handles for row in (
-        (f"{place.name}, without autobalancer", place.level_before_db, 2),
-        (f"{place.name}, with: expected", place.level_after_db, 1),
+    vibration = result.vibration
+    places = [(place.name, place.level_before_db, place.level_after_db) for place in vibration.handles]
+    beside = all(
+        name != vibration.place for name, *_ in places
+    )  # the handles of a body in space have no limit of level
+    if beside:
+        places.insert(0, (vibration.place, vibration.level_before_db, vibration.level_after_db))
+    rows = [row for name, before, after in places for row in (
+        (f"{name}, without autobalancer", before, 2),
+        (f"{name}, with: expected", after, 1),
     )]  # fmt: skip
     if (measured := result.measured_after) is not None:
         rows.append((f"{measured.place}, with: measured", measured.measured_level_db, 3))
@@ -84,7 +91,8 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     axis = Axis.around("velocity level, idle [dB]", values)
     text = "; ".join(f"{bar.name} {bar.told}" for bar in known) + (f"; {limit[1]}" if limit else "")
     caption = "Velocity level at each place, idle, at the rated speed, dB re 5e-8 m/s rms."
-    caption += " The expected level (circle) should stand left of the dashed limit." if limit else ""
+    where = f", {vibration.place}," if beside else ""
+    caption += f" The expected level (circle){where} should stand left of the dashed limit." if limit else ""
     yield Figure(
         "levels", "vibration-level", Bars("Levels without and with the autobalancer", text, axis, known, limit), caption
     )

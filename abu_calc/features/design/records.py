@@ -184,9 +184,7 @@ class BodyRecord(Record):
 
     kind: Annotated[str, Quantity("body")]
     estimated: Annotated[bool, Quantity("inertia estimated")]
-    center_of_mass_from_wheel_mm: Annotated[
-        tuple[float, float, float] | None, Quantity("wheel to centre of mass", "x, y, z")
-    ]
+    center_of_mass_from_wheel_mm: Annotated[tuple[float, float, float] | None, Quantity("wheel to centre of mass")]
     inertia_kg_m2: Annotated[tuple[float, float, float] | None, Quantity("inertia", "J_x, J_y, J_z", 3)]
     inertia_xz_kg_m2: Annotated[float | None, Quantity("product of inertia", "J_xz", 3)]
     rotor_polar_inertia_kg_m2: Annotated[float | None, Quantity("polar inertia of the rotor", "J_p", 3)]

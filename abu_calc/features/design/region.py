@@ -18,6 +18,7 @@ from abu_calc.dynamics.stability.two_modes import LinearMotion
 from abu_calc.dynamics.stability.verdict import judged
 from abu_calc.dynamics.switching.stick_slip import AT_REST
 from abu_calc.features.design.verification import design_with, more_damping, other_drags
+from abu_calc.features.design.whirl import unstable_speed
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
@@ -136,7 +137,15 @@ def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
             check = coded("ABU103", "fail", reason, unit="1/s", remedy=remedy)
             return TrueRegion(False, (), modes, hanging, check)
         check = _stable(design, speeds) if speeds.stable else _unstable(design, speeds, hanging, accuracy)
-        return TrueRegion(speeds.rated < -MARGIN * design.case.speed, speeds.boundaries, modes, hanging, check)
+        whirling = unstable_speed(design) if speeds.stable else None
+        check = check if whirling is None else _whirls(whirling)
+        return TrueRegion(
+            speeds.rated < -MARGIN * design.case.speed and whirling != design.case.speed,
+            speeds.boundaries,
+            modes,
+            hanging,
+            check,
+        )
     except NotTrustworthyError as error:
         reason = f"Stability is not known: {str(error).splitlines()[0]}"
         remedy = "Specify another drag rate, or springs in place of hands."
@@ -192,6 +201,16 @@ def _stable(design: Design, speeds: SpeedRange) -> Check:
     where = f", slowest at {_rpm(speeds.worst_speed)}" if low < high else f" at {_rpm(speeds.worst_speed)}"
     message = f"Every small disturbance dies out{where}, in the least stable balanced arrangement of the balls"
     return coded("ABU103", "pass", message, speeds.growth, 0.0, "1/s")
+
+
+def _whirls(speed: float) -> Check:
+    """A failure by the body in space, where the planar model passes."""
+    message = (
+        f"At {_rpm(speed)} a small disturbance grows in six degrees of freedom, though it dies out in the plane of the "
+        "race. Gyroscopic moments or the hands at the handles make the difference"
+    )
+    remedy = "Hold the machine more softly, raise the lowest speed by some per cent, or use lighter balls."
+    return coded("ABU103", "fail", message, remedy=remedy)
 
 
 def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accuracy: float) -> Check:

@@ -159,11 +159,11 @@ def handle_tables(result: SizeResult, numbers: Mapping[str, int], most: int = MO
     shown = sorted(handles, key=_total, reverse=True)[:most]
     check = next((check for check in result.checks if check.code == "ABU404"), None)
     rows = [row for handle in handles if handle in shown for row in _handle_rows(handle, check, numbers)]
-    more = f", {len(handles) - len(shown)} more" if len(handles) > len(shown) else ""
-    head: tuple[str, ...] = (f"Handles, idle{more}", "x, dB", "a_h", "y, dB", "a_h", "z, dB", "a_h", "a_hv, m/s²")
+    title = "Handles, idle" if len(handles) == len(shown) else f"{len(shown)} of {len(handles)} handles"
+    head: tuple[str, ...] = (title, "x, dB", "a_h", "y, dB", "a_h", "z, dB", "a_h", "a_hv, m/s²")
     count = len(head)
     if check is not None:
-        head = (*head, "limit", "")
+        head = (*head, "" if check.limit is None else f"≤ {_acceleration(check.limit)}")
     return [Grid(head, tuple(row[: len(head)] for row in rows), frozenset(range(1, count + 1)))] if rows else []
 
 
@@ -186,11 +186,13 @@ def _handle_rows(handle: HandleLevels, check: Check | None, numbers: Mapping[str
     if handle.level_after_db is not None:
         after = handle.a_hv_after_m_per_s2
         decides = check is not None and after == check.value
-        rows.append(("  with", *cells(fitted), _acceleration(after), *_graded(after, check, numbers, decides=decides)))
+        rows.append(
+            ("  with", *cells(fitted), _acceleration(after), _graded(after, check, numbers, decides=decides)[1])
+        )
     if handle.a_hv_after_band_m_per_s2 is not None:
         low, high = map(_acceleration, handle.a_hv_after_band_m_per_s2)
         rows.append(("    95 % band", *[""] * 6, f"{low}…{high}"))
-    return [row + ("",) * (10 - len(row)) for row in rows]
+    return [row + ("",) * (9 - len(row)) for row in rows]
 
 
 def _tenth(level: float | None) -> str:

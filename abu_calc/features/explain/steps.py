@@ -38,6 +38,7 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.slow_motion:side_by_side",
             "formulas.slow_motion:damped_drag",
             "formulas.slow_motion:gravity_drag",
+            "features.design.whirl:growing_whirls",
         ),
     ),
     "imbalance": Step(

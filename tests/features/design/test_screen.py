@@ -267,3 +267,35 @@ def test_what_shortens_the_balls_way(sized: SizeResult) -> None:
     assert max(time for time in times.values() if time is not None) == many.settling_time_s.worst
     assert (sized.autobalancer.optimum_drag_per_s or 0) > 15
     assert sized.autobalancer.slowest_decay_per_s == pytest.approx(15 / (2 * 7 / 5), rel=1e-9)
+
+
+ESTIMATED = str(Path(__file__).parents[2] / "machines" / "angle-grinder-estimated.toml")
+
+
+def test_handles_stand_on_the_screen_axis_by_axis() -> None:
+    """The two highest of three handles, without and with the autobalancer, with bands and the limit."""
+    seen = once("size", ESTIMATED)
+    assert fits(seen)
+    assert "2 of 3 handles" in seen.out and "≤ 1.00" in seen.out and "point mass" not in seen.out
+    document = once("size", ESTIMATED, "--json").document
+    handles = document["result"]["vibration"]["handles"]
+    highest = max(handles, key=lambda handle: handle["a_hv_after_m_per_s2"])
+    row = next(line for line in seen.out.splitlines() if line.strip().startswith("with "))
+    cells = row.split()
+    assert cells[1:8] == [
+        *(f"{value:.{digits}f}" for axis in highest["axes"]
+          for value, digits in ((axis["level_after_db"], 1), (axis["a_h_after_m_per_s2"], 2))),
+        f"{highest['a_hv_after_m_per_s2']:.2f}",
+    ]  # fmt: skip
+    low, high = highest["a_hv_after_band_m_per_s2"]
+    assert low < highest["a_hv_after_m_per_s2"] < high and f"{low:.2f}…{high:.2f}" in seen.out
+    assert document["result"]["vibration"]["place"] == "wheel plane"
+    assert document["result"]["body"]["estimated"] is True
+
+
+def test_one_total_beside_the_readings_of_a_handle() -> None:
+    """The vector total of readings is that of the axes, not √2 of one."""
+    for handle in once("size", ESTIMATED, "--json").document["result"]["vibration"]["handles"]:
+        assert handle["shown_after"]["total_m_per_s2"] == pytest.approx(handle["a_hv_after_m_per_s2"])
+        squares = sum(axis["a_h_after_m_per_s2"] ** 2 for axis in handle["axes"])
+        assert handle["a_hv_after_m_per_s2"] == pytest.approx(squares**0.5)

@@ -45,8 +45,8 @@ def test_an_optional_table_reads_once_its_marks_are_taken_away(tmp_path: Path, h
     before, mark, after = template().partition(f"\n#{header}")
     assert mark
     block, gap, rest = after.partition("\n\n")
-    # The sizes of a bearing stand beside its designation, one of which may be used.
-    lines = [row for row in block.split("\n") if not re.match(r"#(bore|outer|width)_mm", row)]
+    # The sizes of a bearing stand beside its designation, two places of a handle beside each other: one may be used.
+    lines = [row for row in block.split("\n") if not re.match(r"#(bore|outer|width|position)_mm", row)]
     used = "\n".join(row[1:] if re.match(r"#[a-z]", row) else row for row in lines)
     text = f"{before}\n{header}{used}{gap}{rest}"
     assert read(tmp_path, text).tables != read(tmp_path, template()).tables or header == "[expected]"
