@@ -230,10 +230,7 @@ def lower_declared(
         if declared < without:
             moved = Moved("the declared value with the autobalancer", present, declared, "m/s²", without)
             return set_action(entries, after.candidate, moved, how)
-    return (
-        "None of the smaller race eccentricities and friction arms that were tried lowers it. `abu declare FILE` lists "
-        "the causes."
-    )
+    return "No smaller race eccentricity or friction arm that was tried lowers it. `abu declare FILE` lists the causes."
 
 
 def _truer(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]]:

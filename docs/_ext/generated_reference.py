@@ -18,6 +18,7 @@ KINDS = {
     "machine": ("Machine files", "`abu init FILE` writes a complete machine file with a comment at each key."),
     "scene": ("Scene files", "`abu init --scene FILE` writes a complete scene file."),
     "readings": ("Readings of a balancing rig", "`abu init --readings FILE` writes a complete file of readings."),
+    "recordings": ("Recordings of a type test", "`abu init --recordings FILE` writes a complete list of recordings."),
 }
 
 CHECK_LABELS = {

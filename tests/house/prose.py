@@ -207,6 +207,8 @@ SCREENS: Final = (
     ("check-fit", "--designation", "6203"),
     ("balance", "sapropel-screw-rig"),
     ("balance", "sapropel-screw-rig", "--full"),
+    ("declare", "avtovaz-707-222", "--starts", "500"),
+    ("declare", "avtovaz-707-305", "--starts", "500", "--full"),
 )
 """Commands whose reports are read."""
 

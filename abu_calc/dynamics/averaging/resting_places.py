@@ -8,7 +8,7 @@ eccentricity), g the forward displacement per imbalance at the race. Friction is
 rest while |Im(c e^{−iθ})| ≤ b. Balls are points: equal balls that collide elastically exchange their places.
 
 The step is that of Moreau (1988): places at half a step, then speeds with the friction that stops a ball or opposes it.
-Balls that all stop within a step stay where they are for ever, so each run has an end.
+Balls that have all stopped stay where they are for ever, so each run has an end.
 
 Range: constant speed, speed well above the natural frequencies, balls light against the machine; without gravity.
 Source: derived by averaging; Kladiev 1996, (4)–(7), generalised.
@@ -28,9 +28,11 @@ Complex = NDArray[np.complex128]
 SEED: Final = 28927
 """Seed of the random starts, so that a result is the same whenever it is computed."""
 STEP: Final = 0.15
-"""Step of time, in units of 1/rate of the fastest slow motion; half of it changes means by less than 0.1 %."""
+"""Step of time, in units of the shortest time of the slow motion; half of it changes means by less than 0.1 %."""
 MOST_STEPS: Final = 20_000
 """Steps after which balls that still move are taken where they are."""
+STILL: Final = 1e-9
+"""Speed, in units of the fastest rate, of balls that have stopped: some creep toward the limit of friction for ever."""
 LOOK: Final = 25
 """Steps between two looks for runs that have ended."""
 _BAND: Final = Range("friction band", 0.0, unit="m", open_low=True)
@@ -86,7 +88,8 @@ def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> 
     angles = random.uniform(-math.pi, math.pi, (balls.count, runs))
     speeds, ends, places = np.zeros_like(angles), np.zeros(runs, dtype=complex), np.zeros_like(angles)
     open_runs, target = np.arange(runs), np.asarray(undisturbed, dtype=complex)
-    step = STEP / balls.fastest_rate
+    rate = balls.fastest_rate
+    step = STEP * max(1 / rate, balls.drag / (balls.inertia_factor * rate**2))  # heavily damped balls creep
     pull = step * balls.speed**2 / (balls.pitch_radius * balls.inertia_factor)
     kept = 1 / (1 + step * balls.drag / balls.inertia_factor)
     weight = complex(balls.receptance * balls.moment)
@@ -97,7 +100,9 @@ def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> 
         imaginary = target.imag - weight.real * sines.sum(axis=0) - weight.imag * cosines.sum(axis=0)
         pushed = speeds + pull * (imaginary * cosines - real * sines)
         now = kept * (pushed - np.clip(pushed, -pull * band, pull * band))
-        stopped = ~(now.any(axis=0) | speeds.any(axis=0)) if number % LOOK == 0 else None
+        stopped = None
+        if number % LOOK == 0:
+            stopped = np.maximum(np.abs(now), np.abs(speeds)).max(axis=0) < STILL * rate
         speeds = now
         angles += step / 2 * speeds
         if stopped is not None and stopped.any():

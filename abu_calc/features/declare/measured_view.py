@@ -1,6 +1,7 @@
 """The report of `abu declare --recordings`, and its figure."""
 
 from collections.abc import Iterator
+from typing import Final
 
 from abu_calc.features.declare.measured import MeasuredDeclareResult, MeasuredHandle, MeasuredSeries
 from abu_calc.features.explain.steps import STEPS, step_blocks
@@ -9,6 +10,8 @@ from abu_calc.reporting.charts.chart import Axis, Bar, Bars
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen, verdict_line
+
+NTH: Final = ("first axis", "second axis", "third axis")
 
 
 def measured_blocks(result: MeasuredDeclareResult) -> tuple[Block, ...]:
@@ -84,7 +87,7 @@ def _short(value: float | None) -> str:
 
 def _runs(result: MeasuredDeclareResult) -> list[Block]:
     axes = max(len(run.axes) for run in result.runs)
-    header = ("handle", "operator", "run", *(f"axis {k + 1}" for k in range(axes)), "a_hv, m/s²", "s")
+    header = ("handle", "operator", "run", *NTH[:axes], "a_hv, m/s²", "s")
     rows = tuple(
         (run.handle, run.operator, str(run.run), *(_short(axis.a_hw_m_per_s2) for axis in run.axes),
          *([""] * (axes - len(run.axes))), _short(run.a_hv_m_per_s2), number(run.duration_s, 3))

@@ -1,6 +1,6 @@
 """Parts of the result of `abu declare MACHINE`, in user units."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from abu_calc.foundation.quantity import Quantity, Record, record
 
@@ -23,9 +23,13 @@ class WithoutAutobalancer(Record):
     """The type test without the autobalancer, at its highest handle."""
 
     schema_title = "DeclaredWithout"
+    optional: ClassVar[frozenset[str]] = frozenset({"band_m_per_s2"})
 
     handle: Annotated[str, Quantity("handle")]
     a_hv_m_per_s2: Annotated[float, Quantity("without autobalancer", "a_hv", 4)]
+    band_m_per_s2: Annotated[
+        tuple[float, float] | None, Quantity("95 % band of an estimated inertia", "a_hv", 3, "calculated")
+    ]
     K_m_per_s2: Annotated[float, Quantity("uncertainty", "K_d", 3)]
 
 
@@ -34,6 +38,7 @@ class WithAutobalancer(Record):
     """The type test with the autobalancer, at its highest handle; percentiles of single runs."""
 
     schema_title = "DeclaredWith"
+    optional: ClassVar[frozenset[str]] = frozenset({"declared_band_m_per_s2"})
 
     handle: Annotated[str, Quantity("handle")]
     a_hv_m_per_s2: Annotated[float, Quantity("with", "a_hv", 4, "mean over starts and orientations, without factor")]
@@ -46,6 +51,9 @@ class WithAutobalancer(Record):
     K_m_per_s2: Annotated[float, Quantity("uncertainty", "K_d", 3)]
     declared_low_m_per_s2: Annotated[float, Quantity("5 % of type tests declare less than", "", 3)]
     declared_high_m_per_s2: Annotated[float, Quantity("5 % of type tests declare more than", "", 3)]
+    declared_band_m_per_s2: Annotated[
+        tuple[float, float] | None, Quantity("95 % band of an estimated inertia", "a_hd", 3, "calculated")
+    ]
     no_friction_m_per_s2: Annotated[float, Quantity("with, no rolling friction", "a_hv", 4, "without factor")]
     shaken_free: Annotated[
         bool,

@@ -48,6 +48,7 @@ from abu_calc.sizing.type_test import (
     ChosenWheel,
     carried,
     chosen_wheel,
+    declared_bands,
     declared_check,
     lower_declared,
     required,
@@ -87,7 +88,7 @@ class DeclareResult(Result):
     model: DeclareModel
     test_wheel: TestWheelRecord
     handle: Annotated[str, Quantity("highest handle", "", 4, "with the autobalancer, if that is known")]
-    body: Annotated[str, Quantity("machine", "", 4, "point mass, or rigid body")]
+    body: Annotated[str, Quantity("machine", "", 4, "point mass, rigid body, or rigid body of estimated inertia")]
     without: WithoutAutobalancer
     with_: WithAutobalancer | None
     handles: tuple[HandleValue, ...]
@@ -199,7 +200,8 @@ def _result(
     factor, gains = spindle.factor, spindle.body.gains
     used = None if tested is None or tested.in_use is None else max(tested.in_use.means.values())
     imbalance_alone = math.sqrt(max(bare[highest] ** 2 - spindle.background**2, 0.0))
-    with_ = None if test is None else _with(design, test)
+    bands = declared_bands(case, design.autobalancer, wheel.imbalance)
+    with_ = None if test is None else _with(design, test, None if bands is None else bands[1])
     return DeclareResult(
         title=table.machine.name,
         checks=(balancing, *_comparison(design, wheel, bare[highest], uncertainty, tested, with_)),
@@ -219,8 +221,13 @@ def _result(
         ),
         test_wheel=TestWheelRecord.read(wheel),
         handle=highest if test is None else test.highest,
-        body="rigid body" if case.body.is_rigid else "point mass",
-        without=WithoutAutobalancer(handle=highest, a_hv_m_per_s2=bare[highest], K_m_per_s2=uncertainty),
+        body=_body(case),
+        without=WithoutAutobalancer(
+            handle=highest,
+            a_hv_m_per_s2=bare[highest],
+            K_m_per_s2=uncertainty,
+            band_m_per_s2=None if bands is None else _band(bands[0], bare[highest]),
+        ),
         with_=with_,
         handles=tuple(
             HandleValue(name=name, without_m_per_s2=value, with_m_per_s2=means.get(name))
@@ -254,11 +261,21 @@ def _result(
     )
 
 
+def _body(case: Case) -> str:
+    if case.body.estimate is not None:
+        return "rigid body, inertia estimated"
+    return "rigid body" if case.body.is_rigid else "point mass"
+
+
 def _mm(length: float | None) -> float | None:
     return None if length is None else from_si(length, "mm")
 
 
-def _with(design: Design, test: SimulatedTest) -> WithAutobalancer:
+def _band(shares: tuple[float, float], value: float) -> tuple[float, float]:
+    return shares[0] * value, shares[1] * value
+
+
+def _with(design: Design, test: SimulatedTest, band: tuple[float, float] | None) -> WithAutobalancer:
     plan, name, factor = design.case.table.type_test, test.highest, test.spindle.factor
     runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
     mean, series = test.means[name], test.deviation_of_series(name, runs)
@@ -283,6 +300,7 @@ def _with(design: Design, test: SimulatedTest) -> WithAutobalancer:
         declared_high_m_per_s2=test.declared + spread,
         no_friction_m_per_s2=spindle.gain * ideal,
         shaken_free=_shaken_free(design, spindle),
+        declared_band_m_per_s2=None if band is None else _band(band, test.declared),
     )
 
 

@@ -84,7 +84,9 @@ def _values(result: DeclareResult) -> list[Block]:
     )
     declared = "not known" if with_ is None else _declared(with_.declared_m_per_s2, with_.K_m_per_s2)
     facts = [("declared without", _declared(without.a_hv_m_per_s2, without.K_m_per_s2))]
+    facts += _estimated(without.band_m_per_s2)
     facts.append((f"declared with, × {factor:g}", declared))
+    facts += [] if with_ is None else _estimated(with_.declared_band_m_per_s2)
     if with_ is not None:
         low, high = with_.declared_low_m_per_s2, with_.declared_high_m_per_s2
         facts += [
@@ -97,6 +99,11 @@ def _values(result: DeclareResult) -> list[Block]:
         ]
     facts.append(("break-even eccentricity", _break_even(result)))
     return [Grid(header, tuple(rows), frozenset({1, 2, 3})), Paragraph(""), Grid(("", ""), tuple(facts))]
+
+
+def _estimated(band: tuple[float, float] | None) -> list[tuple[str, str]]:
+    """Band of an estimated inertia."""
+    return [] if band is None else [("  95 % of such machines", f"{_short(band[0])} … {_short(band[1])} m/s²")]
 
 
 def _declared(value: float, uncertainty: float) -> str:

@@ -103,3 +103,14 @@ def test_the_same_seed_gives_the_same_ends() -> None:
 def test_no_friction_is_refused() -> None:
     with pytest.raises(RangeError):
         resting_places(SlowBalls(4, 1e-4, 26e-3, 15.0, 1.4, 0.0, 0.5, 600.0), np.zeros(5, dtype=complex))
+
+
+def test_heavy_drag_ends_where_less_heavy_drag_ends() -> None:
+    """Both creep without swinging, so that the drag sets the time and not the place."""
+    sizes = []
+    for drag in (300.0, 30_000.0):
+        balls = SlowBalls(4, S150.moment, S150.pitch_radius, drag, 1.4, S150.band, S150.receptance, S150.speed)
+        ends = turned(balls, 10e-6, 34e-6, 2000)
+        assert ends.moving == 0
+        sizes.append(math.sqrt((np.abs(ends.displacements) ** 2).mean()))
+    assert sizes[0] == pytest.approx(sizes[1], rel=0.03)

@@ -73,3 +73,38 @@ def written(folder: Path, text: str, name: str = "machine.toml") -> str:
     path = folder / name
     path.write_text(text, encoding="utf-8")
     return str(path)
+
+
+G125 = """
+[machine]
+name = "G125"
+layout = "angle"
+mass_kg = 2.2
+speed_rpm = 11000
+spindle_axis = "vertical"
+center_of_mass_from_wheel_mm = [-95.0, 0.0, -48.0]
+inertia_kg_m2 = [0.0040, 0.0200, 0.0190]
+inertia_xz_kg_m2 = -0.0015
+[[machine.handle]]
+name = "rear"
+position_mm = [-110.0, 0.0, -5.0]
+[[machine.handle]]
+name = "side"
+position_mm = [62.0, 120.0, -8.0]
+[suspension]
+model = "springs"
+natural_frequencies_hz = [2.5, 2.5]
+damping_ratios = [0.5, 0.5]
+[wheel]
+mass_kg = 0.2
+diameter_mm = 125.0
+imbalance_g_mm = 38.0
+[autobalancer]
+max_outer_diameter_mm = 60.0
+max_width_mm = 30.0
+race_eccentricity_mm = 0.010
+rolling_friction_mm = 0.0
+[type_test]
+test_wheel_imbalance_g_mm = 38.0
+"""
+"""An angle grinder in space, 2.4 kg without its autobalancer, with published axis velocities at two handles."""

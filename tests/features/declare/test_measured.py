@@ -196,10 +196,10 @@ def test_wav_files_with_a_scale(tmp_path: Path) -> None:
 
 
 WRONG = {
-    "millivolts without sensitivity": ('file = "mv.csv"', "no sensitivity"),
+    "millivolts without sensitivity": ('file = "mv.csv"', "sensitivity of its sensor"),
     "no such file": ('file = "nothing.csv"', "cannot be read"),
     "a sensitivity of nothing": ('file = "mv.csv"\nsensitivity = 0', "not a sensitivity"),
-    "two sensitivities for three columns": ('file = "mv.csv"\nsensitivity = [10.0, 10.0]', "no sensitivity"),
+    "two sensitivities for three columns": ('file = "mv.csv"\nsensitivity = [10.0, 10.0]', "sensitivity of its sensor"),
     "an unknown key": ('file = "good.csv"\nhandel = "front"', "handel"),
     "an axis of three columns": ('file = "good.csv"\nrun = 1\naxis = "x"', "one axis"),
     "an axis without a run": ('file = "good.csv"\naxis = "x"', "run"),
