@@ -181,6 +181,17 @@ FULL: dict[str, dict[str, str]] = {
         "short_pairs_fail_percent": "5.0",
         "temperature_range_K": "[-40.0, 60.0]",
     },
+    "[[measured]]": {
+        "place": '"front"',
+        "axis": '"y"',
+        "state": '"idle"',
+        "octave_hz": "125.0",
+        "level_db": "[102.0, 103.0]",
+        "level_without_db": "[108.0, 111.0]",
+        "lowered_db": "[6.0, 10.0]",
+        "source": '"own measurement"',
+        "remark": '"Two sensors."',
+    },
     "[limits]": {"vibration_level_db": "109.0", "settling_time_s": "1.0"},
 }
 

@@ -13,6 +13,7 @@ from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
+    BodyRecord,
     DrawingLine,
     Frequency,
     IdleSpeedLevels,
@@ -23,9 +24,9 @@ from abu_calc.features.design.region import true_region
 from abu_calc.features.design.start_search import with_searched
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
 from abu_calc.features.design.verification import Proven, proven
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, LowerBound, lower_bound, with_starts
+from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
-from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
 from abu_calc.features.grinding.work import Work, loaded_levels, work_of
 from abu_calc.features.seats.records import SeatResult, seat_results
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
@@ -120,6 +121,7 @@ class SizeResult(Result):
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
     effective_mass_kg: Annotated[float, Quantity("effective mass at the wheel", "m_eff")]
+    body: BodyRecord
     frequency: Frequency
     idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
@@ -201,6 +203,7 @@ def size(
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
         effective_mass_kg=need.effective_mass,
+        body=BodyRecord.of(design),
         frequency=Frequency.of(design, region),
         idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
         imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
@@ -215,7 +218,8 @@ def size(
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=replace(
-            Vibration.of(design.idle, design.speed_levels, design.case.speed), at_idle_speed=IdleSpeedLevels.of(design)
+            Vibration.of(design.idle, design.speed_levels, design.case.speed, design.bands),
+            at_idle_speed=IdleSpeedLevels.of(design),
         ),
         vibration_loaded=None
         if loaded is None
