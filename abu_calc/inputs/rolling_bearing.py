@@ -131,9 +131,9 @@ class RollingBearing(Table):
     )
     internal_clearance: ClearanceGroup | None = Field(
         default=None,
-        description="Group of internal clearance: C2, CN, C3, C4 or C5 (ISO 5753-1), also of pairs of tapered bearings. "
-        "Pairs of angular contact bearings of 40° have CA, CB, CC, or with preload GA, GB, GC. When "
-        "given, by this key or the designation's suffix, the clearance left after mounting is checked.",
+        description="Group of internal clearance: C2, CN, C3, C4 or C5 (ISO 5753-1), also of tapered pairs. Pairs of "
+        "angular contact bearings of 40° have CA, CB, CC, or with preload GA, GB, GC. When given, by this key or the "
+        "designation's suffix, the clearance left after mounting is checked.",
         examples=["C3"],
     )
 
