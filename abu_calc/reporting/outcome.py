@@ -113,7 +113,7 @@ def document(outcome: Outcome) -> dict[str, Any]:
         "abu": _head(outcome.command, outcome.provenance),
         "input": outcome.provenance.input,
         "status": outcome.status,
-        "checks": [_as_json(check) for check in outcome.checks],
+        "checks": [asdict(check) for check in outcome.checks],
         "result": outcome.result,
         "model": outcome.model,
         "warnings": list(outcome.warnings),
@@ -141,14 +141,6 @@ def _today() -> "Provenance":
     from abu_calc.simulation.result import Provenance
 
     return Provenance.today()
-
-
-def _as_json(check: Check) -> dict[str, Any]:
-    """A check as JSON has it; `requested` stands in those alone that the status does not wait for."""
-    facts = asdict(check)
-    if check.requested:
-        del facts["requested"]
-    return facts
 
 
 def _head(command: str, provenance: "Provenance") -> dict[str, Any]:
