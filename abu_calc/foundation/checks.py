@@ -126,13 +126,26 @@ class Check:
     bound: Literal["most", "least"] = "most"
     overrides: tuple[str, ...] = ()
     """Entries of the file that the action replaces, such as "machine.mass_kg=5.6"; `--set` takes each."""
-    requested: bool = True
-    """False of a check whose data are optional and missing: NOT EVALUATED, but the status does not wait for it."""
+
+    @property
+    def requested(self) -> bool:
+        """False of a check whose data are optional and missing: the status does not wait for it."""
+        return True
 
     def with_action(self, action: "Action | str | None") -> "Check":
         """The check with another action."""
         text, overrides = parts_of(action)
         return replace(self, remedy=text, overrides=overrides)
+
+
+@dataclass(frozen=True)
+class OptionalCheck(Check):
+    """A check that was not done since its optional data are missing."""
+
+    @property
+    def requested(self) -> bool:
+        """The status does not wait for it."""
+        return False
 
 
 def parts_of(action: Action | str | None) -> tuple[str | None, tuple[str, ...]]:
@@ -153,7 +166,9 @@ def coded(
     name = CHECK_CODES[code].name
     text, overrides = parts_of(remedy)
     titled = f"{name}, {of}" if of else name
-    return Check(code, titled, status, message, value, limit, unit, text, bound, overrides, requested)
+    if not requested:
+        return OptionalCheck(code, titled, status, f"{message} (optional)", value, limit, unit, text, bound, overrides)
+    return Check(code, titled, status, message, value, limit, unit, text, bound, overrides)
 
 
 def overall(checks: Iterable[Check]) -> Status:

@@ -131,9 +131,9 @@ class RollingBearing(Table):
     )
     internal_clearance: ClearanceGroup | None = Field(
         default=None,
-        description="Group of internal clearance: C2, CN, C3, C4 or C5 (ISO 5753-1) of ball and roller bearings and of "
-        "pairs of tapered ones; CA, CB, CC or the preload GA, GB, GC of pairs of angular contact bearings of 40°. When "
-        "given, by this key or the designation's suffix, the clearance left after mounting is checked.",
+        description="Group of internal clearance: C2, CN, C3, C4 or C5 (ISO 5753-1), also of tapered pairs. Pairs of "
+        "angular contact bearings of 40° have CA, CB, CC, or with preload GA, GB, GC. When given, by this key or the "
+        "designation's suffix, the clearance left after mounting is checked.",
         examples=["C3"],
     )
 
@@ -189,8 +189,8 @@ class Bearing(RollingBearing):
 
     position_mm: float | None = Field(
         default=None,
-        description="Place of the bearing along the spindle from the wheel's centre, positive toward the machine [mm], "
-        "{usual} either way. With the places of two bearings, `abu size` computes their life with and without the "
+        description="Place of the bearing along the spindle from the wheel's centre, positive toward the machine [mm]; "
+        "{range}. With the places of two bearings, `abu size` computes their life with and without the "
         "autobalancer.",
         examples=[40.0],
         ge=-10_000,

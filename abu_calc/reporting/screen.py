@@ -38,7 +38,10 @@ def one_screen(
     lines that are left then, `picture` draws what it can, below the body.
     """
     passed = [Paragraph(_passed(result.checks))] if result.checks else []
-    last: list[Block] = [BLANK, *passed, *not_requested(result.checks), Paragraph(_next(result, more))]
+    last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
+    optional = not_requested(result.checks)
+    if LINES - height([*about, *optional, *last]) >= 2 * LEAST:  # else the whole report alone lists them
+        last[1:1] = optional
     warnings, groups = warning_lines(result.warnings), unlike(result.checks)
     room = LINES - height([*about, *last])
     kept = min(2 + taken_by(warnings), LEAST) if warnings else 0

@@ -114,7 +114,7 @@ ESTIMATE_ERROR: Final = {
 
 @formula(
     "Load ratings estimated from the dimensions of a bearing",
-    "C = c_C·(D − d)^α_C·((d + D)/2)^β_C·B^γ_C",
+    "C = c_C·(D_o − d)^α_C·((d + D_o)/2)^β_C·B^γ_C",
     "kN",
     where=(
         "C and C0 are in kN, lengths in mm. Coefficient and exponents are fitted for each type to the catalogue rows. "

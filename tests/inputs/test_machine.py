@@ -103,6 +103,8 @@ def test_defaults_in_force_are_listed(tmp_path: Path) -> None:
         "bearing[0].shaft_material": "steel",
         "bearing[0].housing_material": "steel",
         "bearing[0].housing_split": False,
+        "bearing[0].short_pairs_warn_percent": 1.0,
+        "bearing[0].short_pairs_fail_percent": 5.0,
         "bearing[0].bearing_class": "0",
         "limits.settling_time_s": 1,
     }

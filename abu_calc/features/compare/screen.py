@@ -71,7 +71,11 @@ def compare_screen(result: CompareResult) -> tuple[Block, ...]:
     tables: list[Block] = [BLANK, Paragraph(NOTHING)]
     if result.differences:
         tables = _shared_out(result, room - kept)
-    rest = _reasons(result, room - height(tables) - 1)
+    below = room - height(tables) - 1
+    rest = _reasons(result, below)
+    over = height([*top, *tables, *rest, *last]) - LINES  # headings take more room below a table than alone
+    if over > 0:
+        rest = _reasons(result, below - over)
     return (*top, *tables, *rest, *last)
 
 

@@ -26,6 +26,8 @@ _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
 _MOST: Final = 0.5
 _KEPT: Final = 0.995
+_TRACE: Final = 0.01
+"""Share of short pairs [%] below which no digits are shown."""
 _SMALL: Final = 0.006
 """Bores [m] of rings that are bonded rather than pressed."""
 _ROLLER_SAFETY: Final = 1.5
@@ -181,10 +183,9 @@ def _fewer(joint: Joint, recommended: str | None) -> str | None:
     best = joint.with_class(recommended) if recommended else None
     if best is None or best.short_pairs is None or joint.short_pairs is None or best.short_pairs >= joint.short_pairs:
         return _remedy(joint, None) if recommended is None else None
-    return (
-        f"Specify {recommended}: the share of short pairs falls from {100 * joint.short_pairs:.3g} to "
-        f"{100 * best.short_pairs:.2g} % (calculated)."
-    )
+    before, after = 100 * joint.short_pairs, 100 * best.short_pairs
+    reached = f"{after:.2g}" if after >= _TRACE else f"under {_TRACE:g}"
+    return f"Specify {recommended}: the share falls from {before:.3g} to {reached} % (calculated)."
 
 
 def _raceway(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:

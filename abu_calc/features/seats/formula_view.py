@@ -7,6 +7,7 @@ from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.joint import CENTRIFUGAL, TEMPERATURE, Joint, inner_ring_diameter
 from abu_calc.features.seats.joints import warm_parts
 from abu_calc.features.seats.notes import SHOCK_FACTOR
+from abu_calc.features.seats.rating_life import exponent
 from abu_calc.features.seats.records import Clearance, SeatResult, um, um_pair
 from abu_calc.features.seats.seats import BearingSeats
 from abu_calc.foundation.units import from_si
@@ -20,6 +21,7 @@ def seat_numbers(bearings: Sequence[BearingSeats], seats: Sequence[SeatResult]) 
         for seat, fit in ((shaft, bearing.shaft), (housing, bearing.housing)):
             lines += [f"{seat.seat}: {line}" for line in _seat(bearing.bearing, fit.joint, seat)]
         lines += _clearance(bearing, shaft.internal_clearance)
+        lines += _life(bearing, shaft)
     return tuple(lines)
 
 
@@ -75,9 +77,12 @@ def _losses(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str
         for loss in seat.losses
         if loss.name in numbers and "unverified" not in loss.formula
     )
-    if seat.needed_um is None:
+    if seat.needed_um is None or not joint.criteria:
         return lines
-    return (*lines, f"required with the losses: {_g(seat.needed_um)} µm")
+    larger = um(max(bound.value for bound in joint.criteria))
+    kept = f"/{_g(joint.pressure_kept)}" if joint.pressure_kept < 1 else ""
+    losses = f" + {_g(um(joint.counted_losses))}" if joint.counted_losses else ""
+    return (*lines, f"required: {_g(larger)}{kept}{losses} = {_g(seat.needed_um)} µm, losses included")
 
 
 def _warm(bearing: SeatedBearing, joint: Joint) -> str:
@@ -114,6 +119,24 @@ def _clearance(bearing: BearingSeats, left: Clearance | None) -> tuple[str, ...]
         f"clearance of group {left.group}: {_span(left.initial_um)} µm less {rates} of the interferences and "
         f"{_g(left.by_temperature_um)} µm of temperature = {_span(left.mounted_um)} µm, mean {_g(left.mean_um)}",
     )
+
+
+def _life(bearing: BearingSeats, seat: SeatResult) -> tuple[str, ...]:
+    """Lines of the bearing itself, as far as its data go."""
+    life, service = bearing.life, bearing.bearing.service
+    if life.static_safety is None or seat.static_load_kN is None or seat.equivalent_load_kN is None:
+        return ()
+    C, P = seat.dynamic_load_rating_kN or 0.0, seat.equivalent_load_kN
+    lines = [f"C0/P0 = {_g(seat.static_load_rating_kN or 0.0)}/{_g(seat.static_load_kN)} = {_g(life.static_safety)}"]
+    if seat.basic_rating_life_h is not None and service.speed and bearing.bearing.kind is not None:
+        turns, power = _g(from_si(service.speed, "rpm")), _g(exponent(bearing.bearing.kind))
+        lines.append(f"10⁶/(60·{turns})·({_g(C)}/{_g(P)})^{power} = {_g(seat.basic_rating_life_h)} h")
+    modified, viscosity = seat.modified_rating_life_h, service.viscosity
+    if life.kappa is not None and life.a_iso is not None and viscosity is not None and modified is not None:
+        given = from_si(viscosity, "mm2_per_s")
+        ratio = f"{_g(given)}/{_g(given / life.kappa)} = {_g(life.kappa)}"
+        lines.append(f"κ_v = {ratio}, a_ISO = {_g(life.a_iso)}, modified life {_g(modified)} h")
+    return tuple(lines)
 
 
 def _mm(length: float) -> str:

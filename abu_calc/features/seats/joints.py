@@ -99,6 +99,8 @@ def makers_classes(bearing: SeatedBearing, seat: Seat, thin: bool = False) -> Ma
         return None
     thin = bearing.housing.material in _LIGHT if bearing.kind == "drawn-cup" else thin
     kind = bearing.kind or "ball"
+    if bearing.no_inner_ring and seat == "shaft":
+        kind = "drawn-cup"  # the shaft is the raceway of machined rings, too
     return maker_fits(seat, kind, ring.load, ratio, ring.diameter, bearing.bearing_class, split, thin)
 
 

@@ -113,7 +113,7 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
         return _unknown(bearing, "no life can be computed", "Specify designation and speed_rpm.")
     message = (
         f"without the autobalancer {from_si(lives[0], 'h'):.3g} h under {from_si(without, 'kN'):.3g} kN, with it under "
-        f"{from_si(with_it, 'kN'):.3g} kN; the loads are those of imbalance, residual imbalance and press force alone"
+        f"{from_si(with_it, 'kN'):.3g} kN; the loads are imbalance, residual imbalance and the normal force at work"
     )
     found = Lives(without, with_it, lives[0], lives[1])
     return LifeInUse(found, (life_check("ABU636", bearing, lives[1], message),))

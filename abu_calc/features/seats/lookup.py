@@ -79,7 +79,7 @@ def from_table(table: "BearingTable") -> SeatedBearing:
         series=table.series or (size.series if size.designation else "light"),
         internal_clearance=group,
         asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
-        remarks=(*_taken_as(table, size, like), *_lent(lent), *rated),
+        remarks=(*_angle(identity, group), *_taken_as(table, size, like), *_lent(lent), *rated),
         designation=size.designation or None,
         entry=entry,
         no_inner_ring=identity.kind == "drawn-cup" or size.designation.startswith("RNA"),
@@ -155,6 +155,12 @@ def _lent(like: Dimensions | None) -> tuple[str, ...]:
     return (f"No chamfer is given: that of {like.designation}, which has the same sizes, is taken.",)
 
 
+def _angle(identity: _Found, group: str | None) -> tuple[str, ...]:
+    if identity.kind != "angular-contact" or group is None or identity.size.designation:
+        return ()
+    return ("The contact angle of the pair is taken as 40°.",)
+
+
 def _taken_as(table: "BearingTable", size: Dimensions, like: Dimensions | None) -> tuple[str, ...]:
     if size.designation or table.bearing_type is not None or like is None:
         return ()
@@ -212,10 +218,19 @@ def _check_group(group: str | None, identity: _Found, table: "BearingTable") -> 
             allowed="ball, angular-contact, cylindrical, tapered, spherical, needle",
             remedy='Give bearing_type = "ball" where it is a deep groove ball bearing, or its designation.',
         )
+    designation = identity.size.designation
+    if identity.kind == "angular-contact" and designation and not designation.endswith("B"):
+        raise InputError(
+            "the groups of pairs are tabulated for a contact angle of 40° alone (suffix B)",
+            place=Place(key="internal_clearance"),
+            found=f"{group} of {designation}",
+            remedy="Leave internal_clearance out: its maker gives the preload of this pair.",
+        )
     known = groups_of(identity.kind)
     if group in known:
         return
-    what = identity.size.designation or f"a {identity.kind} bearing"
+    article = "an" if identity.kind[0] == "a" else "a"
+    what = identity.size.designation or f"{article} {identity.kind} bearing"
     why = f"that of {what} is one of {', '.join(known)}" if known else f"{what} has no group: its housing sets it"
     raise InputError(
         f"{what} has no clearance group of this name",

@@ -164,7 +164,18 @@ def ledger(joint: Joint) -> tuple[Item, ...]:
     """
     needs = joint.required.by if joint.required else None
     items = [Item(InterferenceLoss("load", bound.value, bound.by), bound.by == needs) for bound in joint.criteria]
+    if joint.criteria and joint.pressure_kept < 1:
+        larger = max(bound.value for bound in joint.criteria)
+        lost = larger * (1 / joint.pressure_kept - 1)
+        items.append(Item(InterferenceLoss("pressure", lost, "of the load, over the share of the pressure kept"), True))
+    warmest = max(joint.thermal_cases, key=lambda case: case.loss)
+    if warmest.name in ("lowest", "highest"):
+        formula_text = f"d·(α₂·ΔT₂ − α₁·ΔT₁) at the {warmest.name} temperature"
+        items.append(Item(InterferenceLoss(TEMPERATURE, warmest.loss, formula_text), warmest.loss > 0))
     for loss in joint.losses:
+        if loss.name == TEMPERATURE and warmest.name in ("lowest", "highest"):
+            items.append(Item(loss, False))
+            continue
         items.append(Item(loss, loss.value > 0 or loss.name != TEMPERATURE))
         if loss.name == "smoothing":
             value = catalogue_smoothing_loss(joint.interference.smallest, joint.diameter)

@@ -54,7 +54,7 @@ SHOWN: Final = {"required_interference_um": "needed_um", "required_by": "needed_
 CONVENTION = (
     "Interference; negative: clearance. Limits count from the nominal size, lower … upper. Probable "
     "interference: mean ∓ root of the sum of squared half tolerances, outward to whole µm. Parts: ISO 286-2:2010, "
-    "rings: ISO 492 / GOST 520."
+    "rings: ISO 492:2014 / GOST 520-2011, not held against ISO 492:2023."
 )
 
 

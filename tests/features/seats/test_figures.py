@@ -1,10 +1,13 @@
 """Figures of bearing seats: sketches, tolerance zones, interference and clearance."""
 
+import pytest
+
+from abu_calc.features.seats.command import NAMES
 from abu_calc.features.seats.figures import check_fit_figures, seat_sheets, zones_drawing
 from abu_calc.features.seats.study import check_fit
-from abu_calc.inputs.read_machine import read_machine
+from abu_calc.inputs.read_machine import machine_of_bearings, read_machine
 from abu_calc.reporting.charts.chart import Bars
-from abu_calc.reporting.drawings.shapes import Length, Region, Text
+from abu_calc.reporting.drawings.shapes import Arc, Length, Region, Text
 from tests.reporting.drawings.overlaps import check_clear
 
 
@@ -44,3 +47,33 @@ def test_bars_of_interference_start_and_end_at_its_limits() -> None:
     assert rows["shaft: permitted"].start == shaft.needed_um
     assert rows["housing: permitted"].start == chart.axis.low  # a ring that needs no interference has no least one
     assert rows["housing: permitted"].value == housing.permitted_interference_um
+
+
+def drawn(designation: str, **changes: object) -> list[object]:
+    bearing = {"designation": designation, "radial_load_kN": 1.0} | changes
+    (drawing,) = seat_sheets(check_fit(machine_of_bearings([bearing], NAMES)))
+    check_clear(drawing)
+    return list(drawing.shapes)
+
+
+@pytest.mark.parametrize("name", ["6205", "7205B"])
+def test_balls_are_drawn_with_balls(name: str) -> None:
+    assert sum(isinstance(shape, Arc) for shape in drawn(name)) == 2
+
+
+@pytest.mark.parametrize("name", ["30205", "22205", "NU205", "NA4905", "HK2512"])
+def test_rollers_are_not_drawn_with_balls(name: str) -> None:
+    shapes = drawn(name)
+    assert not [shape for shape in shapes if isinstance(shape, Arc)]
+    inner = [shape for shape in shapes if isinstance(shape, Region) and shape.name == "inner ring"]
+    assert len(inner) == (0 if name == "HK2512" else 2)
+
+
+def test_one_class_stands_on_each_diameter_and_limits_are_in_mm() -> None:
+    """6205 on m6 as given, though k5 is advised: the drawing has m6 alone; GOST 3325 is not on it."""
+    shapes = drawn("6205", shaft_fit="m6", housing_fit="N7")
+    words = " ".join(
+        f"{shape.text} {getattr(shape, 'below', '')}" for shape in shapes if isinstance(shape, (Text, Length))
+    )
+    assert "Ø25 m6 (+0.021 / +0.008)" in words and "Ø52 N7" in words
+    assert "k5" not in words and "H7" not in words and "GOST" not in words and "µm" not in words

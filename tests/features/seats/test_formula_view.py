@@ -43,3 +43,12 @@ def test_the_standard_deviation_is_a_third_of_the_spread() -> None:
     lines = seat_numbers(judged.judged[:1], judged.seats[:2])
     (line,) = (line for line in lines if line.startswith("shaft: P(clearance)"))
     assert "Φ(−(19)/4.035) = 1.2" in line and "σ = √(9.5² + 7.5²)/3" in line
+
+
+def test_the_life_of_the_bearing_is_computed_from_the_numbers_shown() -> None:
+    seen = abu(
+        "check-fit", "--designation", "6210", "--radial-load-kN", "3", "--speed", "3000", "--lubricant-viscosity",
+        "20", "--explain",
+    )  # fmt: skip
+    assert "10⁶/(60·3000)·(37.1/3)^3 = 1.051e+04 h" in seen.out and "C0/P0 = 23.2/3 = 7.733" in seen.out
+    assert "κ_v = 20/9.82 = 2.037" in seen.out

@@ -38,9 +38,11 @@ def test_suffixes_of_the_designation_count(written: str, read: str | None) -> No
 
 
 def test_a_group_of_a_bearing_that_has_none_is_refused() -> None:
-    for name, group in (("46206", "CN"), ("7206B", "C3"), ("6203", "CB"), ("HK1010", "CN")):
+    for name, group in (("7206B", "CN"), ("7206B", "C3"), ("6203", "CB"), ("HK1010", "CN")):
         with pytest.raises(InputError, match="no clearance group of this name"):
             seat_bearing(by_designation(name, internal_clearance=group))
+    with pytest.raises(InputError, match="40° alone"):
+        seat_bearing(by_designation("7005C", internal_clearance="CB"))
     assert seats(internal_clearance=None).clearance is None
     assert seats(internal_clearance="CN", bearing_type="ball").clearance is not None
     with pytest.raises(InputError, match="without the type"):

@@ -281,3 +281,16 @@ def test_a_recommended_class_never_fails_a_check_of_its_seat(name: str, service:
             if fit.recommended_fit is not None:
                 failed = [c for c in again.checks if c.status == "fail" and c.code.removeprefix("ABU") in codes]
                 assert not failed, (ratio, fits, failed)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"shaft_bore_mm": 40.0},
+        {"temperature_range_K": (-40.0, 90.0), "shaft_material": "aluminium", "speed_rpm": 5000.0},
+    ],
+)
+def test_the_counted_losses_add_up_to_the_required_interference(changes: dict[str, Any]) -> None:
+    found = judged("6210", radial_load_kN=3, shaft_rz_um=2.0, **changes)
+    counted = sum(item.loss.value for item in found.shaft.ledger if item.counted)
+    assert counted == pytest.approx(found.shaft.required_interference, rel=1e-12)
