@@ -17,6 +17,7 @@ SI_PER_UNIT: Final[dict[str, float]] = {
     "mm": 1e-3,
     "um": 1e-6,
     "m": 1.0,
+    "mil": 25.4e-6,
     "g": 1e-3,
     "kg": 1.0,
     "g_mm": 1e-6,
@@ -40,6 +41,8 @@ SI_PER_UNIT: Final[dict[str, float]] = {
     "mm_per_s": 1e-3,
     "m_per_s": 1.0,
     "m_per_s2": 1.0,
+    "ips": 25.4e-3,
+    "g_n": GRAVITY,
     "kg_m2": 1.0,
     "K": 1.0,
 }
@@ -58,6 +61,7 @@ SYMBOLS: Final[dict[str, str]] = {
     "mm_per_s": "mm/s",
     "m_per_s": "m/s",
     "m_per_s2": "m/s²",
+    "g_n": "g",
     "kg_m2": "kg·m²",
     "db": "dB",
 }

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.case import balancing, deviations, record_warnings, taken_runs, unit_of_readings
+from abu_calc.features.balancing.case import balancing, deviations, record_warnings, taken_runs
 from abu_calc.features.balancing.tables import Errors
 from abu_calc.foundation.errors import InputError
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, written
@@ -33,7 +33,7 @@ def test_a_run_is_in_si(tmp_path: Path, quantity: str, scale: float) -> None:
     (weight,) = run.weights
     assert (weight.plane, weight.mass, weight.radius) == (1, pytest.approx(4e-3), pytest.approx(0.15))
     assert weight.imbalance == pytest.approx(6e-4 * (0.5 - 1j * math.sqrt(0.75)))
-    assert record_warnings(taken) == [] and unit_of_readings("displacement") == "mm"
+    assert record_warnings(taken) == [] and taken.instrument.quantity == quantity
 
 
 def test_the_roll_is_known_only_with_the_rig(tmp_path: Path) -> None:

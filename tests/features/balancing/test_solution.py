@@ -36,13 +36,13 @@ def test_shares_stand_at_the_places_given(tmp_path: Path) -> None:
     assert gone == pytest.approx(7 * np.exp(1j * math.radians(320)), rel=1e-9)
 
 
-def test_the_grade_is_shared_by_the_centre_of_mass(tmp_path: Path) -> None:
-    """9549·6.3·64/3000 g·mm in all, the nearer plane more."""
+def test_the_grade_is_shared_to_the_bearings(tmp_path: Path) -> None:
+    """9549·6.3·64/3000 g·mm in all, the bearing nearer to the centre of mass more."""
     shop, grade = Workshop(), '[tolerance]\nbalance_grade = "G6.3"'
     document = abu("balance", written(tmp_path, RIG, ROTOR, shop.run(), grade), "--json").document
     result, whole = document["result"], 9549.3 * 6.3 * 64 / 3000
     assert result["residual_check"]["permitted_g_mm"] == pytest.approx(whole, rel=1e-4)
-    assert result["left"]["permitted_g_mm"] == pytest.approx(whole * 0.61 / 1.13, rel=1e-4)
+    assert result["left"]["permitted_g_mm"] == pytest.approx(whole * 0.81 / 1.48, rel=1e-4)
     assert all(share["status"] == "pass" for share in document["checks"] if share["code"] == "ABU1005")
     assert any("service_speed_rpm is not given" in line for line in document["warnings"])
     fine = abu("balance", written(tmp_path, RIG, ROTOR, shop.run(), '[tolerance]\nbalance_grade = "G0.4"'), "--json")

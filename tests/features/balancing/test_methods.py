@@ -18,7 +18,8 @@ from abu_calc.features.balancing.formulas import (
     natural_frequencies,
     support_damping,
 )
-from abu_calc.features.balancing.two_planes import Balancing, RunOnRig, Solution, TrialMass, method_of, solved
+from abu_calc.features.balancing.methods import Solution, method_of, solved
+from abu_calc.features.balancing.runs import Balancing, RunOnRig, TrialMass
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Simulated, Workshop, trial, turned, written
 
 ROLL = RollOnRig(18, 21, 3e5, 3.6e5, 0, 64, 9.5, 0.15, 0.52, 0.61, 0.2)
