@@ -182,7 +182,7 @@ def listed(value: object) -> object:
 class Run(Table):
     """A run on the rig at steady speed; several are averaged as vectors."""
 
-    shown_in_template: ClassVar[frozenset[str]] = frozenset({"speed_rpm", "left", "right"})
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"speed_rpm", "quantity", "phase", "left", "right"})
 
     speed_rpm: float | None = Field(
         default=None,
