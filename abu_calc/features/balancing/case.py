@@ -105,7 +105,7 @@ def making_of(file: ReadingsFile) -> Making:
         most = None if how.max_hole_depth_mm is None else to_si(how.max_hole_depth_mm, "mm")
         drill = Drill(
             to_si(how.drill_diameter_mm, "mm"), how.density, how.drill_direction == "radial",
-            math.radians(how.drill_point_deg), most,
+            math.radians(how.drill_point_deg or 180.0), most,
         )  # fmt: skip
 
     def grams(value: float | None) -> float | None:

@@ -75,15 +75,17 @@ class Correction(Table):
         le=1000,
         json_schema_extra=usual(1, 100),
     )
-    drill_direction: Literal["axial", "radial"] = Field(
-        default="axial",
+    drill_direction: Literal["axial", "radial"] | None = Field(
+        default=None,
         description="axial: the middle of a hole is at the correction radius. radial: a hole begins there and goes "
-        "inward. Default: {default}.",
+        "inward. Without it: axial.",
+        examples=["axial"],
     )
-    drill_point_deg: float = Field(
-        default=180.0,
-        description="Angle of the drill's point [degrees]; {range}. The depth is that of the full diameter. Default: "
-        "{default}, a flat bottom.",
+    drill_point_deg: float | None = Field(
+        default=None,
+        description="Angle of the drill's point [degrees]; {range}. The depth counts to the tip. Without it: 180, a "
+        "flat bottom.",
+        examples=[118.0],
         ge=60,
         le=180,
     )
@@ -104,8 +106,8 @@ class Correction(Table):
         le=1e4,
         json_schema_extra=usual(2, 500),
     )
-    material: Literal["steel", "cast iron", "aluminium", "brass", "bronze", "titanium"] = Field(
-        default="steel", description="Material that is drilled. Default: {default}."
+    material: Literal["steel", "cast iron", "aluminium", "brass", "bronze", "titanium"] | None = Field(
+        default=None, description="Material that is drilled. Without it: steel.", examples=["steel"]
     )
     density_kg_per_m3: float | None = Field(
         default=None,
@@ -125,7 +127,7 @@ class Correction(Table):
     @property
     def density(self) -> float:
         """Density of the material [kg/m³]."""
-        return DENSITIES[self.material] if self.density_kg_per_m3 is None else self.density_kg_per_m3
+        return DENSITIES[self.material or "steel"] if self.density_kg_per_m3 is None else self.density_kg_per_m3
 
     @model_validator(mode="after")
     def _drills_or_adds(self) -> Self:
@@ -158,7 +160,7 @@ class Tolerance(Table):
 class ReadingsFile(Table):
     """Readings of a rotor on a rig or in the field, for balancing in one plane or in two."""
 
-    shown_in_template: ClassVar[frozenset[str]] = frozenset({"rig", "rotor", "errors"})
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"rig", "rotor", "errors", "correction"})
 
     rig: Rig | None = None
     rotor: Rotor = Field(default_factory=Rotor)
