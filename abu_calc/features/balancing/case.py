@@ -61,9 +61,7 @@ def _taken(readings: Readings, file: ReadingsFile, index: int, run: Run) -> Take
     amplitudes = tuple(instrument.amplitude(reading.amplitude) for reading in values)
     phases = tuple(sense * math.radians(each.phase_deg) for each in values if each.phase_deg is not None)
     names = tuple(name for name, _ in run.sensors)
-    made = RunOnRig(
-        given, instrument.quantity, amplitudes, phases, sensor, weights, planes=len(file.planes)
-    )
+    made = RunOnRig(given, instrument.quantity, amplitudes, phases, sensor, weights, planes=len(file.planes))
     return Taken(made, instrument, names, run.phase)
 
 

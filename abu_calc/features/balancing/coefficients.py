@@ -78,8 +78,6 @@ class CoefficientsFile(Table):
     coefficients: CoefficientsTable
 
 
-
-
 @dataclass(frozen=True)
 class Stored:
     """Influence coefficients of a file, and what they are of."""
@@ -146,7 +144,7 @@ def coefficients_text(rotor: str, planes: Sequence[str], sensors: Sequence[str],
 
     at = [
         {
-            "speed_rpm": from_si(speed, "rpm"),
+            "speed_rpm": float(f"{from_si(speed, 'rpm'):.12g}"),
             "influence_um_per_g_mm": [[[_told(value.real), _told(value.imag)] for value in row] for row in matrix],
             "standard_error_um_per_g_mm": [[_told(error) for error in row] for row in errors],
         }

@@ -98,7 +98,10 @@ def hole_depth(drill: Drill, mass: float, radius: float) -> float | None:
     >>> round(1e3 * hole_depth(Drill(0.010, 7850.0), 0.006165, 0.1), 2)
     10.0
     """
-    low, high = 0.0, radius if drill.radial else 2 * mass / (drill.density * math.pi * drill.diameter**2 / 4) + drill.tip
+    low, high = (
+        0.0,
+        radius if drill.radial else 2 * mass / (drill.density * math.pi * drill.diameter**2 / 4) + drill.tip,
+    )
     if hole_mass(drill, high, radius) < mass:
         return None
     for _ in range(100):
@@ -200,7 +203,9 @@ def _limited(
     """
     found = [(action, place) for action in actions for place in places]
     ways = [cmath.rect(1.0 if action == "remove" else -1.0, place) for action, place in found]
-    caps = [math.inf if limit is None else limit for action, _ in found for limit in [off if action == "remove" else on]]
+    caps = [
+        math.inf if limit is None else limit for action, _ in found for limit in [off if action == "remove" else on]
+    ]
     costs = [1 + 1e-6 * (k + 0.1 * k * k) for k in range(len(ways))]  # unlike, so that one solution is the least
     for i, j in combinations(range(len(ways)), 2):
         whole = _cross(ways[i], ways[j])

@@ -78,7 +78,7 @@ def method_of(case: Balancing) -> Method:
     if not case.runs[0].phases:
         tells_without_phase(case)
         return "runs without phase"
-    lacking = next((lack for group in case.speed_groups if (lack := _lacking(case, group))), None)
+    lacking = next((lack for group in case.speed_groups if (lack := lacking_at(case, group))), None)
     if lacking is None:
         return "trial masses"
     if case.roll is not None:
@@ -91,8 +91,8 @@ def method_of(case: Balancing) -> Method:
     raise lacking
 
 
-def _lacking(case: Balancing, group: Sequence[int]) -> InputError | None:
-    """What the trial runs of a speed lack to give influence coefficients."""
+def lacking_at(case: Balancing, group: Sequence[int]) -> InputError | None:
+    """Error that says what the trial runs of a speed lack to give influence coefficients; None if they suffice."""
     runs = [case.runs[index] for index in group]
     trials = np.array([[*run.placed, 1.0] for run in runs], dtype=complex)
     scale = np.abs(trials).max(axis=0)
@@ -114,14 +114,15 @@ def _lacking(case: Balancing, group: Sequence[int]) -> InputError | None:
         return InputError(
             "the trial runs do not give the influence of the plane", place=Place(key="run"), found=found,
             allowed="two runs at least: one without a trial and one with",
-            remedy=f"add a run with a trial mass: trial = {{ mass_g, angle_deg }}.{several}",
+            remedy="add a run with a trial mass: trial = { mass_g, angle_deg }. Stored coefficients do without: "
+            f"--coefficients FILE.{several}",
         )  # fmt: skip
     unknown = "" if any(run.weights for run in case.runs) else ": without [rig] the rig is not known"
     return InputError(
         f"the trial runs do not distinguish the planes{unknown}", place=Place(key="run"), found=found,
         allowed="three runs at least: one without a trial and one with a trial in each plane, or others as different"
         f"{', all at one speed' if several else ''}",
-        remedy=f"add runs, or [rig] with its data.{several}",
+        remedy=f"add runs, or [rig] with its data. Stored coefficients do without: --coefficients FILE.{several}",
     )  # fmt: skip
 
 

@@ -8,10 +8,11 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from abu_calc.features.balancing.case import Taken
+from abu_calc.features.balancing.case import balancing, taken_runs
 from abu_calc.features.balancing.formulas import Matrix, influence
-from abu_calc.features.balancing.methods import method_of
-from abu_calc.features.balancing.runs import Balancing, RunOnRig
+from abu_calc.features.balancing.methods import lacking_at, method_of
+from abu_calc.features.balancing.read import Readings
+from abu_calc.features.balancing.runs import Balancing, RunOnRig, TrialMass
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.features.balancing.tolerance import bearing_levers
 from abu_calc.foundation.errors import InputError
@@ -86,9 +87,7 @@ def bearing_loads(file: ReadingsFile) -> tuple[float, ...] | None:
     )
 
 
-def proposals(
-    file: ReadingsFile, runs: Sequence[RunOnRig], matrix: Matrix | None
-) -> tuple[TrialProposal, ...]:
+def proposals(file: ReadingsFile, runs: Sequence[RunOnRig], matrix: Matrix | None) -> tuple[TrialProposal, ...]:
     """A trial mass for each plane at the highest speed of the runs; `matrix`: influence of the planes, if known."""
     loads = bearing_loads(file)
     if loads is None or not runs:
@@ -124,76 +123,95 @@ def known_influence(case: Balancing) -> Matrix | None:
     return None if case.roll is None else influence(case.roll, case.runs[0].speed)
 
 
-def missing_runs(file: ReadingsFile, taken: Sequence[Taken], case: Balancing) -> tuple[str, ...]:
+@dataclass(frozen=True)
+class WantedRun:
+    """A run that is missing: its speed [rad/s], the plane of its trial mass (None: none), its angle [degrees], and the
+    trial mass that was used before in that plane.
+    """
+
+    speed: float
+    plane: int | None = None
+    angle: float = 0.0
+    before: TrialMass | None = None
+
+
+def missing_from(readings: Readings) -> tuple[str, ...]:
     """Sentences on what is missing for an answer, the next run first; empty if nothing is."""
+    file, taken = readings.tables, taken_runs(readings)
+    case = balancing(file, taken)
     try:
         method_of(case)
     except InputError as lack:
-        return (*_next(file, case), f"Then: {_rest_of(case)}" if _rest_of(case) else "", _reason(lack))
+        wanted = list(_wanted(case))
+        count = len(wanted) - 1
+        then = [f"Then {count} more run{'s' * (count > 1)}."] if count > 0 else []
+        stored = (
+            ["Stored coefficients need no trial runs: `abu balance --coefficients`."] if case.runs[0].phases else []
+        )
+        found = f" ({lack.found})" if lack.found else ""
+        reason = f"`abu balance` cannot answer yet: {lack.message}{found}."
+        return (*(line for run in wanted[:1] for line in _next(file, case, run)), *then, *stored, reason)
     return ()
 
 
-def _reason(lack: InputError) -> str:
-    found = f" ({lack.found})" if lack.found else ""
-    return f"Now `abu balance` would say: {lack.message}{found}."
-
-
-def _rest_of(case: Balancing) -> str:
-    """Number of runs behind the next one, in words."""
-    count = len(list(_wanted(case))) - 1
-    return f"{count} more run{'s' * (count > 1)}." if count > 0 else ""
-
-
-def _wanted(case: Balancing) -> Iterator[tuple[int | None, float]]:
-    """Runs that are missing: plane of the trial mass (None: none) and its angle [degrees], at the first speed that
-    lacks one.
-    """
+def _wanted(case: Balancing) -> Iterator[WantedRun]:
+    """Runs that are missing, speed by speed."""
+    if not case.runs[0].phases:
+        yield from _wanted_without_phase(case)
+        return
     for group in case.speed_groups:
         runs = [case.runs[index] for index in group]
-        if all(run.weights for run in runs) and not case.runs[0].phases:
-            yield None, 0.0
-        if not case.runs[0].phases:
-            used = {round(math.degrees(mass.angle)) % 360 for run in runs for mass in run.weights}
-            lacking = 3 - min(3, len({frozenset(run.weights) for run in runs if run.weights}))
-            free = [angle for angle in PLACES if round(angle) not in used] or [60.0]
-            yield from ((0, angle) for angle in free[: max(lacking, 1)])
-            return
+        if lacking_at(case, group) is None:
+            continue
+        speed = runs[0].speed
         placed = [plane for plane in range(case.planes) if any(run.placed[plane] for run in runs)]
-        if len(runs) <= len(placed) and all(run.weights for run in runs):
-            yield None, 0.0
-        yield from ((plane, 0.0) for plane in range(case.planes) if plane not in placed)
-        if len(placed) == case.planes and len(runs) > case.planes:
-            yield 0, 90.0
+        if all(run.weights for run in runs):
+            yield WantedRun(speed)
+        yield from (WantedRun(speed, plane) for plane in range(case.planes) if plane not in placed)
+        if len(placed) == case.planes and not all(run.weights for run in runs):  # one fixed ratio of the planes
+            yield WantedRun(speed, 0, 90.0)
 
 
-def _next(file: ReadingsFile, case: Balancing) -> Iterator[str]:
-    """The next run, with its trial mass."""
-    wanted = next(_wanted(case), None)
-    if wanted is None:
-        return
-    plane, angle = wanted
-    rpm = f"{from_si(case.runs[0].speed, 'rpm'):.0f} rpm"
-    if plane is None:
+def _wanted_without_phase(case: Balancing) -> Iterator[WantedRun]:
+    """Runs that are missing at the speed that has the most."""
+    runs = max(([case.runs[index] for index in group] for group in case.speed_groups), key=len)
+    speed = runs[0].speed
+    if all(run.weights for run in runs):
+        yield WantedRun(speed)
+    masses = [run.weights[0] for run in runs if run.weights]
+    start = math.degrees(masses[0].angle) if masses else 0.0
+    used = {round(math.degrees(mass.angle) - start) % 360 for mass in masses}
+    free = [angle for angle in PLACES if round(angle) not in used]
+    lacking = max(3 - len({(mass.mass, mass.angle) for mass in masses}), 0) or int(bool(masses and not free)) or 1
+    before = masses[0] if masses else None
+    for angle in (free or [60.0])[:lacking]:
+        yield WantedRun(speed, 0, (start + angle) % 360, before)
+
+
+def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[str]:
+    """Sentences on a run with its trial mass."""
+    rpm = f"{from_si(wanted.speed, 'rpm'):.0f} rpm"
+    if wanted.plane is None:
         yield f"Next run: {rpm}, without a trial mass."
         return
-    name = "" if file.single_plane is not None else f"{file.planes[plane]} plane, "
-    proposed = next((each for each in proposals(file, case.runs, known_influence(case)) if each.plane == plane), None)
+    name = "" if file.single_plane is not None else f"{file.planes[wanted.plane]} plane, "
+    angle = wanted.angle if file.rotor.angle_marks == "against" else -wanted.angle % 360
+    at = f"at {angle:.0f}°"
+    if wanted.before is not None:
+        yield f"Next run: {rpm}, {name}the trial mass of {from_si(wanted.before.mass, 'g'):.3g} g {at}."
+        return
+    own = [run for run in case.runs if run.speed == wanted.speed]
+    proposed = next((each for each in proposals(file, own, known_influence(case)) if each.plane == wanted.plane), None)
     if proposed is None:
-        yield f"Next run: {rpm}, {name}a trial mass at {angle:.0f}°."
+        yield f"Next run: {rpm}, {name}a trial mass {at}."
         yield "Give rotor.mass_kg to have a safe trial mass proposed."
         return
-    radius = file.radii_mm[plane]
     yield (
-        f"Next run: {rpm}, {name}trial mass {from_si(proposed.mass, 'g'):.3g} g at {angle:.0f}°, radius {radius:g} mm. "
-        f"Its centrifugal force is {100 * proposed.share:.2g} % of the bearing load (limit {100 * SAFE_SHARE:.0f} %)."
+        f"Next run: {rpm}, {name}trial mass {from_si(proposed.mass, 'g'):.3g} g {at}, radius "
+        f"{file.radii_mm[wanted.plane]:g} mm. Its centrifugal force is {100 * proposed.share:.2g} % of the bearing load "
+        f"(limit {100 * SAFE_SHARE:.0f} %)."
     )
-    if proposed.both is False and proposed.visible is not None:
-        yield (
-            f"A clear change of 30 % needs {from_si(proposed.visible, 'g'):.3g} g, which is more than the safe mass. "
-            "Repeat the runs and average them, or run at a lower speed."
-        )
-    elif proposed.visible is None:
-        yield (
-            "If no amplitude changes by 30 % and no phase by 30°, use more mass at a lower speed. If the vibration "
-            "rises, move the trial mass to the opposite side."
-        )
+    yield (
+        "The mass is visible if an amplitude changes by 30 % or a phase by 30°. If the vibration rises much, stop and "
+        "move the mass to the opposite side."
+    )

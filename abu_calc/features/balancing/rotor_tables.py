@@ -82,8 +82,7 @@ class Rotor(Table):
     )
     left_end_to_left_plane_m: Length | None = Field(
         default=None,
-        description="a, from the left bearing to the left plane [m]; {range}. "
-        "Negative: the plane is outside.",
+        description="a, from the left bearing to the left plane [m]; {range}. Negative: the plane is outside.",
         examples=[0.15],
         json_schema_extra=usual(0.01, 20),
     )
@@ -103,8 +102,7 @@ class Rotor(Table):
     )
     right_plane_to_right_end_m: Length | None = Field(
         default=None,
-        description="d, from the right plane to the right bearing [m]; {range}. "
-        "Negative: the plane is outside.",
+        description="d, from the right plane to the right bearing [m]; {range}. Negative: the plane is outside.",
         examples=[0.2],
         json_schema_extra=usual(0.01, 20),
     )
@@ -234,5 +232,3 @@ class SinglePlane(Table):
     def _places_span_the_plane(self) -> Self:
         refuse_one_line(self.places_deg, "places_deg")
         return self
-
-

@@ -325,7 +325,9 @@ class Run(Table):
         elif given:
             raise problem("a run is read or recorded, not both", given[0], remedy=f"leave {given[0]} out, or file")
         elif self.phase is not None:
-            raise problem("phase goes with readings only", "phase", remedy="leave phase out: records have no convention")
+            raise problem(
+                "phase goes with readings only", "phase", remedy="leave phase out: records have no convention"
+            )
         if "readings" in given and len(given) > 1:
             raise problem("readings list all sensors", given[0], remedy=f"leave {given[0]} out, or readings")
         names = [name for name, _ in self.sensors]

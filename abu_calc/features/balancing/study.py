@@ -169,14 +169,14 @@ def tolerance_result(balancing: Found) -> ToleranceResult | None:
         rule = "lever rule, centre of mass outside the bearings, each share within 0.3 … 1.3"
     else:
         rule = "lever rule, each share within 0.3 … 0.7"
-    return ToleranceResult(
-        planes=tolerance.planes, rule=rule, whole_g_mm=from_si(tolerance.whole, "g_mm"), **values
-    )
+    return ToleranceResult(planes=tolerance.planes, rule=rule, whole_g_mm=from_si(tolerance.whole, "g_mm"), **values)
 
 
 def trial_masses(readings: Readings, balancing: Found) -> tuple[TrialMassResult, ...]:
     """Trial masses for the next time, by the influence of the planes as found."""
-    matrix = max(zip(balancing.case.runs, balancing.solution.influences, strict=True), key=lambda each: each[0].speed)[1]
+    matrix = max(zip(balancing.case.runs, balancing.solution.influences, strict=True), key=lambda each: each[0].speed)[
+        1
+    ]
     return tuple(
         TrialMassResult(
             plane=balancing.planes[each.plane], mass_g=from_si(each.mass, "g"), safe_g=from_si(each.safe, "g"),
@@ -304,7 +304,9 @@ def balance(
     is wrong in the files, NotTrustworthyError where errors would be larger than the answer.
     """
     readings = source if isinstance(source, Readings) else read_readings(source)
-    stored = coefficients if coefficients is None or isinstance(coefficients, Stored) else read_coefficients(coefficients)
+    stored = (
+        coefficients if coefficients is None or isinstance(coefficients, Stored) else read_coefficients(coefficients)
+    )
     file, taken = readings.tables, taken_runs(readings)
     if stored is not None:
         stored.refuse_others(file.planes, taken[0].sensors)
