@@ -1,4 +1,4 @@
-"""Corrections of a plane as they are made: metal removed or mass added at places, holes with their depth, stock weights.
+"""Corrections of a plane as they are made: mass removed or added at places, holes with their depth, stock weights.
 
 A heavy spot of mass m at angle φ is balanced by shares with Σ m_k·e^{iψ_k} = m·e^{iφ}; added mass counts opposite. Each
 mass is that at the correction radius.
@@ -28,8 +28,8 @@ PER_WEIGHT: Final = 0.002
 
 @dataclass(frozen=True)
 class MassShare:
-    """A mass [kg] to remove or to add at an angle behind the mark [rad]; the depth of its hole [m], or the stock weights
-    that make it up [kg].
+    """A mass [kg] to remove or to add at an angle behind the mark [rad]; the depth of its hole [m], or the weights in
+    stock that make it up [kg].
     """
 
     action: Action

@@ -1,4 +1,4 @@
-"""Planes in characters, as seen by somebody who stands before the rotor's end, and the sketch of mark, sensors and angles.
+"""Planes in characters, as seen by one who stands before the rotor's end; the sketch of mark, sensors and angles.
 
 The mark is on top, the correction on the circle.
 """
@@ -31,7 +31,7 @@ def drawing(
 
 
 def sense_of(turns_from_left: str) -> int:
-    """1 where the rotor turns counterclockwise to one at its left end, so that degrees against rotation run clockwise."""
+    """1 if the rotor turns counterclockwise to one at its left end: degrees against rotation then run clockwise."""
     return 1 if turns_from_left == "counterclockwise" else -1
 
 

@@ -59,7 +59,7 @@ def changes(case: Balancing, method: Method, sigma: Deviations) -> list[ErrorCon
     """One for each number that went in."""
     variations, base = [], solved(case, method)
     for cause, up, down in _varied(case, method, sigma):
-        high, low = solved(up, method), base if down is None else solved(down, method)
+        high, low = solved(up, method, base), base if down is None else solved(down, method, base)
         variations.append(_change(cause, high, low, 1.0 if down is None else 2.0))
     return variations
 

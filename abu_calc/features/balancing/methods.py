@@ -54,8 +54,8 @@ LEAST_SQUARES: Final = register(
 
 @dataclass(frozen=True)
 class Solution:
-    """Imbalances of the rotor as it is without the masses of the runs [kg m]; the influence of the planes on the sensors
-    at each run [m per kg m]; what the runs read less what these make of them [m].
+    """Imbalances of the rotor without the masses of the runs [kg m]; the influence of the planes on the sensors at each
+    run [m per kg m]; what the runs read less what these make of them [m].
     """
 
     method: Method
@@ -135,7 +135,7 @@ def _refuse_other_coefficients(case: Balancing) -> None:
             raise InputError(
                 "no stored coefficients are of this speed", place=Place(key=f"run[{index}].speed_rpm"),
                 found=f"{from_si(run.speed, 'rpm'):.1f} rpm",
-                allowed=", ".join(f"{from_si(speed, 'rpm'):.1f} rpm" for speed in stored.speeds) + f" ± {ONE_SPEED:.0%}",
+                allowed=", ".join(f"{from_si(own, 'rpm'):.1f} rpm" for own in stored.speeds) + f" ± {ONE_SPEED:.0%}",
                 remedy="run at a stored speed, or make trial runs at this one",
             )  # fmt: skip
         if not run.phases:
@@ -143,12 +143,15 @@ def _refuse_other_coefficients(case: Balancing) -> None:
                              remedy="add phase_deg to every reading")  # fmt: skip
 
 
-def solved(case: Balancing, method: Method) -> Solution:
-    """The imbalances behind the runs. Raises NotTrustworthyError where the planes can hardly be told apart."""
+def solved(case: Balancing, method: Method, near: Solution | None = None) -> Solution:
+    """The imbalances behind the runs; `near`: solution of nearly the same case.
+
+    Raises NotTrustworthyError where the planes can hardly be told apart.
+    """
     if method == "rig data":
         return _by_rig(case)
     if method == "runs without phase":
-        imbalance, gains = solved_without_phase(case)
+        imbalance, gains = solved_without_phase(case, None if near is None else near.imbalance[0])
         rows = tuple(tuple((gain + 0j,) for gain in run_gains) for run_gains in gains)
         misfits = tuple(
             tuple(amplitude.real - gain * abs(imbalance + run.placed[0]) + 0j

@@ -208,8 +208,8 @@ def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[st
         return
     yield (
         f"Next run: {rpm}, {name}trial mass {from_si(proposed.mass, 'g'):.3g} g {at}, radius "
-        f"{file.radii_mm[wanted.plane]:g} mm. Its centrifugal force is {100 * proposed.share:.2g} % of the bearing load "
-        f"(limit {100 * SAFE_SHARE:.0f} %)."
+        f"{file.radii_mm[wanted.plane]:g} mm. Its centrifugal force is {100 * proposed.share:.2g} % of the bearing "
+        f"load (limit {100 * SAFE_SHARE:.0f} %)."
     )
     yield (
         "The mass is visible if an amplitude changes by 30 % or a phase by 30°. If the vibration rises much, stop and "

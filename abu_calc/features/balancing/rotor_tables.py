@@ -55,8 +55,8 @@ class Rig(Table):
 
 
 class Rotor(Table):
-    """The rotor, roll or screw, with its two correction planes and the metal there. The four lengths go along it from the
-    left bearing to the right one; of an overhung rotor some are negative.
+    """The rotor, roll or screw, with its two correction planes and the metal there. The four lengths go along it from
+    the left bearing to the right one. Of an overhung rotor some are negative.
     """
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset(
@@ -119,8 +119,8 @@ class Rotor(Table):
     )
     angle_marks: Literal["against", "with"] = Field(
         default="against",
-        description="Direction in which the angle marks of the rotor count from its zero mark: against rotation or with "
-        "it. It holds for trial masses, places and the angles of the answer. Default: {default}.",
+        description="Direction in which the angle marks of the rotor count from its zero mark: against rotation or "
+        "with it. It holds for trial masses, places and the angles of the answer. Default: {default}.",
     )
     max_removable_g: float | None = Field(
         default=None,

@@ -1,6 +1,6 @@
 """Permissible residual imbalance of a rotor, shared to its tolerance planes, and imbalances transformed to them.
 
-The tolerance planes are those of the bearings. If the lengths of the rotor are not known, they are the correction planes.
+The tolerance planes are the bearing planes. If the lengths of the rotor are not known, the correction planes serve.
 """
 
 from collections.abc import Iterable

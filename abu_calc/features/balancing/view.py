@@ -296,7 +296,7 @@ def _rig(result: BalanceResult) -> list[Block]:
     )
     title = "Influence of the planes on the sensors, µm of displacement per g·mm"
     columns = ("plane" if name == "single" else f"{name} plane" for name, _ in result.planes)
-    head = [Heading("Rig"), *paragraphs] if paragraphs else []
+    head: list[Block] = [Heading("Rig"), *paragraphs] if paragraphs else []
     return [*head, Heading(title), Grid(("", *columns), rows)]
 
 

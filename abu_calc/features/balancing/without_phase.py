@@ -32,9 +32,9 @@ FOUR_RUNS: Final = register(
         "Imbalance of one plane without phase",
         "A_k = g_s·|Q + T_trial|",
         where=(
-            "A_k² = g_s²·(|Q|² + 2·Re(Q̄·T_trial) + |T_trial|²) is linear in three unknowns, which give the start. Least "
-            "squares of the amplitudes give the result. Four runs are needed, since three leave two solutions. No "
-            "solution is unique if zero and all T_trial lie on one line or on one circle."
+            "A_k² = g_s²·(|Q|² + 2·Re(Q̄·T_trial) + |T_trial|²) is linear in g_s², g_s²·Q and its size: the start. "
+            "Least squares of the amplitudes give the result. Four runs are needed: three leave two solutions. No solution "
+            "is unique if zero and all T_trial lie on one line or on one circle."
         ),
         source="the circles of the four-run method as equations",
     )
@@ -43,7 +43,7 @@ FOUR_RUNS: Final = register(
 
 @dataclass(frozen=True)
 class SpeedSet:
-    """Runs of one speed: their places, the masses that were on [kg m], amplitudes (rows: runs, columns: sensors) [m]."""
+    """Runs of one speed: their places, the masses that were on [kg m], amplitudes (runs × sensors) [m]."""
 
     runs: tuple[int, ...]
     placed: Complexes
@@ -107,10 +107,13 @@ def tells_without_phase(case: Balancing) -> None:
     )  # fmt: skip
 
 
-def solved_without_phase(case: Balancing) -> tuple[complex, tuple[tuple[float, ...], ...]]:
-    """Imbalance [kg m], and the gain of each sensor at each run [m per kg m]."""
+def solved_without_phase(case: Balancing, near: complex | None = None) -> tuple[complex, tuple[tuple[float, ...], ...]]:
+    """Imbalance [kg m], and the gain of each sensor at each run [m per kg m].
+
+    `near`: solution of nearly the same case, from which the search starts.
+    """
     sets = _sets(case)
-    starts = [start for start in _starts(sets) if np.isfinite(start)]
+    starts = [near] if near is not None else [start for start in _starts(sets) if np.isfinite(start)]
     if not starts:
         raise NotTrustworthyError(
             "the trial masses do not change the readings, so that their gain is not known.\n  Heavier trial masses."

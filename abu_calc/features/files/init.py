@@ -23,7 +23,7 @@ def init(
         typer.Option(
             "--method",
             metavar="NAME",
-            help="With --readings, the method of balancing: rig-data, trials, single-plane, four-runs, least-squares or "
+            help="With --readings, the method: rig-data, trials, single-plane, four-runs, least-squares or "
             "coefficients.",
         ),
     ] = None,

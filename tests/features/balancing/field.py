@@ -82,7 +82,8 @@ def any_fan(seed: int, sensors: int = 1) -> Fan:
     rng = np.random.default_rng(seed)
     mass = float(10 ** rng.uniform(0.5, 2.5))
     low, high = sorted(rng.uniform(0.3, 1.7, 2) * mass * (2 * np.pi * 25) ** 2)
+    damping = tuple(0.1 * np.sqrt(k * mass) for k in (low, high))
     return Fan(
-        mass, (low, high), tuple(0.1 * np.sqrt(k * mass) for k in (low, high)), 0.05 * low, float(rng.uniform(0.05, 0.6)),
+        mass, (low, high), damping, 0.05 * low, float(rng.uniform(0.05, 0.6)),
         (float(rng.uniform(1, 50)), float(rng.uniform(0, 360))), tuple(rng.uniform(-60, 60, sensors)), rng,
     )  # fmt: skip
