@@ -33,8 +33,8 @@ FOUR_RUNS: Final = register(
         "A_k = g_s·|Q + T_trial|",
         where=(
             "A_k² = g_s²·(|Q|² + 2·Re(Q̄·T_trial) + |T_trial|²) is linear in g_s², g_s²·Q and its size: the start. "
-            "Least squares of the amplitudes give the result. Four runs are needed: three leave two solutions. No solution "
-            "is unique if zero and all T_trial lie on one line or on one circle."
+            "Least squares of the amplitudes give the result. Four runs are needed: three leave two solutions. No "
+            "solution is unique if zero and all T_trial lie on one line or on one circle."
         ),
         source="the circles of the four-run method as equations",
     )
