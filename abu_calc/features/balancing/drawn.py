@@ -79,7 +79,7 @@ def sketch(result: BalanceResult) -> tuple[list[str], str]:
 def sketch_places(result: BalanceResult) -> list[tuple[str, float, float]]:
     """Letters of the sketch with their place against rotation [degrees] and their distance from the middle."""
     plane, sensor = result.planes[0][1], result.runs[0].sensors[0]
-    places = [("0", 0.0, 1.0), ("M", 0.0, 1.25), ("V", result.sensor_to_mark_deg, 1.12)]
+    places = [("0", 0.0, 1.0), ("M", 0.0, 1.25), ("V", result.sensor_to_mark_deg, 0.75)]
     if sensor.phase_deg is not None:
         places.append(("h", result.sensor_to_mark_deg + lag_of(result.runs[0], sensor.phase_deg), 1.0))
     return [*places, ("o", plane.angle_deg, 1.0)]
@@ -95,17 +95,18 @@ def sketch_words(result: BalanceResult) -> list[str]:
     name, plane = result.planes[0]
     run, sensor = result.runs[0], result.runs[0].sensors[0]
     words = [
-        f"The mark 0 passes its sensor M. V is the vibration sensor, {result.sensor_to_mark_deg:.0f}° from M against "
+        f"The mark 0 passes its sensor M. The vibration sensor V is {result.sensor_to_mark_deg:.0f}° from M against "
         "rotation (sensor_to_mark_deg)."
     ]
     if sensor.phase_deg is not None:
-        side = "reaches V later: it lags" if run.phase != "lead" else "has passed V already: it leads"
+        passes = f"passed V {sensor.phase_deg:.1f}° ago" if run.phase == "lead" else (
+            f"passes V after {sensor.phase_deg:.1f}° of rotation"
+        )  # fmt: skip
         words.append(
-            f"h is the high spot of the vibration ({sensor.name}, run 1). Its phase is {sensor.phase_deg:.1f}°, so "
-            f"that a positive h {side}."
+            f"The high spot h of the vibration {passes}: the phase of sensor {sensor.name} in run 1, {run.phase}."
         )
     plane_name = "the plane" if name == "single" else f"the {name} plane"
-    words.append(f"o is the heavy spot of {plane_name}, {plane.angle_deg:.1f}° from 0 against rotation.")
+    words.append(f"The heavy spot o of {plane_name} is {plane.angle_deg:.1f}° from 0 against rotation.")
     return words
 
 

@@ -23,6 +23,8 @@ from abu_calc.reporting.drawings.shapes import Arc, Drawing, Line, Point, Shape,
 RADIUS, APART = 20.0, 58.0
 LETTERS: Final = 3.0
 SIGNS: Final = {"remove": "−", "add": "+"}
+IN_LINE: Final = 15.0
+"""Angle [degrees] below which both sensors share one text."""
 AGAINST: Final = "against rotation"
 
 
@@ -113,7 +115,10 @@ def convention_drawing(result: BalanceResult) -> Drawing:
 
     shapes: list[Shape] = [*_dial(sense, 0.0), *_turning(0.0, sense)]
     vibration = result.sensor_to_mark_deg
-    letters = [("mark 0 and its sensor", 0.0, 1.42), ("vibration sensor", vibration, 1.2)]
+    in_line = abs((vibration + 180) % 360 - 180) < IN_LINE
+    letters = [("mark, its sensor, vibration sensor" if in_line else "mark and its sensor", 0.0, 1.42)]
+    if not in_line:
+        letters.append(("vibration sensor", vibration, 1.25))
     shapes += [Solid((at(-4, 1.02), at(4, 1.02), at(0, 0.9))), Line("outline", at(0, 1.08), at(0, 1.3))]
     shapes.append(Line("outline", at(vibration, 1.04), at(vibration, 1.16)))
     if sensor.phase_deg is not None:

@@ -26,7 +26,7 @@ from abu_calc.features.balancing.formulas import (
 from abu_calc.features.balancing.runs import ONE_SPEED, Balancing, RunOnRig
 from abu_calc.features.balancing.without_phase import solved_without_phase, tells_without_phase
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
-from abu_calc.foundation.formula import Formula, register
+from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 
@@ -37,19 +37,6 @@ TELLS_APART: Final = 1e-6
 """Least singular value of the trials, over the largest, with which they tell all planes and the rest apart."""
 WORST_CONDITION: Final = 300.0
 """Beyond it errors of a third of a percent are as large as the answer: no number is given."""
-
-LEAST_SQUARES: Final = register(
-    Formula(
-        "features.balancing.methods:solved",
-        "Imbalances by influence coefficients, over all speeds and sensors",
-        "Σ|w_s·(X_s − ΣW_sp·Q_p)|² → min",
-        where=(
-            "The trial runs of each speed give W_sp and the readings X_s without trial masses. The weight w_s is one "
-            "over the amplitude of the sensor at the speed. With as many equations as planes the solution is exact."
-        ),
-        source="Goodman 1964, weighted",
-    )
-)
 
 
 @dataclass(frozen=True)
@@ -143,6 +130,16 @@ def _refuse_other_coefficients(case: Balancing) -> None:
                              remedy="add phase_deg to every reading")  # fmt: skip
 
 
+@formula(
+    "Imbalances by influence coefficients, over all speeds and sensors",
+    "Σ|w_s·(X_s − ΣW_sp·Q_p)|² → min",
+    "kg m",
+    where=(
+        "The trial runs of each speed give W_sp and the readings X_s without trial masses. The weight w_s is one over "
+        "the amplitude of the sensor at the speed. With as many equations as planes the solution is exact."
+    ),
+    source="Goodman 1964, weighted",
+)
 def solved(case: Balancing, method: Method, near: Solution | None = None) -> Solution:
     """The imbalances behind the runs; `near`: solution of nearly the same case.
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from abu_calc.features.balancing.runs import Balancing
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
-from abu_calc.foundation.formula import Formula, register
+from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 
 Floats = NDArray[np.float64]
@@ -25,20 +25,6 @@ STEPS: Final = 60
 CLOSE: Final = 1e-11
 """Relative step at which the solution is final."""
 MOST_DAMPING: Final = 1e8
-
-FOUR_RUNS: Final = register(
-    Formula(
-        "features.balancing.without_phase:solved_without_phase",
-        "Imbalance of one plane without phase",
-        "A_k = g_s·|Q + T_trial|",
-        where=(
-            "A_k² = g_s²·(|Q|² + 2·Re(Q̄·T_trial) + |T_trial|²) is linear in g_s², g_s²·Q and its size: the start. "
-            "Least squares of the amplitudes give the result. Four runs are needed: three leave two solutions. No "
-            "solution is unique if zero and all T_trial lie on one line or on one circle."
-        ),
-        source="the circles of the four-run method as equations",
-    )
-)
 
 
 @dataclass(frozen=True)
@@ -107,6 +93,17 @@ def tells_without_phase(case: Balancing) -> None:
     )  # fmt: skip
 
 
+@formula(
+    "Imbalance of one plane without phase",
+    "A_k = g_s·|Q + T_trial|",
+    "kg m",
+    where=(
+        "A_k² = g_s²·(|Q|² + 2·Re(Q̄·T_trial) + |T_trial|²) is linear in g_s², g_s²·Q and its size: the start. Least "
+        "squares of the amplitudes give the result. Four runs are needed: three leave two solutions. No solution is "
+        "unique if zero and all T_trial lie on one line or on one circle."
+    ),
+    source="the circles of the four-run method as equations",
+)
 def solved_without_phase(case: Balancing, near: complex | None = None) -> tuple[complex, tuple[tuple[float, ...], ...]]:
     """Imbalance [kg m], and the gain of each sensor at each run [m per kg m].
 
