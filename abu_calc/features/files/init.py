@@ -1,4 +1,4 @@
-"""`abu init [--preset NAME|--scene|--readings [--method NAME]] FILE`: write a commented file to start from."""
+"""`abu init [--preset NAME|--scene|--readings [--method NAME]|--recordings] FILE`: write a commented file."""
 
 from pathlib import Path
 from typing import Annotated
@@ -27,6 +27,9 @@ def init(
             "coefficients.",
         ),
     ] = None,
+    recordings: Annotated[
+        bool, typer.Option("--recordings", help="Write a list of recordings for `abu declare --recordings`.")
+    ] = False,
 ) -> Outcome:
     """Write a complete file with a comment at every key, to edit.
 
@@ -38,7 +41,7 @@ def init(
     from abu_calc.reporting.write import Target, check_target
 
     check_target(file, force=how.force, suffixes=(".toml",))
-    asked = [name for name, wanted in (("scene", scene), ("readings", readings)) if wanted]
+    asked = [name for name, wanted in (("scene", scene), ("readings", readings), ("recordings", recordings)) if wanted]
     if len(asked) + (preset is not None) > 1:
         options = [f"--{name}" for name in asked] + (["--preset"] if preset is not None else [])
         raise InputError(
