@@ -106,9 +106,7 @@ def _motion_along_spindle(case: Case, candidate: Candidate | None) -> Answers:
     """A point mass, or a body whose places lie on its spindle; the suspension acts as at the wheel."""
     added = 0.0 if candidate is None else candidate.mass
     mass = case.body.effective_mass(added)
-    factors = [
-        -mass * case.speed**2 / dynamic_stiffness(case.suspension, axis, case.speed, mass) for axis in (0, 1)
-    ]
+    factors = [-mass * case.speed**2 / dynamic_stiffness(case.suspension, axis, case.speed, mass) for axis in (0, 1)]
 
     def answer(at: Vector, force_at: Vector) -> Motion:
         x, y, z = case.body.body.acceleration(at, force_at, added=added)

@@ -99,7 +99,7 @@ def _rpm(speed: float) -> str:
 
 
 def _sure(balancing: Found) -> Check:
-    share = balancing.rest_share
+    share = balancing.error_share
     remedy = None
     if share > SURE[0]:
         remedy = (
@@ -122,8 +122,11 @@ def _permitted(balancing: Found) -> Iterator[Check]:
         balancing.planes, balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True
     ):
         remedy = None
-        if 2 * rest > permitted:
-            after = from_si(rest * balancing.rest_share, "g_mm")
+        if 2 * rest > permitted and any(balancing.leftover):
+            left = from_si(sum(map(abs, balancing.leftover)), "g_mm")
+            remedy = f"Allow places and weights that leave less: limits and stock leave {left:.4g} g·mm (ABU1012)."
+        elif 2 * rest > permitted:
+            after = from_si(rest * balancing.error_share, "g_mm")
             remedy = (
                 "Measure and correct once more after this correction: the imbalance falls from "
                 f"{from_si(rest, 'g_mm'):.3g} to {after:.3g} g·mm (calculated with the same errors)."
@@ -226,11 +229,11 @@ def _convention(taken: Sequence[Taken]) -> Iterator[Check]:
     if silent:
         message = f"runs that do not name the convention of their phases; lag is assumed, A·cos(ωt − phase): {silent}"
     else:
-        message = f"phases {' and '.join(names)}, as the runs say"
+        message = f"phases {' in some runs and '.join(names)}{' in others' if len(names) > 1 else ''}, as the runs say"
     yield coded(
-        "ABU1009", verdict(True, not silent), message,
+        "ABU1009", verdict(True, not silent and len(names) == 1), message,
         remedy='Add phase = "lag" or phase = "lead" to each run, as the manual of the instrument says.'
-        if silent else None,
+        if silent or len(names) > 1 else None,
     )  # fmt: skip
 
 

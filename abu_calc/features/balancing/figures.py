@@ -12,7 +12,7 @@ from typing import Final
 from abu_calc.features.balancing.drawn import lag_of, sense_of, sketch_words
 from abu_calc.features.balancing.records import PlaneCorrection
 from abu_calc.features.balancing.study import BalanceResult
-from abu_calc.features.balancing.view import misfit, order_of
+from abu_calc.features.balancing.view import misfit, orders_of
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
@@ -102,7 +102,7 @@ def _orders(plane: PlaneCorrection, *, short: bool = False) -> list[str]:
     """`short`: by signs."""
     if not plane.mass_g or not plane.corrections:
         return ["leave it as it is"]
-    return [order_of(share, short) for share in plane.corrections]
+    return orders_of(plane, short)
 
 
 def convention_drawing(result: BalanceResult) -> Drawing:

@@ -9,6 +9,7 @@ Q is one for all speeds and sensors: least squares over their equations, each di
 its speed. Numbers in SI; imbalances and motions as complex numbers, as in formulas.py.
 """
 
+import math
 from collections.abc import Sequence
 from typing import Any, Final, Literal
 
@@ -218,11 +219,11 @@ def _least_squares(equations: Sequence[tuple[Array, Array, Any]]) -> tuple[Array
         )  # fmt: skip
     if len(matrix) == planes:
         condition = condition_number(_matrix(matrix))
-        _refuse_singular(condition)
+        _refuse_singular(condition, planes=planes)
         return np.linalg.solve(matrix, motion), condition
     weighted = matrix / sizes[:, None]
     condition = condition_number(_matrix(weighted))
-    _refuse_singular(condition)
+    _refuse_singular(condition, planes=planes)
     scale = np.abs(weighted).max()
     return np.linalg.lstsq(weighted / scale, motion / sizes / scale, rcond=None)[0], condition
 
@@ -231,7 +232,11 @@ def _matrix(values: Array) -> Matrix:
     return tuple(tuple(row) for row in values.tolist())
 
 
-def _refuse_singular(condition: float, why: str = "") -> None:
+def _refuse_singular(condition: float, why: str = "", planes: int = 2) -> None:
+    if planes == 1 and not condition < math.inf:
+        raise NotTrustworthyError(
+            "the trial mass does not change the readings.\n  A heavier trial mass, or another speed."
+        )
     if not condition <= WORST_CONDITION:
         raise NotTrustworthyError(
             f"the sensors hardly distinguish the two planes: the condition number is {condition:.3g}, at most "

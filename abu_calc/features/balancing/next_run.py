@@ -55,8 +55,8 @@ class TrialProposal:
     shown="g",
     where=(
         "F_b is the load of a bearing at rest over the part of the force that this bearing carries, of both bearings "
-        "the smaller one. If the lengths of the rotor are not known, each of two planes counts half of the weight, and "
-        "a single plane counts all of it."
+        "the smaller one. If the lengths of the rotor are not known, each of two planes counts half of the weight. A "
+        "single plane counts all of it."
     ),
     source="practice of field balancing",
 )

@@ -56,7 +56,7 @@ class Rig(Table):
 
 class Rotor(Table):
     """The rotor, roll or screw, with its two correction planes and the metal there. The four lengths go along it from
-    the left bearing to the right one. Of an overhung rotor some are negative.
+    the left bearing to the right one. An overhung rotor has negative ones.
     """
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset(

@@ -30,6 +30,8 @@ FARTHER: Final = 1.6
 """Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
 HOPELESS: Final = 1.0
 """Vibration left, of that before, from which on the correction may do more harm than good: no number is given."""
+MUCH: Final = 10.0
+"""Such a part whose size is of no interest."""
 ROUNDING: Final = 1e-9
 """Part of an imbalance that only rounding leaves."""
 Spread = Sequence[Vector]
@@ -50,6 +52,8 @@ class Found:
     target: Vector
     leftover: Vector
     rest_share: float
+    error_share: float
+    """The same by the errors alone, without the leftover."""
     disagreement: float | None
     tolerance: TolerancePlanes | None
     service_speed: float
@@ -94,6 +98,7 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         target=answer.target,
         leftover=leftover,
         rest_share=_rest_share(answer.solution, spread),
+        error_share=_rest_share(answer.solution, answer.spread),
         disagreement=disagreement(answer.solution, answer.by),
         tolerance=tolerance_of(file, service),
         service_speed=service,
@@ -155,9 +160,10 @@ def _or_none(value: float | None, unit: str) -> float | None:
 
 def _hopeless(case: Balancing, share: float) -> str:
     remedy = "smaller errors" if not case.runs[0].phases else "smaller errors, or trial masses"
+    much = f"{100 * share:.0f}" if share < MUCH else f"over {100 * MUCH:.0f}"
     return (
-        f"the errors given would leave {100 * share:.0f} % of the vibration after the correction: none can be trusted."
-        f"{said_of_resonance(case)}\n  Another speed, {remedy}."
+        f"the errors given would leave {much} % of the vibration after the correction: none can be trusted."
+        f"{said_of_resonance(case)}\n  Another speed, {remedy}. If the vibration is small, leave the rotor as it is."
     )
 
 

@@ -28,9 +28,9 @@ _SPAN = Range("distance of the bearings", 0.0, 1e3, "m", open_low=True)
     "U_A = U_per·L_B/L_AB, U_B = U_per·L_A/L_AB",
     "kg m",
     where=(
-        "With the centre of mass between the bearings each share is held within 0.3 … 0.7 of U_per. With the centre of "
-        "mass outside, as in many overhung rotors, each share is held within 0.3 … 1.3 of U_per: the bearing next to "
-        "it carries more than the whole weight."
+        "With the centre of mass between the bearings each share is held within 0.3 … 0.7 of U_per. If it is outside, "
+        "as in many overhung rotors, each share is held within 0.3 … 1.3 of U_per. The bearing next to it then carries "
+        "more than the whole weight."
     ),
     checked=(_SPAN,),
     source="ISO 21940-11:2016, allocation to tolerance planes; the limits of overhung rotors as in ISO 1940-1:2003",

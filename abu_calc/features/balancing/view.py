@@ -2,6 +2,7 @@
 
 import cmath
 import math
+from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
@@ -19,6 +20,8 @@ from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, 
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import one_screen, verdict_line
 
+MOST_ORDERS: Final = 6
+"""Most masses of a plane that are orders of their own."""
 MARKS: Final = {
     "against rotation": "Angles of planes count from the zero mark AGAINST rotation.",
     "with rotation": "Angles of planes count from the zero mark WITH rotation, as rotor.angle_marks says.",
@@ -93,13 +96,11 @@ def _orders(result: BalanceResult) -> list[str]:
         if not plane.mass_g or not plane.corrections:
             sentences.append(f"Leave the {called} as it is.")
             continue
-        parts = " and ".join(order_of(share) for share in plane.corrections)
+        parts = " and ".join(orders_of(plane))
         head = "PLANE" if name == "single" else f"{name.upper()} plane"
         sentences.append(f"{head}: {parts}.")
-    if result.answer == "total":
-        sentences.append(TOTAL)
-    elif result.fitted:
-        sentences.append(TRIM)
+    if result.fitted:
+        sentences.append(TOTAL if result.answer == "total" else TRIM)
     return [*sentences, TRIALS_OFF] if any(run.trials for run in result.runs) else sentences
 
 
@@ -111,10 +112,27 @@ def order_of(share: Share, short: bool = False) -> str:
     sign = {"remove": "−", "add": "+"}[share.action] if short else share.action
     at = f"{round(share.angle_deg, 1) % 360:.1f}°"
     if share.weights_g is not None:
-        weights = " + ".join(f"{weight:g}" for weight in share.weights_g)
+        weights = weights_text(share.weights_g)
         return f"{sign} {weights} g at {at}"
     drilled = "" if share.depth_mm is None else f" ({number(share.depth_mm, 3)} mm deep)"
     return f"{sign} {number(share.mass_g)} g at {at}{drilled}"
+
+
+def weights_text(weights: Sequence[float]) -> str:
+    """Weights of a place, equal ones together.
+
+    >>> weights_text((20.0, 20.0, 5.0))
+    '2 × 20 + 5'
+    """
+    counted = Counter(weights)
+    return " + ".join(f"{weight:g}" if count == 1 else f"{count} × {weight:g}" for weight, count in counted.items())
+
+
+def orders_of(plane: PlaneCorrection, short: bool = False) -> list[str]:
+    """Orders of a plane; of many masses the first and their number."""
+    orders = [order_of(share, short) for share in plane.corrections[:MOST_ORDERS]]
+    more = len(plane.corrections) - MOST_ORDERS
+    return [*orders, f"{more} more masses, listed under Masses (--full)"] if more > 0 else orders
 
 
 def _planes(result: BalanceResult) -> Grid:
@@ -164,7 +182,7 @@ def _pieces(result: BalanceResult) -> list[Block]:
     rows = tuple(
         (name, share.action, f"{number(share.mass_g)} g", f"{round(share.angle_deg, 1) % 360:.1f}°",
          "" if share.depth_mm is None else f"{number(share.depth_mm, 3)} mm",
-         "" if share.weights_g is None else " + ".join(f"{weight:g}" for weight in share.weights_g))
+         "" if share.weights_g is None else weights_text(share.weights_g))
         for name, plane in result.planes
         for share in plane.corrections
     )  # fmt: skip
