@@ -114,7 +114,8 @@ def order_of(share: Share, short: bool = False) -> str:
     if share.weights_g is not None:
         weights = weights_text(share.weights_g)
         return f"{sign} {weights} g at {at}"
-    drilled = "" if share.depth_mm is None else f" ({number(share.depth_mm, 3)} mm deep)"
+    depth = "" if share.depth_mm is None else f"{number(share.depth_mm, 3)} mm"
+    drilled = (f", {depth}" if short else f" ({depth} deep)") if depth else ""
     return f"{sign} {number(share.mass_g)} g at {at}{drilled}"
 
 
@@ -178,17 +179,21 @@ def _in_tolerance_plane(result: BalanceResult, name: str) -> str:
 
 
 def _pieces(result: BalanceResult) -> list[Block]:
-    """Table of the masses of a correction, if there are many."""
-    rows = tuple(
-        (name, share.action, f"{number(share.mass_g)} g", f"{round(share.angle_deg, 1) % 360:.1f}°",
-         "" if share.depth_mm is None else f"{number(share.depth_mm, 3)} mm",
-         "" if share.weights_g is None else weights_text(share.weights_g))
-        for name, plane in result.planes
-        for share in plane.corrections
-    )  # fmt: skip
-    if not any(row[4] or row[5] for row in rows) and len(rows) <= 2 * len(result.planes):
+    """Table of the masses of a correction, if there are many, or holes, or weights in stock."""
+    shares = [(name, share) for name, plane in result.planes for share in plane.corrections]
+    drilled, stocked = (any(getattr(share, key) for _, share in shares) for key in ("depth_mm", "weights_g"))
+    if not drilled and not stocked and len(shares) <= 2 * len(result.planes):
         return []
-    return [Heading("Masses", "masses"), Grid(("plane", "", "mass", "at", "hole depth", "weights, g"), rows)]
+    rows = []
+    for name, share in shares:
+        row = [name, share.action, f"{number(share.mass_g)} g", f"{round(share.angle_deg, 1) % 360:.1f}°"]
+        if drilled:
+            row.append("" if share.depth_mm is None else f"{number(share.depth_mm, 3)} mm")
+        if stocked:
+            row.append("" if share.weights_g is None else weights_text(share.weights_g))
+        rows.append(tuple(row))
+    columns = ("plane", "", "mass", "at", *(["hole depth"] * drilled), *(["weights, g"] * stocked))
+    return [Heading("Masses", "masses"), Grid(columns, tuple(rows))]
 
 
 def _tolerance(result: BalanceResult) -> list[Block]:
