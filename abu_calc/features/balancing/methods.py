@@ -70,11 +70,6 @@ def method_of(case: Balancing) -> Method:
     if lacking is None:
         return "trial masses"
     if case.roll is not None:
-        if len(case.runs[0].amplitudes) != 2:
-            raise InputError(
-                "the equations of [rig] need a left and a right sensor", place=Place(key="run[0].readings"),
-                remedy="give left and right, or a run with a trial mass in each plane",
-            )  # fmt: skip
         return "rig data"
     raise lacking
 

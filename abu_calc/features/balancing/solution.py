@@ -135,7 +135,7 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
         if share > HOPELESS:
             raise NotTrustworthyError(_hopeless(case, share))
     except NotTrustworthyError:
-        if method != "trial masses" or case.roll is None or len(case.runs[0].amplitudes) != 2:
+        if method != "trial masses" or case.roll is None:
             raise
         return _answer(case, "rig data", sigma, replaced)
     return _Answer(solution, target, by, spread)

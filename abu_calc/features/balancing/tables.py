@@ -237,6 +237,11 @@ class ReadingsFile(Table):
     def _all_runs_have_the_same_sensors(self) -> Self:
         first = None
         for index, run in enumerate(self.run):
+            if self.rig is not None and run.readings:
+                raise problem(
+                    "the equations of [rig] need a left and a right sensor", "run", index, "readings",
+                    remedy="give left and right, or leave [rig] out",
+                )  # fmt: skip
             if self.single_plane is None and run.file is None and not run.readings:
                 for key in PLANES:
                     if getattr(run, key) is None:
