@@ -310,6 +310,20 @@ def test_the_residual_of_two_planes_by_trials_is_within_the_uncertainty_told(tmp
     assert inside >= 95
 
 
+def test_two_planes_at_two_speeds_are_within_the_uncertainty_told(tmp_path: Path) -> None:
+    """The same rolls with trial runs at a second speed, too: surer than at one, and as good as told."""
+    inside, surer = 0, 0
+    for seed in range(40):
+        shop = noisy_rig(seed)
+        slower = replace(shop, speed_rpm=0.85 * shop.speed_rpm)
+        first = with_trials(shop)
+        both = abu_calc.balance(written(tmp_path, BARE_ROTOR, *first, *with_trials(slower)))
+        one = abu_calc.balance(written(tmp_path, BARE_ROTOR, *first))
+        inside += judged(shop, both)
+        surer += both.left.rest_g_mm < one.left.rest_g_mm
+    assert inside >= 38 and surer >= 30
+
+
 def test_trials_in_one_fixed_ratio_are_refused_with_the_reason(tmp_path: Path) -> None:
     """Two runs with trial masses in both planes, twice as heavy in the second: they move as one."""
     shop, runs = Workshop(), [Workshop().run()]
