@@ -53,6 +53,11 @@ def read_readings(source: str | os.PathLike[str], overrides: Sequence[str] = ())
 def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> Readings:
     """The readings of a document that is open already; raises as `read_readings` does."""
     refuse_others(document, "readings")
+    if "coefficients" in document.content:
+        raise InputError(
+            "this file holds influence coefficients, not readings", place=Place(document.file, key="coefficients"),
+            remedy="`abu balance READINGS --coefficients FILE` takes it",
+        )  # fmt: skip
     tables, reading = validate(document, overrides, ReadingsFile, lambda _: ReadingsFile)
     readings = Readings(**vars(reading), tables=tables)
     with readings.located():

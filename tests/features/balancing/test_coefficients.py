@@ -100,6 +100,11 @@ def test_other_speeds_planes_and_sensors_are_refused(tmp_path: Path) -> None:
         abu_calc.balance(written(tmp_path, BARE_ROTOR, shop.run(), name="next.toml"), "sapropel-screw-rig")
 
 
+def test_coefficients_in_place_of_readings_are_refused_with_the_option(tmp_path: Path) -> None:
+    seen = abu("balance", saved(tmp_path, noisy_rig(2)))
+    assert seen.status == 2 and "--coefficients FILE" in seen.err
+
+
 def test_a_damaged_file_is_refused_with_line_and_key(tmp_path: Path) -> None:
     coefficients = Path(saved(tmp_path, noisy_rig(5)))
     good = coefficients.read_text("utf-8")
