@@ -151,6 +151,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("residual", "there is imbalance"),
             Known("verification-N", "the readings have so many speeds and quantities"),
             Known("uncertainty", "the readings say how far off they may be"),
+            Known("convention", "", True),
         ),
         group="Measure",
     ),

@@ -1,1 +1,1 @@
-"""`abu balance`: two-plane balancing of a roll from runs on a rig."""
+"""`abu balance`: balancing of a rotor in one plane or two from runs on a rig or in the field."""

@@ -1,22 +1,20 @@
-"""Readings in SI: the roll on its rig, its runs and their errors, with recorded runs evaluated."""
+"""Readings in SI: the rotor on its rig, its runs and their errors, with recorded runs evaluated."""
 
 import hashlib
 import math
 from typing import Final
 
+from abu_calc.features.balancing.corrections import Drill, Making
 from abu_calc.features.balancing.errors import Deviations
 from abu_calc.features.balancing.formulas import RollOnRig
+from abu_calc.features.balancing.instrument import Instrument
 from abu_calc.features.balancing.read import Readings
 from abu_calc.features.balancing.recorded_run import RecordedRun, read_rig_record, recorded_run
-from abu_calc.features.balancing.tables import Errors, ReadingsFile, Rotor, Run, Trial
-from abu_calc.features.balancing.two_planes import Balancing, RunOnRig, TrialMass
+from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
+from abu_calc.features.balancing.tables import PLANES, Errors, ReadingsFile, Run, Trial
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import SYMBOLS, from_si, to_si
-
-UNITS: Final = {"displacement": "mm", "velocity": "mm_per_s", "acceleration": "m_per_s2"}
-"""Units of amplitudes, by quantity."""
-PLANES: Final = ("left", "right")
+from abu_calc.foundation.units import from_si, to_si
 
 WIDE_PULSE: Final = math.radians(1.0)
 UNSURE: Final = math.radians(0.5)
@@ -32,21 +30,16 @@ of the amplitude. `SHARE` is the least share of the rotation in what a sensor sh
 
 @dataclass(frozen=True)
 class Taken:
-    """A run in SI, and the record it comes from."""
+    """A run in SI, its unit and sensors, and the record it comes from."""
 
     run: RunOnRig
+    instrument: Instrument
+    sensors: tuple[str, ...]
+    phase: str | None = None
+    """Convention of the phases as the file names it."""
     record: RecordedRun | None = None
     file: str | None = None
     sha256: str | None = None
-
-
-def unit_of_readings(quantity: str) -> str:
-    """The unit of amplitudes as printed.
-
-    >>> unit_of_readings("acceleration")
-    'm/s²'
-    """
-    return SYMBOLS.get(UNITS[quantity], UNITS[quantity])
 
 
 def taken_runs(readings: Readings) -> tuple[Taken, ...]:
@@ -56,26 +49,26 @@ def taken_runs(readings: Readings) -> tuple[Taken, ...]:
 
 
 def _taken(readings: Readings, file: ReadingsFile, index: int, run: Run) -> Taken:
-    weights = tuple(_weight(file.rotor, trial) for trial in run.trial)
+    weights = tuple(mass_of(file, trial) for trial in run.trial)
     sensor = math.radians(run.sensor_to_mark_deg)
     given = None if run.speed_rpm is None else to_si(run.speed_rpm, "rpm")
     if run.file is not None:
-        return _recorded(readings, index, run, given, sensor, weights)
-    if run.left is None or run.right is None or given is None:
-        raise InputError("the run has no readings", place=Place(key=f"run[{index}]"))
-    unit = UNITS[run.quantity]
-    return Taken(
-        RunOnRig(
-            given, run.quantity, (to_si(run.left.amplitude, unit), to_si(run.right.amplitude, unit)),
-            (math.radians(run.left.phase_deg), math.radians(run.right.phase_deg)), sensor, weights,
-        )
-    )  # fmt: skip
+        return _recorded(readings, run, given, sensor, weights, len(file.planes))
+    if given is None:
+        raise InputError("the run has no speed", place=Place(key=f"run[{index}]"))
+    instrument, sense = run.instrument, -1.0 if run.phase == "lead" else 1.0
+    values = [reading for _, reading in run.sensors]
+    amplitudes = tuple(instrument.amplitude(reading.amplitude) for reading in values)
+    phases = tuple(sense * math.radians(each.phase_deg) for each in values if each.phase_deg is not None)
+    names = tuple(name for name, _ in run.sensors)
+    made = RunOnRig(given, instrument.quantity, amplitudes, phases, sensor, weights, planes=len(file.planes))
+    return Taken(made, instrument, names, run.phase)
 
 
 def _recorded(
-    readings: Readings, index: int, run: Run, speed: float | None, sensor: float, weights: tuple[TrialMass, ...]
+    readings: Readings, run: Run, speed: float | None, sensor: float, weights: tuple[TrialMass, ...], planes: int
 ) -> Taken:
-    path, unit = readings.beside(run.file or ""), UNITS[run.quantity]
+    path, instrument = readings.beside(run.file or ""), run.instrument
     samples = read_rig_record(path)
     try:
         record = recorded_run(samples, run.mark_edge, speed)
@@ -83,35 +76,56 @@ def _recorded(
         raise error.at(Place(str(path))) from None
     tones = (record.left, record.right)
     made = RunOnRig(
-        record.speed, run.quantity, (to_si(tones[0].amplitude, unit), to_si(tones[1].amplitude, unit)),
-        (tones[0].phase, tones[1].phase), sensor, weights,
-        (to_si(tones[0].noise, unit), to_si(tones[1].noise, unit)), record.unsure,
+        record.speed, instrument.quantity, tuple(instrument.amplitude(tone.amplitude) for tone in tones),
+        tuple(tone.phase for tone in tones), sensor, weights,
+        tuple(instrument.amplitude(tone.noise) for tone in tones), record.unsure, planes,
     )  # fmt: skip
-    return Taken(made, record, run.file, hashlib.sha256(path.read_bytes()).hexdigest())
+    return Taken(made, instrument, PLANES, None, record, run.file, hashlib.sha256(path.read_bytes()).hexdigest())
 
 
-def _weight(rotor: Rotor, trial: Trial) -> TrialMass:
-    own = rotor.left_correction_radius_mm if trial.plane == "left" else rotor.right_correction_radius_mm
-    radius = own if trial.radius_mm is None else trial.radius_mm
-    return TrialMass(
-        PLANES.index(trial.plane), to_si(trial.mass_g, "g"), to_si(radius, "mm"), math.radians(trial.angle_deg)
-    )
+def mass_of(file: ReadingsFile, trial: Trial) -> TrialMass:
+    """A trial mass, or one that is fitted, in SI; its angle behind the mark."""
+    plane = 0 if trial.plane is None else PLANES.index(trial.plane)
+    radius = file.radii_mm[plane] if trial.radius_mm is None else trial.radius_mm
+    angle = behind_the_mark(file, trial.angle_deg)
+    return TrialMass(plane, to_si(trial.mass_g, "g"), to_si(radius, "mm"), angle)
 
 
-def balancing(file: ReadingsFile, runs: tuple[Taken, ...]) -> Balancing:
+def behind_the_mark(file: ReadingsFile, angle_deg: float) -> float:
+    """An angle on the rotor's marks [degrees] as the angle against rotation from the zero mark [rad]."""
+    return math.radians(angle_deg) * (1 if file.rotor.angle_marks == "against" else -1)
+
+
+def making_of(file: ReadingsFile) -> Making:
+    """Limits, stock and drill of the corrections in SI."""
+    how, drill = file.correction, None
+    if how.drill_diameter_mm is not None:
+        most = None if how.max_hole_depth_mm is None else to_si(how.max_hole_depth_mm, "mm")
+        drill = Drill(
+            to_si(how.drill_diameter_mm, "mm"), how.density, how.drill_direction == "radial",
+            math.radians(how.drill_point_deg or 180.0), most,
+        )  # fmt: skip
+
+    def grams(value: float | None) -> float | None:
+        return None if value is None else to_si(value, "g")
+
+    return Making(
+        grams(file.rotor.max_removable_g), grams(how.max_added_g), grams(how.max_per_place_g),
+        tuple(sorted(to_si(weight, "g") for weight in how.stock_weights_g or ())), drill,
+        None if how.hole_spacing_mm is None else to_si(how.hole_spacing_mm, "mm"),
+    )  # fmt: skip
+
+
+def balancing(file: ReadingsFile, runs: tuple[Taken, ...], coefficients: Coefficients | None = None) -> Balancing:
     """All data that an answer is made of."""
-    return Balancing(_roll(file), tuple(taken.run for taken in runs))
+    return Balancing(_roll(file), tuple(taken.run for taken in runs), coefficients)
 
 
 def _roll(file: ReadingsFile) -> RollOnRig | None:
     rig, rotor = file.rig, file.rotor
     if rig is None:
         return None
-    lengths = (
-        rotor.left_end_to_left_plane_m, rotor.left_plane_to_centre_m, rotor.centre_to_right_plane_m,
-        rotor.right_plane_to_right_end_m,
-    )  # fmt: skip
-    a, b, c, d = (length or 0.0 for length in lengths)
+    a, b, c, d = rotor.lengths or (0.0,) * 4
     return RollOnRig(
         rig.left_support_mass_kg, rig.right_support_mass_kg, rig.left_stiffness_N_per_m, rig.right_stiffness_N_per_m,
         rig.damping_ratio, rotor.mass_kg or 0.0, rotor.transverse_inertia_kg_m2 or 0.0, a, b, c, d,
@@ -124,7 +138,7 @@ def deviations(errors: Errors) -> Deviations:
         errors.amplitude_percent / 100, math.radians(errors.phase_deg), errors.speed_percent / 100,
         errors.support_mass_percent / 100, errors.stiffness_percent / 100, errors.damping_ratio,
         errors.rotor_mass_percent / 100, errors.inertia_percent / 100, to_si(errors.length_mm, "mm"),
-        errors.placed_mass_percent / 100, math.radians(errors.placed_angle_deg),
+        errors.placed_mass_percent / 100, math.radians(errors.placed_angle_deg), errors.coefficient_percent / 100,
     )  # fmt: skip
 
 

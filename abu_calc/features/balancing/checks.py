@@ -4,12 +4,12 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from abu_calc.features.balancing.case import Taken, record_warnings
-from abu_calc.features.balancing.errors import removed
-from abu_calc.features.balancing.formulas import bar_bending_speed, condition_number, influence
+from abu_calc.features.balancing.corrections import added, removed
+from abu_calc.features.balancing.formulas import bar_bending_speed, influence
+from abu_calc.features.balancing.methods import near_resonance
 from abu_calc.features.balancing.records import PlaneCorrection
 from abu_calc.features.balancing.solution import Found
 from abu_calc.features.balancing.tables import ReadingsFile
-from abu_calc.features.balancing.two_planes import near_resonance
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.units import from_si
 
@@ -27,17 +27,24 @@ TELLS: Final = (0.3, 0.05)
 """Least effect of a trial mass, as a share of the largest reading: to pass, and not to fail."""
 
 
-def balance_checks(balancing: Found) -> tuple[Check, ...]:
+LEFT: Final = (0.05, 0.25)
+"""Imbalance that limits or stock leave, of that now: a warning from the first on, failed above the second."""
+
+
+def balance_checks(balancing: Found, taken: Sequence[Taken]) -> tuple[Check, ...]:
     """Checks that there are numbers for."""
     return (
-        _planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing),
-        *_permitted(balancing), *_agree(balancing), *_trials(balancing), *_metal(balancing),
+        *_planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing),
+        *_permitted(balancing), *_agree(balancing), *_trials(balancing), *_metal(balancing), *_convention(taken),
+        *_coefficients(balancing), *_room(balancing), *_discrete(balancing),
     )  # fmt: skip
 
 
-def _planes(balancing: Found) -> Check:
-    value = max(map(condition_number, balancing.solution.influences))
-    return coded(
+def _planes(balancing: Found) -> Iterator[Check]:
+    if balancing.case.planes == 1:
+        return
+    value = balancing.solution.condition
+    yield coded(
         "ABU1001", verdict(value <= CONDITION[1], value <= CONDITION[0]),
         "condition number: errors of readings may grow by this factor", value, CONDITION[0],
     )  # fmt: skip
@@ -92,7 +99,7 @@ def _rpm(speed: float) -> str:
 
 
 def _sure(balancing: Found) -> Check:
-    share = balancing.rest_share
+    share = balancing.error_share
     remedy = None
     if share > SURE[0]:
         remedy = (
@@ -107,26 +114,34 @@ def _sure(balancing: Found) -> Check:
 
 
 def _permitted(balancing: Found) -> Iterator[Check]:
-    for name, (rest, permitted) in zip(("left plane", "right plane"), balancing.rest, strict=True):
-        if permitted is None:
-            continue
+    tolerance = balancing.tolerance
+    if tolerance is None:
+        return
+    kind = tolerance.planes.removesuffix("s")
+    for name, rest, permitted in zip(
+        balancing.planes, balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True
+    ):
         remedy = None
-        if 2 * rest > permitted:
-            after = from_si(rest * balancing.rest_share, "g_mm")
+        if 2 * rest > permitted and any(balancing.leftover):
+            left = from_si(sum(map(abs, balancing.leftover)), "g_mm")
+            remedy = f"Allow places and weights that leave less: limits and stock leave {left:.4g} g·mm (ABU1012)."
+        elif 2 * rest > permitted:
+            after = from_si(rest * balancing.error_share, "g_mm")
             remedy = (
                 "Measure and correct once more after this correction: the imbalance falls from "
                 f"{from_si(rest, 'g_mm'):.3g} to {after:.3g} g·mm (calculated with the same errors)."
             )
         yield coded(
             "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted),
-            "imbalance expected after the correction; PASS asks that twice that is permitted, too",
-            from_si(rest, "g_mm"), from_si(permitted, "g_mm"), "g·mm", remedy, of=name,
+            f"imbalance of the {kind} expected after the correction; PASS asks that twice that is permitted, too",
+            from_si(rest, "g_mm"), from_si(permitted, "g_mm"), "g·mm", remedy,
+            of=f"{name} plane" if name != "single" else "",
         )  # fmt: skip
 
 
 def _agree(balancing: Found) -> Iterator[Check]:
     value = balancing.disagreement
-    if value is None:
+    if value is None or balancing.solution.method == "stored coefficients":
         return
     remedy = None
     if value > AGREE[0]:
@@ -138,12 +153,13 @@ def _agree(balancing: Found) -> Iterator[Check]:
 
 
 def _trials(balancing: Found) -> Iterator[Check]:
-    if balancing.solution.method != "trial masses":
+    if balancing.solution.method not in ("trial masses", "runs without phase"):
         return
-    matrix = balancing.solution.influences[0]
-    largest = max(abs(phasor) for run in balancing.case.runs for phasor in run.motion)
-    on = [max(abs(run.placed[k]) for run in balancing.case.runs) for k in (0, 1)]
-    value = min(on[k] * max(abs(row[k]) for row in matrix) / largest for k in (0, 1)) if largest else 0.0
+    value = min(
+        _change(balancing, group, plane)
+        for group in balancing.case.speed_groups
+        for plane in range(balancing.case.planes)
+    )
     remedy = (
         None
         if value >= TELLS[0]
@@ -155,14 +171,88 @@ def _trials(balancing: Found) -> Iterator[Check]:
     )  # fmt: skip
 
 
+def _change(balancing: Found, group: Sequence[int], plane: int) -> float:
+    """Change of a reading by the trial mass of a plane, over the largest reading of that speed."""
+    matrix, runs = balancing.solution.influences[group[0]], [balancing.case.runs[index] for index in group]
+    largest = max(abs(phasor) for run in runs for phasor in run.motion)
+    on = max(abs(run.placed[plane]) for run in runs)
+    return on * max(abs(row[plane]) for row in matrix) / largest if largest else 0.0
+
+
 def _metal(balancing: Found) -> Iterator[Check]:
-    if balancing.removable is None:
+    limit = balancing.making.removable
+    if limit is None:
         return
     value = max(map(removed, balancing.shares))
     yield coded(
-        "ABU1008", verdict(value <= balancing.removable * (1 + 1e-9)), "mass to remove in a plane",
-        from_si(value, "g"), from_si(balancing.removable, "g"), "g",
-        None if value <= balancing.removable else "Specify more places, so that mass can be added opposite.",
+        "ABU1008", verdict(value <= limit * (1 + 1e-9)), "mass to remove in a plane",
+        from_si(value, "g"), from_si(limit, "g"), "g",
+        None if value <= limit else "Specify more places, so that mass can be added opposite.",
+    )  # fmt: skip
+
+
+def _room(balancing: Found) -> Iterator[Check]:
+    limit = balancing.making.addable
+    if limit is None:
+        return
+    value = max(map(added, balancing.shares))
+    yield coded(
+        "ABU1011", verdict(value <= limit * (1 + 1e-9)), "mass to add in a plane",
+        from_si(value, "g"), from_si(limit, "g"), "g",
+        None if value <= limit else "Use a larger correction radius, or remove metal at the heavy spot.",
+    )  # fmt: skip
+
+
+def _discrete(balancing: Found) -> Iterator[Check]:
+    """Check of masses that are limited or in stock."""
+    making = balancing.making
+    depth = making.drill is not None and making.drill.most is not None
+    if not (making.stock or making.per_place is not None or depth):
+        return
+    value = max(
+        (abs(left) / abs(Q) for left, Q in zip(balancing.leftover, balancing.target, strict=True) if Q), default=0.0
+    )
+    yield coded(
+        "ABU1012", verdict(value <= LEFT[1], value <= LEFT[0]),
+        "imbalance that limits of mass, places or stock leave, of that to correct", 100 * value, 100 * LEFT[0], "%",
+        None if value <= LEFT[0] else "Allow more places, more mass at each place, or lighter weights.",
+    )  # fmt: skip
+
+
+def _convention(taken: Sequence[Taken]) -> Iterator[Check]:
+    """Check that every run with phases names their convention."""
+    read = [run for run in taken if run.record is None and run.run.phases]
+    if not read:
+        return
+    silent = sum(run.phase is None for run in read)
+    names = sorted({run.phase or "lag" for run in read})
+    if silent:
+        message = f"runs that do not name the convention of their phases; lag is assumed, A·cos(ωt − phase): {silent}"
+    else:
+        message = f"phases {' in some runs and '.join(names)}{' in others' if len(names) > 1 else ''}, as the runs say"
+    yield coded(
+        "ABU1009", verdict(True, not silent and len(names) == 1), message,
+        remedy='Add phase = "lag" or phase = "lead" to each run, as the manual of the instrument says.'
+        if silent or len(names) > 1 else None,
+    )  # fmt: skip
+
+
+def _coefficients(balancing: Found) -> Iterator[Check]:
+    """Check that stored coefficients fit the runs; one run with as many readings as unknowns cannot tell."""
+    if balancing.solution.method != "stored coefficients":
+        return
+    case, value = balancing.case, balancing.disagreement
+    equations = len(case.speed_groups) * len(case.runs[0].amplitudes)
+    if value is None or (equations == case.planes and len({run.placed for run in case.runs}) == 1):
+        yield coded(
+            "ABU1010", "warn", "one run cannot show whether the stored coefficients still fit",
+            remedy="After the correction run again. Add that run with the correction as its trial.",
+        )  # fmt: skip
+        return
+    yield coded(
+        "ABU1010", verdict(value <= AGREE[1], value <= AGREE[0]),
+        "largest misfit of a run with the stored coefficients, in standard deviations", value, AGREE[0], None,
+        None if value <= AGREE[0] else "Make trial runs and store the coefficients anew. The machine has changed.",
     )  # fmt: skip
 
 
@@ -179,8 +269,8 @@ def balance_warnings(
     yield from _printed(balancing, planes)
     for taken_run in taken:
         yield from record_warnings(taken_run)
-    yield from _directions(planes)
-    yield from _within_grade(planes)
+    yield from _directions(balancing, planes)
+    yield from _within_grade(balancing)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
         rpm = from_si(balancing.service_speed, "rpm")
         yield f"tolerance.service_speed_rpm is not given: the grade is judged at the speed of the runs, {rpm:.0f} rpm."
@@ -211,20 +301,24 @@ def _printed(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[st
     )
 
 
-def _directions(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
-    for name, plane in zip(("left", "right"), planes, strict=True):
+def _directions(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
+    for name, plane in zip(balancing.planes, planes, strict=True):
         if plane.mass_g and plane.angle_uncertainty_deg > UNTOLD:
             yield f"In the {name} plane the errors are about as large as the imbalance: its angle is not known."
 
 
-def _within_grade(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
-    if all(plane.permitted_g_mm is not None and plane.imbalance_g_mm <= plane.permitted_g_mm for plane in planes):
-        yield "The roll is already within its balance grade: no correction is needed."
+def _within_grade(balancing: Found) -> Iterator[str]:
+    tolerance = balancing.tolerance
+    if tolerance is None:
+        return
+    now = tolerance.transformed(balancing.solution.imbalance)
+    if all(abs(value) <= limit for value, limit in zip(now, tolerance.permitted, strict=True)):
+        yield "The rotor is already within its balance grade: no correction is needed."
 
 
 def _rig_and_trials(balancing: Found) -> Iterator[str]:
     roll = balancing.case.roll
-    if roll is None:
+    if roll is None or balancing.solution.method not in ("rig data", "trial masses"):
         return
     if balancing.solution.method == "rig data":
         if any(run.weights for run in balancing.case.runs):
@@ -232,6 +326,8 @@ def _rig_and_trials(balancing: Found) -> Iterator[str]:
                 "The trial runs do not suffice for influence coefficients: these need one run without and one in each "
                 "plane, at one speed, with masses that change the readings. The rig's data are used instead."
             )
+        return
+    if len(balancing.solution.influences[0]) != 2:
         return
     measured, calculated = balancing.solution.influences[0], influence(roll, balancing.case.runs[0].speed)
     largest = max(abs(coefficient) for row in calculated for coefficient in row)

@@ -1,30 +1,51 @@
-"""`abu balance READINGS`: two-plane balancing of a roll from runs on a rig."""
+"""`abu balance READINGS`: balancing of a rotor in one plane or two from runs on a rig or in the field."""
 
-from typing import TYPE_CHECKING, Annotated
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
 
 import typer
 
 from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
-
-if TYPE_CHECKING:
-    pass
 
 
 def balance(
+    how: Delivery,
     readings: Annotated[str, typer.Argument(metavar="READINGS", help="File of readings or name of a preset.")],
+    coefficients: Annotated[
+        str | None,
+        typer.Option("--coefficients", metavar="FILE", help="Use influence coefficients that were saved in this file."),
+    ] = None,
+    save_coefficients: Annotated[
+        Path | None,
+        typer.Option("--save-coefficients", metavar="FILE", help="Save the influence coefficients of the trial runs."),
+    ] = None,
     set_: Overrides = None,
 ) -> Outcome:
-    """Balance a roll in two planes from runs on a rig.
+    """Balance a rotor in one plane or two from runs on a rig or in the field.
 
     The report gives correction masses, their angles, their uncertainty and the verification run.
     """
     from abu_calc.features.balancing.read import read_readings
     from abu_calc.features.balancing.study import balance as study
     from abu_calc.features.balancing.view import balance_blocks, balance_screen
+    from abu_calc.reporting.write import Target, check_target
 
-    result = study(read_readings(readings, set_ or ()))
-    return Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
+    if save_coefficients is not None:
+        check_target(save_coefficients, force=how.force, suffixes=(".toml",), option="--save-coefficients")
+    result = study(read_readings(readings, set_ or ()), coefficients)
+    outcome = Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
+    if save_coefficients is None:
+        return outcome
+    if result.coefficients_text is None:
+        raise InputError(
+            "influence coefficients come from trial masses", place=Place(key="--save-coefficients"),
+            found=f"an answer by {result.method}", remedy="Make a run with a trial mass in each plane.",
+        )  # fmt: skip
+    return replace(outcome, further=(Target(save_coefficients, result.coefficients_text),))
 
 
 def register(app: typer.Typer) -> None:

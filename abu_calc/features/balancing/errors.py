@@ -1,22 +1,20 @@
-"""Possible error of a two-plane answer, and corrections in a plane as masses at places.
+"""Possible error of an answer.
 
 Each input number is moved by its standard deviation:
 
     Δ_i = (answer(p_i + σ_i) − answer(p_i − σ_i))/2,    variance Σ Δ_i²
 
-The errors of all numbers are independent. A correction removes metal at the heavy spot, or adds it opposite, or is
-split over given places.
+The errors of all numbers are independent.
 """
 
-import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import combinations
-from typing import Final, Literal
+from typing import Final
 
-from abu_calc.features.balancing.formulas import Matrix, Pair
-from abu_calc.features.balancing.two_planes import Balancing, Method, RunOnRig, Solution, TrialMass, motion_of, solved
+from abu_calc.features.balancing.formulas import Matrix, Vector
+from abu_calc.features.balancing.methods import Method, Solution, motion_of, solved
+from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
 from abu_calc.foundation.frozen import dataclass
 
 LENGTHS: Final = ("a", "b", "c", "d")
@@ -41,35 +39,41 @@ class Deviations:
     length: float
     placed_mass: float
     placed_angle: float
+    coefficient: float = 0.0
 
 
 @dataclass(frozen=True)
 class ErrorContribution:
     """Change of the answer by one standard deviation of one number, and its cause.
 
-    It holds imbalances [kg m] and misfits of the runs [m].
+    It holds imbalances [kg m], misfits of the runs [m] and influences of the planes at the runs [m per kg m].
     """
 
     cause: str
-    imbalance: Pair
-    misfits: tuple[Pair, ...]
+    imbalance: Vector
+    misfits: tuple[Vector, ...]
+    influences: tuple[Matrix, ...] = ()
 
 
 def changes(case: Balancing, method: Method, sigma: Deviations) -> list[ErrorContribution]:
     """One for each number that went in."""
     variations, base = [], solved(case, method)
     for cause, up, down in _varied(case, method, sigma):
-        high, low = solved(up, method), base if down is None else solved(down, method)
+        high, low = solved(up, method, base), base if down is None else solved(down, method, base)
         variations.append(_change(cause, high, low, 1.0 if down is None else 2.0))
     return variations
 
 
 def _change(cause: str, high: Solution, low: Solution, steps: float) -> ErrorContribution:
-    def half(upper: Pair, other: Pair) -> Pair:
-        return (upper[0] - other[0]) / steps, (upper[1] - other[1]) / steps
+    def half(upper: Vector, other: Vector) -> Vector:
+        return tuple((up - down) / steps for up, down in zip(upper, other, strict=True))
 
     misfits = tuple(half(misfit, other) for misfit, other in zip(high.misfits, low.misfits, strict=True))
-    return ErrorContribution(cause, half(high.imbalance, low.imbalance), misfits)
+    influences = tuple(
+        tuple(half(row, other) for row, other in zip(rows, others, strict=True))
+        for rows, others in zip(high.influences, low.influences, strict=True)
+    )
+    return ErrorContribution(cause, half(high.imbalance, low.imbalance), misfits, influences)
 
 
 Varied = Iterator[tuple[str, Balancing, Balancing | None]]
@@ -82,30 +86,39 @@ def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
             yield cause, _with_run(case, index, up), _with_run(case, index, down)
     if method == "rig data" and case.roll is not None:
         yield from _rigs(case, sigma)
+    if method == "stored coefficients" and case.coefficients is not None:
+        yield from _coefficients(case, case.coefficients, sigma)
 
 
 def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
-    (A, B), (alpha, beta) = run.amplitudes, run.phases
-    dA, dB = (math.hypot(peak * sigma.amplitude, noise) for peak, noise in zip(run.amplitudes, run.noise, strict=True))
-    turn = [
-        math.hypot(sigma.phase, noise / peak if peak else 0.0)
-        for peak, noise in zip(run.amplitudes, run.noise, strict=True)
-    ]
-    shift = run.unsure / math.sqrt(3)
-
     def both(cause: str, moved: Callable[[float], RunOnRig]) -> tuple[str, RunOnRig, RunOnRig]:
         return cause, moved(1.0), moved(-1.0)
 
-    yield both("readings", lambda s: replace(run, amplitudes=(A + s * dA, B)))
-    yield both("readings", lambda s: replace(run, amplitudes=(A, B + s * dB)))
-    yield both("readings", lambda s: replace(run, phases=(alpha + s * turn[0], beta)))
-    yield both("readings", lambda s: replace(run, phases=(alpha, beta + s * turn[1])))
-    yield both("readings", lambda s: replace(run, phases=(alpha + s * shift, beta + s * shift)))
+    for k, (peak, noise) in enumerate(zip(run.amplitudes, run.errors, strict=True)):
+        size = math.hypot(peak * sigma.amplitude, noise)
+        yield both("readings", lambda s, k=k, size=size: _with_amplitude(run, k, s * size))  # type: ignore[misc]
+    for k, (peak, noise) in enumerate(zip(run.amplitudes, run.errors, strict=True)):
+        if run.phases:
+            turn = math.hypot(sigma.phase, noise / peak if peak else 0.0)
+            yield both("readings", lambda s, k=k, turn=turn: _with_phase(run, k, s * turn))  # type: ignore[misc]
+    if run.phases:
+        shift = run.unsure / math.sqrt(3)
+        yield both("readings", lambda s: replace(run, phases=tuple(phase + s * shift for phase in run.phases)))
     yield both("speed", lambda s: replace(run, speed=run.speed * (1 + s * sigma.speed)))
     for index, weight in enumerate(run.weights):
         for moved in (_heavier(weight, sigma), _turned(weight, sigma)):
             high, low = (_with_weight(run, index, trial_mass) for trial_mass in moved)
             yield "trial masses", high, low
+
+
+def _with_amplitude(run: RunOnRig, sensor: int, change: float) -> RunOnRig:
+    values = run.amplitudes
+    return replace(run, amplitudes=(*values[:sensor], values[sensor] + change, *values[sensor + 1 :]))
+
+
+def _with_phase(run: RunOnRig, sensor: int, change: float) -> RunOnRig:
+    values = run.phases
+    return replace(run, phases=(*values[:sensor], values[sensor] + change, *values[sensor + 1 :]))
 
 
 def _heavier(weight: TrialMass, sigma: Deviations) -> list[TrialMass]:
@@ -141,13 +154,34 @@ def _rigs(case: Balancing, sigma: Deviations) -> Varied:
         yield "rig data", up, down
 
 
-def placing(imbalance: Pair, sigma: Deviations) -> list[Pair]:
+def _coefficients(case: Balancing, stored: Coefficients, sigma: Deviations) -> Varied:
+    """Each coefficient along and across itself, by its own error and by the difference of rotors of a kind."""
+    for number, (matrix, errors) in enumerate(zip(stored.matrices, stored.errors, strict=True)):
+        for i, row in enumerate(matrix):
+            for k, value in enumerate(row):
+                size = math.hypot(errors[i][k], sigma.coefficient * abs(value) / math.sqrt(2))
+                for step in (size, 1j * size):
+                    up, down = (
+                        replace(case, coefficients=_with_coefficient(stored, number, i, k, sign * step))
+                        for sign in (1, -1)
+                    )
+                    yield "stored coefficients", up, down
+
+
+def _with_coefficient(stored: Coefficients, number: int, row: int, column: int, change: complex) -> Coefficients:
+    values = [[list(each) for each in matrix] for matrix in stored.matrices]
+    values[number][row][column] += change
+    return replace(stored, matrices=tuple(tuple(tuple(each) for each in matrix) for matrix in values))
+
+
+def placing(imbalance: Vector, sigma: Deviations) -> list[Vector]:
     """Residual imbalances by errors of the correction itself, one standard deviation each."""
-    left, right = imbalance
+    planes = range(len(imbalance))
     return [
-        (left * sigma.placed_mass, 0j), (left * 1j * sigma.placed_angle, 0j),
-        (0j, right * sigma.placed_mass), (0j, right * 1j * sigma.placed_angle),
-    ]  # fmt: skip
+        tuple(imbalance[k] * step if k == plane else 0j for k in planes)
+        for plane in planes
+        for step in (sigma.placed_mass, 1j * sigma.placed_angle)
+    ]
 
 
 def radial(imbalance: complex, deltas: Iterable[complex]) -> float:
@@ -170,98 +204,19 @@ def size(deltas: Iterable[complex]) -> float:
     return math.sqrt(sum(abs(each) ** 2 for each in deltas))
 
 
-def motions(matrix: Matrix, deltas: Iterable[Pair]) -> tuple[float, float]:
-    """Amplitudes (rms over the errors) of both sensors that imbalances of this size leave [m]."""
+def motions(matrix: Matrix, deltas: Iterable[Vector]) -> tuple[float, ...]:
+    """Amplitudes (rms over the errors) of the sensors that imbalances of this size leave [m]."""
     made = [motion_of(matrix, each) for each in deltas]
-    return size(first for first, _ in made), size(other for _, other in made)
+    return tuple(size(each[sensor] for each in made) for sensor in range(len(matrix)))
 
 
 def disagreement(solution: Solution, by: Sequence[ErrorContribution]) -> float | None:
     """The largest misfit over its standard deviation; None where the runs have nothing to disagree about."""
     sizes = []
-    for index, pair in enumerate(solution.misfits):
-        for k in (0, 1):
+    for index, misfits in enumerate(solution.misfits):
+        scale = max(abs(made) for made in motion_of(solution.influences[index], solution.imbalance))
+        for k, misfit in enumerate(misfits):
             expected = size(change.misfits[index][k] for change in by)
-            scale = max(abs(made) for made in motion_of(solution.influences[index], solution.imbalance))
             if expected > 1e-9 * scale:
-                sizes.append(abs(pair[k]) / expected)
+                sizes.append(abs(misfit) / expected)
     return max(sizes, default=None)
-
-
-Action = Literal["remove", "add"]
-
-NOTHING: Final = 1e-9
-"""Part of the whole below which a share is none."""
-
-
-@dataclass(frozen=True)
-class MassShare:
-    """A mass [kg] to take off or put on at an angle behind the mark [rad]."""
-
-    action: Action
-    mass: float
-    angle: float
-
-
-def correction(
-    mass: float, angle: float, removable: float | None, places: Sequence[float] | None
-) -> tuple[MassShare, ...]:
-    """The shares that balance a heavy spot of this mass at this angle.
-
-    Metal is taken off where there is enough (`removable`, of the plane), else put on opposite. With places, two of them
-    carry it: the pair that takes off no more than may be, puts on as little as may be, and takes the least in all.
-    """
-    if mass == 0:
-        return ()
-    if places is None:
-        if removable is None or mass <= removable:
-            return (MassShare("remove", mass, turned(angle)),)
-        return (MassShare("add", mass, turned(angle + math.pi)),)
-    options = [split for pair in combinations(places, 2) if (split := _split(mass, angle, *pair)) is not None]
-
-    def worth(shares: tuple[MassShare, ...]) -> tuple[bool, bool, float]:
-        off = removed(shares)
-        return (
-            removable is not None and off > removable,
-            off < sum(share.mass for share in shares),
-            sum(share.mass for share in shares),
-        )
-
-    return min(options, key=worth)
-
-
-def turned(angle: float) -> float:
-    """An angle from 0 to 2π, the latter not reached.
-
-    >>> turned(-1e-70), turned(7.0) < 1
-    (0.0, True)
-    """
-    remainder = angle % math.tau
-    return 0.0 if remainder == math.tau else remainder
-
-
-def removed(shares: Sequence[MassShare]) -> float:
-    """Mass that is taken off in all [kg]."""
-    return sum(share.mass for share in shares if share.action == "remove")
-
-
-def _split(mass: float, angle: float, first: float, second: float) -> tuple[MassShare, ...] | None:
-    """m1·e^{iψ1} + m2·e^{iψ2} = m·e^{iφ}; what comes out negative is put on. None for places on one line."""
-    across = math.sin(second - first)
-    if abs(across) < NOTHING:
-        return None
-    parts = mass * math.sin(second - angle) / across, mass * math.sin(angle - first) / across
-    shares = [
-        MassShare("remove" if part > 0 else "add", abs(part), turned(place))
-        for part, place in zip(parts, (first, second), strict=True)
-        if abs(part) > NOTHING * mass
-    ]
-    return tuple(shares)
-
-
-def total(shares: Sequence[MassShare]) -> complex:
-    """Sum of the masses that the shares remove, as mass·e^{iψ} [kg].
-
-    Removed metal counts where it was, added metal opposite.
-    """
-    return sum(((1 if share.action == "remove" else -1) * cmath.rect(share.mass, share.angle) for share in shares), 0j)

@@ -12,10 +12,12 @@ from typing import Final
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 
-Pair = tuple[complex, complex]
+Vector = tuple[complex, ...]
+"""One number for each plane, or for each sensor."""
+Matrix = tuple[Vector, ...]
+"""Rows: sensors, or sum and moment; columns: planes."""
+Pair = Vector
 """Left and right."""
-Matrix = tuple[Pair, Pair]
-"""Rows: left and right sensor, or sum and moment; columns: left and right."""
 Signed = tuple[float, float]
 """A mass that may be negative, and an angle."""
 
@@ -217,12 +219,14 @@ def condition_number(matrix: Matrix) -> float:
     >>> condition_number(((2, 0), (0, -1j)))
     2.0
     """
-    (p, q), (r, s) = matrix
-    squares, whole = abs(p) ** 2 + abs(q) ** 2 + abs(r) ** 2 + abs(s) ** 2, abs(p * s - q * r)
-    if whole == 0:
-        return math.inf
-    root = math.sqrt(max(squares * squares - 4 * whole * whole, 0.0))
-    return (squares + root) / (2 * whole)
+    import numpy as np
+
+    values = np.linalg.svd(np.array(matrix, dtype=complex), compute_uv=False)
+    return float(values[0] / values[-1]) if values[-1] > TINY * values[0] else math.inf
+
+
+TINY: Final = 1e-15
+"""Ratio of singular values that only rounding makes."""
 
 
 @formula(

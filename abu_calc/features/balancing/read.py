@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.errors import InputError, Place
@@ -54,6 +54,11 @@ def read_readings(source: str | os.PathLike[str], overrides: Sequence[str] = ())
 def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> Readings:
     """The readings of a document that is open already; raises as `read_readings` does."""
     refuse_others(document, "readings")
+    if "coefficients" in document.content:
+        raise InputError(
+            "this file holds influence coefficients, not readings", place=Place(document.file, key="coefficients"),
+            remedy="`abu balance READINGS --coefficients FILE` takes it",
+        )  # fmt: skip
     tables, reading = validate(document, overrides, ReadingsFile, lambda _: ReadingsFile)
     readings = Readings(**vars(reading), tables=tables)
     with readings.located():
@@ -66,11 +71,25 @@ def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> R
     return readings
 
 
-def readings_template() -> str:
-    """Text of a complete file of readings; it reads back without error."""
+METHODS: Final = ("rig-data", "trials", "single-plane", "four-runs", "least-squares", "coefficients")
+"""Methods of balancing that a new file can be for."""
+
+
+def readings_template(method: str | None = None) -> str:
+    """Text of a file of readings; it reads back without error. Without a method, and for rig data, it has every key.
+
+    Raises InputError for an unknown method.
+    """
     from abu_calc.inputs.reading.template import template_of
 
-    return template_of("readings", ReadingsFile)
+    if method is not None and method not in METHODS:
+        raise InputError(
+            "unknown method of balancing", place=Place(key="method"), found=method, allowed=", ".join(METHODS),
+            remedy="name one of them",
+        )  # fmt: skip
+    if method is None or method == "rig-data":
+        return template_of("readings", ReadingsFile)
+    return Path(__file__).parent.joinpath("templates", f"{method}.toml").read_text(encoding="utf-8")
 
 
 def readings_schema() -> dict[str, Any]:

@@ -6,46 +6,42 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from abu_calc.features.balancing.case import Taken, balancing, deviations
+from abu_calc.features.balancing.case import Taken, balancing, behind_the_mark, deviations, making_of, mass_of
+from abu_calc.features.balancing.corrections import Making, MassShare, correction, total
 from abu_calc.features.balancing.errors import (
     Deviations,
     ErrorContribution,
-    MassShare,
     changes,
-    correction,
     disagreement,
     motions,
     placing,
     size,
 )
-from abu_calc.features.balancing.formulas import Pair, Signed, influence, natural_frequencies, published_answer
+from abu_calc.features.balancing.formulas import Signed, Vector, influence, natural_frequencies, published_answer
+from abu_calc.features.balancing.methods import Method, Solution, method_of, motion_of, said_of_resonance, solved
+from abu_calc.features.balancing.runs import Balancing, Coefficients, TrialMass, imbalance_of
 from abu_calc.features.balancing.tables import ReadingsFile
-from abu_calc.features.balancing.two_planes import (
-    Balancing,
-    Method,
-    Solution,
-    method_of,
-    motion_of,
-    said_of_resonance,
-    solved,
-)
+from abu_calc.features.balancing.tolerance import TolerancePlanes, tolerance_of
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
-from abu_calc.standards.vibration import permissible_imbalance
 
 FARTHER: Final = 1.6
 """Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
 HOPELESS: Final = 1.0
 """Vibration left, of that before, from which on the correction may do more harm than good: no number is given."""
-Spread = Sequence[Pair]
-"""Changes of both imbalances by one standard deviation of each number, the correction's among them."""
+MUCH: Final = 10.0
+"""Such a part whose size is of no interest."""
+ROUNDING: Final = 1e-9
+"""Part of an imbalance that only rounding leaves."""
+Spread = Sequence[Vector]
+"""Changes of the imbalances by one standard deviation of each number, those of the correction itself among them."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """An answer; `rest`: imbalance expected to be left in each plane and the permitted one [kg m]; `rest_share`:
-    vibration left, of that before.
+    """An answer; `target`: imbalance of each plane that the correction takes away, `leftover`: the part that discrete
+    masses cannot take away [kg m]; `rest_share`: vibration left, of that before.
     """
 
     case: Balancing
@@ -53,41 +49,64 @@ class Found:
     solution: Solution
     by: Sequence[ErrorContribution]
     spread: Spread
+    target: Vector
+    leftover: Vector
     rest_share: float
+    error_share: float
+    """The same by the errors alone, without the leftover."""
     disagreement: float | None
-    rest: Sequence[tuple[float, float | None]]
+    tolerance: TolerancePlanes | None
     service_speed: float
     bending_speed: float | None
-    radii: tuple[float, float]
+    planes: tuple[str, ...]
+    radii: tuple[float, ...]
+    making: Making
     shares: Sequence[Sequence[MassShare]]
-    removable: float | None
     farther: tuple[float, float] | None
     """A speed farther from the natural frequencies that was tried [rad/s], and what would be left there."""
     printed: tuple[Signed, Signed] | None
     """Result of the formula as published for the first run without trial masses."""
 
+    @property
+    def rest(self) -> tuple[float, ...]:
+        """Imbalance expected to be left in each correction plane, rms over the errors [kg m]."""
+        return tuple(size(each[plane] for each in self.spread) for plane in range(len(self.planes)))
 
-def find(file: ReadingsFile, taken: Sequence[Taken]) -> Found:
+    @property
+    def rest_in_tolerance_planes(self) -> tuple[float, ...]:
+        """Likewise in each tolerance plane; in the correction planes without a tolerance."""
+        return self.rest if self.tolerance is None else self.tolerance.sizes(self.spread)
+
+
+def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients | None = None) -> Found:
     """The answer of a file. Raises InputError, and NotTrustworthyError where errors would be larger than it."""
-    case, sigma = balancing(file, tuple(taken)), deviations(file.errors)
-    answer = _answer(case, method_of(case), sigma)
-    service, radii = _service_speed(file, case), _radii(file)
-    permitted = _permitted(file, service)
-    limit = _or_none(file.rotor.max_removable_g, "g")
+    case, sigma = balancing(file, tuple(taken), coefficients), deviations(file.errors)
+    fitted = tuple(mass_of(file, mass) for mass in file.correction.fitted)
+    replaced = fitted if file.correction.answer == "total" else ()
+    answer = _answer(case, method_of(case), sigma, replaced)
+    service, making = _service_speed(file, case), making_of(file)
+    radii = tuple(to_si(radius, "mm") for radius in file.radii_mm)
+    shares = [_shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)]
+    leftover = tuple(_leftover(*each) for each in zip(answer.target, shares, radii, strict=True))
+    spread = [*answer.spread, leftover]
     return Found(
         case=case,
         sigma=sigma,
         solution=answer.solution,
         by=answer.by,
-        spread=answer.spread,
-        rest_share=answer.rest_share,
+        spread=spread,
+        target=answer.target,
+        leftover=leftover,
+        rest_share=_rest_share(answer.solution, spread),
+        error_share=_rest_share(answer.solution, answer.spread),
         disagreement=disagreement(answer.solution, answer.by),
-        rest=[(size(pair[plane] for pair in answer.spread), permitted[plane]) for plane in (0, 1)],
+        tolerance=tolerance_of(file, service),
         service_speed=service,
         bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
+        planes=file.planes,
         radii=radii,
-        shares=[_shares(file, plane, answer.solution.imbalance[plane], radii[plane], limit) for plane in (0, 1)],
-        removable=limit,
+        making=making,
+        shares=shares,
         farther=_farther(case, answer.solution, sigma),
         printed=_printed(case, radii),
     )
@@ -96,25 +115,43 @@ def find(file: ReadingsFile, taken: Sequence[Taken]) -> Found:
 @dataclass(frozen=True)
 class _Answer:
     solution: Solution
+    target: Vector
     by: Sequence[ErrorContribution]
     spread: Spread
-    rest_share: float
 
 
-def _answer(case: Balancing, method: Method, sigma: Deviations) -> _Answer:
-    """Answer by this method; by the rig's data if trial masses tell too little and these data are known."""
+def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[TrialMass, ...]) -> _Answer:
+    """Answer by this method; by the rig's data if trial masses tell too little and these data are known.
+
+    `replaced`: masses that are fitted and that the correction replaces.
+    """
     try:
         solution = solved(case, method)
-        by = changes(case, method, sigma)
-        spread = [*(change.imbalance for change in by), *placing(solution.imbalance, sigma)]
+        known = imbalance_of(replaced, case.planes)
+        target = tuple(Q - mass for Q, mass in zip(solution.imbalance, known, strict=True))
+        by = [*changes(case, method, sigma), *_of_fitted(case, replaced, sigma)]
+        spread = [*(change.imbalance for change in by), *placing(target, sigma)]
         share = _rest_share(solution, spread)
         if share > HOPELESS:
             raise NotTrustworthyError(_hopeless(case, share))
     except NotTrustworthyError:
-        if method == "rig data" or case.roll is None:
+        if method != "trial masses" or case.roll is None:
             raise
-        return _answer(case, "rig data", sigma)
-    return _Answer(solution, by, spread, share)
+        return _answer(case, "rig data", sigma, replaced)
+    return _Answer(solution, target, by, spread)
+
+
+def _of_fitted(case: Balancing, fitted: Sequence[TrialMass], sigma: Deviations) -> list[ErrorContribution]:
+    """Contributions of the masses that are replaced: the readings hold them as they are, the file as they are said."""
+    return [
+        ErrorContribution(
+            "fitted masses", tuple(mass.imbalance * step if k == mass.plane else 0j for k in range(case.planes)),
+            tuple((0j,) * len(run.amplitudes) for run in case.runs),
+            tuple(((0j,) * case.planes,) * len(run.amplitudes) for run in case.runs),
+        )
+        for mass in fitted
+        for step in (sigma.placed_mass, 1j * sigma.placed_angle)
+    ]  # fmt: skip
 
 
 def _or_none(value: float | None, unit: str) -> float | None:
@@ -122,9 +159,11 @@ def _or_none(value: float | None, unit: str) -> float | None:
 
 
 def _hopeless(case: Balancing, share: float) -> str:
+    remedy = "smaller errors" if not case.runs[0].phases else "smaller errors, or trial masses"
+    much = f"{100 * share:.0f}" if share < MUCH else f"over {100 * MUCH:.0f}"
     return (
-        f"the errors given would leave {100 * share:.0f} % of the vibration after the correction: none can be trusted."
-        f"{said_of_resonance(case)}\n  Another speed, smaller errors, or trial masses."
+        f"the errors given would leave {much} % of the vibration after the correction: none can be trusted."
+        f"{said_of_resonance(case)}\n  Another speed, {remedy}. If the vibration is small, leave the rotor as it is."
     )
 
 
@@ -145,10 +184,9 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
     speed = FARTHER * natural_frequencies(case.roll)[1]
     matrix = influence(case.roll, speed)
     motion = motion_of(matrix, solution.imbalance)
-    amplitudes, phases = [abs(phasor) for phasor in motion], [-cmath.phase(phasor) for phasor in motion]
     run = replace(
-        case.runs[0], speed=speed, quantity="displacement", sensor=0.0, weights=(),
-        amplitudes=(amplitudes[0], amplitudes[1]), phases=(phases[0], phases[1]),
+        case.runs[0], speed=speed, quantity="displacement", sensor=0.0, weights=(), noise=(),
+        amplitudes=tuple(abs(phasor) for phasor in motion), phases=tuple(-cmath.phase(phasor) for phasor in motion),
     )  # fmt: skip
     by = changes(replace(case, runs=(run,)), "rig data", sigma)
     there = replace(solution, influences=(matrix,))
@@ -160,32 +198,20 @@ def _service_speed(file: ReadingsFile, case: Balancing) -> float:
     return max(run.speed for run in case.runs) if given is None else to_si(given, "rpm")
 
 
-def _permitted(file: ReadingsFile, speed: float) -> tuple[float | None, float | None]:
-    """Permitted imbalance of each plane by the grade, shared by the place of the centre of mass.
-
-    If that place is not known, each plane gets half.
-    """
-    grade, rotor = file.tolerance.balance_grade, file.rotor
-    if grade is None or rotor.mass_kg is None:
-        return None, None
-    whole = permissible_imbalance(grade, rotor.mass_kg, speed)
-    b, c = rotor.left_plane_to_centre_m, rotor.centre_to_right_plane_m
-    share = 0.5 if b is None or c is None else c / (b + c)
-    return share * whole, (1 - share) * whole
+def _shares(file: ReadingsFile, making: Making, plane: int, Q: complex, radius: float) -> tuple[MassShare, ...]:
+    places = file.places_deg[plane]
+    marked = None if places is None else [behind_the_mark(file, place) for place in places]
+    return correction(abs(Q) / radius, -cmath.phase(Q), making, marked, radius)
 
 
-def _radii(file: ReadingsFile) -> tuple[float, float]:
-    return to_si(file.rotor.left_correction_radius_mm, "mm"), to_si(file.rotor.right_correction_radius_mm, "mm")
+def _leftover(Q: complex, shares: Sequence[MassShare], radius: float) -> complex:
+    """Imbalance that shares do not take away [kg m]."""
+    left = Q - total(shares).conjugate() * radius
+    return left if abs(left) > ROUNDING * abs(Q) else 0j
 
 
-def _shares(file: ReadingsFile, plane: int, Q: complex, radius: float, limit: float | None) -> tuple[MassShare, ...]:
-    places = (file.rotor.left_places_deg, file.rotor.right_places_deg)[plane]
-    turned = None if places is None else [math.radians(place) for place in places]
-    return correction(abs(Q) / radius, -cmath.phase(Q), limit, turned)
-
-
-def _printed(case: Balancing, radii: tuple[float, float]) -> tuple[Signed, Signed] | None:
+def _printed(case: Balancing, radii: tuple[float, ...]) -> tuple[Signed, Signed] | None:
     run = next((run for run in case.runs if not run.weights), None)
-    if case.roll is None or run is None:
+    if case.roll is None or run is None or len(run.phases) != 2:
         return None
-    return published_answer(case.roll, run.speed, run.readings, radii)
+    return published_answer(case.roll, run.speed, run.readings, (radii[0], radii[1]))

@@ -206,7 +206,7 @@ STEPS: Final[Mapping[str, Step]] = {
         ),
     ),
     "balance": Step(
-        "Balancing in two planes (`abu balance`)",
+        "Balancing in one plane or two (`abu balance`)",
         (
             "features.balancing.formulas:displacement",
             "features.balancing.formulas:kernels",
@@ -215,6 +215,11 @@ STEPS: Final[Mapping[str, Step]] = {
             "features.balancing.formulas:natural_frequencies",
             "features.balancing.formulas:influence",
             "features.balancing.formulas:condition_number",
+            "features.balancing.methods:solved",
+            "features.balancing.without_phase:solved_without_phase",
+            "features.balancing.tolerance:tolerance_shares",
+            "features.balancing.corrections:hole_mass",
+            "features.balancing.next_run:safe_trial_mass",
             "features.balancing.formulas:bar_bending_speed",
             "features.balancing.formulas:published_answer",
         ),

@@ -1,4 +1,4 @@
-"""`abu init [--preset NAME|--scene|--readings|--recordings] FILE`: write a commented file to start from."""
+"""`abu init [--preset NAME|--scene|--readings [--method NAME]|--recordings] FILE`: write a commented file."""
 
 from pathlib import Path
 from typing import Annotated
@@ -18,6 +18,15 @@ def init(
     preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset.")] = None,
     scene: Annotated[bool, typer.Option("--scene", help="Write a scene file for `abu simulate`.")] = False,
     readings: Annotated[bool, typer.Option("--readings", help="Write a file of readings for `abu balance`.")] = False,
+    method: Annotated[
+        str | None,
+        typer.Option(
+            "--method",
+            metavar="NAME",
+            help="With --readings, the method: rig-data, trials, single-plane, four-runs, least-squares or "
+            "coefficients.",
+        ),
+    ] = None,
     recordings: Annotated[
         bool, typer.Option("--recordings", help="Write a list of recordings for `abu declare --recordings`.")
     ] = False,
@@ -38,11 +47,13 @@ def init(
         raise InputError(
             f"{' and '.join(options)} exclude each other", remedy="Specify one of them: a preset has its own kind."
         )
+    if method is not None and not readings:
+        raise InputError("--method goes with --readings", remedy="Add --readings, or leave --method out.")
     if preset is not None:
         text, kind = text_of(preset), kind_of(read_file(preset).document.content)
     else:
         kind = BY_NAME[asked[0] if asked else "machine"]
-        text = kind.call("template")
+        text = kind.call("template", method) if method is not None else kind.call("template")
     next_step = Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")
     return Outcome("init", {"file": str(file), "preset": preset}, (next_step,), further=(Target(file, text),))
 

@@ -1,6 +1,7 @@
 """`abu validate FILE…`: check files and nothing else.
 
-A file that its own commands would refuse, seconds later, is refused at once (`refuse_unusable`).
+A file that its own commands would refuse, seconds later, is refused at once (`refuse_unusable`). A file of readings
+grows from run to run: what is missing for an answer is said, with the next run.
 """
 
 from typing import Annotated
@@ -54,6 +55,18 @@ def _design(machine: Machine) -> None:
             continue
 
 
+def missing_of(source: FileReading) -> tuple[str, ...]:
+    """Sentences on the runs that a file of readings still needs; empty for all other files."""
+    from abu_calc.features.balancing.read import Readings
+
+    if not isinstance(source, Readings):
+        return ()
+    from abu_calc.features.balancing.next_run import missing_from
+
+    with source.located():
+        return missing_from(source)
+
+
 def validate(
     files: Annotated[
         list[str], typer.Argument(metavar="FILE", help="Files of machines, scenes or readings, or names of presets.")
@@ -72,12 +85,15 @@ def validate(
             faults.append(error)
             continue
         defaults = dict(loaded.defaults_used)
+        missing = missing_of(loaded)
         replaced = {override.key: override.value for override in loaded.overrides}
         results.append({"file": file, "sha256": loaded.sha256, "overrides": as_plain(replaced), "defaults": defaults,
-                        "warnings": list(loaded.warnings)})  # fmt: skip
+                        "warnings": list(loaded.warnings),
+                        **({"missing": list(missing)} if missing else {})})  # fmt: skip
         warnings += [f"{file}: {warning}" for warning in loaded.warnings]
         blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
         blocks += [Paragraph(f"! {warning}", indent=4) for warning in loaded.warnings]
+        blocks += [Paragraph(line, indent=4) for line in missing]
     if len(faults) == 1:
         raise faults[0]
     if faults:

@@ -1,15 +1,17 @@
 """Numbers of a file of readings in SI: amplitudes, trial masses, errors; warnings about records."""
 
 import math
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.case import balancing, deviations, record_warnings, taken_runs, unit_of_readings
+from abu_calc.features.balancing.case import balancing, deviations, record_warnings, taken_runs
 from abu_calc.features.balancing.tables import Errors
 from abu_calc.foundation.errors import InputError
-from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, written
+from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, trial, written
 
 RUN = """\
 [[run]]
@@ -33,7 +35,7 @@ def test_a_run_is_in_si(tmp_path: Path, quantity: str, scale: float) -> None:
     (weight,) = run.weights
     assert (weight.plane, weight.mass, weight.radius) == (1, pytest.approx(4e-3), pytest.approx(0.15))
     assert weight.imbalance == pytest.approx(6e-4 * (0.5 - 1j * math.sqrt(0.75)))
-    assert record_warnings(taken) == [] and unit_of_readings("displacement") == "mm"
+    assert record_warnings(taken) == [] and taken.instrument.quantity == quantity
 
 
 def test_the_roll_is_known_only_with_the_rig(tmp_path: Path) -> None:
@@ -59,3 +61,53 @@ def test_a_record_that_cannot_be_read_is_refused_by_its_name(tmp_path: Path) -> 
     with pytest.raises(InputError) as refused:
         taken_runs(readings)
     assert refused.value.place.line == 3 and str(refused.value.place.file).endswith("run1.csv")
+
+
+# Conventions
+
+
+def leading(run: str) -> str:
+    """The same run as an instrument with leading phases shows it."""
+    turned_ = re.sub(r"phase_deg = (-?[0-9.e-]+)", lambda found: f"phase_deg = {-float(found[1])!r}", run)
+    return turned_ + 'phase = "lead"\n'
+
+
+@pytest.mark.parametrize("quantity", ["displacement", "velocity", "acceleration"])
+def test_leading_phases_give_the_same_answer(tmp_path: Path, quantity: str) -> None:
+    shop = Workshop(quantity=quantity, sensor_deg=35.0)
+    lag = abu_calc.balance(written(tmp_path, RIG, ROTOR, shop.run() + 'phase = "lag"\n'))
+    lead = abu_calc.balance(written(tmp_path, RIG, ROTOR, leading(shop.run())))
+    silent = abu_calc.balance(written(tmp_path, RIG, ROTOR, shop.run()))
+    for one in (lag, lead, silent):
+        assert (one.left.mass_g, one.left.angle_deg) == pytest.approx((12.0, 205.0), rel=1e-9)
+        assert (one.right.mass_g, one.right.angle_deg) == pytest.approx((7.0, 320.0), rel=1e-9)
+    grades = [next(c.status for c in one.checks if c.code == "ABU1009") for one in (lag, lead, silent)]
+    assert grades == ["pass", "pass", "warn"]
+    assert silent.status == "pass" and lead.runs[0].phase == "lead"
+    assert lead.runs[0].left.phase_deg == pytest.approx(-lag.runs[0].left.phase_deg)
+
+
+def test_marks_with_rotation_turn_trials_places_and_orders(tmp_path: Path) -> None:
+    """The rotor of 12 g at 205° against rotation has them at 155° on marks that count with it."""
+    shop = Workshop()
+    trials = [(0, 10.0, 40.0), (1, 8.0, 300.0)]
+    runs = [shop.run(), *(shop.put_on(k, m, a).run(trial(k, m, 360 - a)) for k, m, a in trials)]
+    marks = 'angle_marks = "with"\nleft_places_deg = [0, 120, 240]\n'
+    result = abu_calc.balance(written(tmp_path, BARE_ROTOR + marks, *runs))
+    assert result.left.angle_deg == pytest.approx(205.0) and result.left.remove_at_deg == pytest.approx(155.0)
+    assert result.left.add_at_deg == pytest.approx(335.0) and result.right.remove_at_deg == pytest.approx(40.0)
+    places = np.array([s.mass_g * np.exp(1j * np.radians(s.angle_deg)) for s in result.left.corrections])
+    assert sum(places) == pytest.approx(12.0 * np.exp(1j * np.radians(155.0)), rel=1e-9)
+    assert result.angle_marks == "with rotation"
+
+
+def test_phase_with_a_record_and_marks_of_another_kind_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "run1.csv").write_text("time,left,right,mark\n", encoding="utf-8")
+    for text, words in (
+        ('[[run]]\nquantity = "velocity"\nfile = "run1.csv"\nphase = "lag"\n', "phase goes with readings only"),
+        ('[[run]]\nunit = "mm/s rms"\nfile = "run1.csv"\n', "no rms"),
+        (Workshop().run() + 'phase = "ahead"\n', "lag"),
+    ):
+        with pytest.raises(InputError) as refused:
+            abu_calc.read_readings(written(tmp_path, RIG, ROTOR, text))
+        assert words in str(refused.value)

@@ -30,7 +30,7 @@ def test_the_preset_says_what_to_do_on_one_screen() -> None:
     seen = abu("balance", PRESET)
     lines = [line.strip() for line in seen.out.splitlines()]
     assert seen.status == 0 and fits(seen)
-    assert lines[1] == "PASS: 7 of 7 checks pass"
+    assert lines[1] == "PASS: 8 of 8 checks pass"
     assert lines[2:4] == ["LEFT plane: remove 12.00 g at 205.0°.", "RIGHT plane: remove 7.000 g at 320.0°."]
     assert "AGAINST rotation" in abu("balance", PRESET, "--full").out
 

@@ -5,16 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from abu_calc.features.balancing.errors import Deviations, changes, correction, placing, radial, removed, total
+from abu_calc.features.balancing.errors import Deviations, changes, placing, radial
 from abu_calc.features.balancing.formulas import (
     RollOnRig,
 )
-from abu_calc.features.balancing.two_planes import Balancing, solved
+from abu_calc.features.balancing.methods import solved
+from abu_calc.features.balancing.runs import Balancing
 from tests.features.balancing.rig import Workshop
-from tests.features.balancing.test_two_planes import ROLL, run_of
+from tests.features.balancing.test_methods import ROLL, run_of
 
 NO_ERRORS = Deviations(*[0.0] * 11)
 
@@ -59,18 +58,3 @@ def test_without_errors_nothing_is_unsure() -> None:
     case = Balancing(ROLL, (run_of(Workshop()),))
     assert all(abs(part) == 0 for change in changes(case, "rig data", NO_ERRORS) for part in change.imbalance)
     assert all(abs(part) == 0 for pair in placing((1j, 1.0), NO_ERRORS) for part in pair)
-
-
-SPREAD = st.lists(st.floats(0, 6.28), min_size=2, max_size=6).filter(lambda p: abs(math.sin(p[1] - p[0])) > 0.01)
-
-
-@settings(max_examples=60, deadline=None, derandomize=True)
-@given(st.floats(0.001, 1.0), st.floats(-7, 7), st.none() | st.floats(0, 1), st.none() | SPREAD)
-def test_shares_take_away_the_heavy_spot(mass: float, angle: float, removable: float | None, places) -> None:
-    shares = correction(mass, angle, removable, places)
-    assert abs(total(shares) - mass * np.exp(1j * angle)) < 1e-9 * mass / 0.01
-    assert all(share.mass > 0 and 0 <= share.angle < 2 * math.pi for share in shares) and 1 <= len(shares) <= 2
-    if places is not None:
-        assert all(any(abs(math.sin((share.angle - p) / 2)) < 1e-9 for p in places) for share in shares)
-    elif removable is not None:
-        assert removed(shares) <= removable

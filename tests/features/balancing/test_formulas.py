@@ -13,7 +13,7 @@ from abu_calc.features.balancing.formulas import (
     published_answer,
 )
 from tests.features.balancing.rig import Workshop, shown
-from tests.features.balancing.test_two_planes import OMEGA, QUANTITIES, RADII, ROLL, run_of
+from tests.features.balancing.test_methods import OMEGA, QUANTITIES, RADII, ROLL, run_of
 
 
 def test_the_condition_number_is_that_of_the_matrix() -> None:

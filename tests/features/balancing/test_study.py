@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.two_planes import Balancing, solved
+from abu_calc.features.balancing.methods import solved
+from abu_calc.features.balancing.runs import Balancing
 from tests.features.balancing.rig import RIG, ROTOR, Simulated, Workshop, turned, written
 from tests.features.balancing.test_errors import spoilt
-from tests.features.balancing.test_two_planes import OMEGA, ROLL, grams, run_of
+from tests.features.balancing.test_methods import OMEGA, ROLL, grams, run_of
 
 
 def test_a_roll_at_rest_has_nothing_to_correct(tmp_path: Path) -> None:

@@ -101,7 +101,7 @@ WRONG = [
     ("left_stiffness_N_per_m = 3.0e5", "left_stiffness = 3.0e5", "rig.left_stiffness", "left_stiffness_N_per_m"),
     ("right_support_mass_kg = 21.0", 'right_support_mass_kg = "21"', "rig.right_support_mass_kg", "a number"),
     ("\nmass_kg = 64.0", "", "rotor.mass_kg", "add mass_kg"),
-    ("left_plane_to_centre_m = 0.52", "left_plane_to_centre_m = -0.52", "rotor.left_plane_to_centre_m", "at least 0"),
+    ("left_plane_to_centre_m = 0.52", "left_plane_to_centre_m = -520", "rotor.left_plane_to_centre_m", "at least -100"),
     ("left_plane_to_centre_m = 0.52", "left_plane_to_centre_m = 520", "rotor.left_plane_to_centre_m", "meant in mm"),
     ("left_correction_radius_mm = 120.0", "", "rotor.left_correction_radius_mm", "missing"),
     ("[0, 120, 240]", "[0, 180]", "rotor.left_places_deg", "one line"),
@@ -114,7 +114,7 @@ WRONG = [
     ("speed_rpm = 3000.0", "speed_rpm = nan", "run[0].speed_rpm", "finite"),
     ("left = { amplitude = 0.038109, phase_deg = 18.7489 }", "", "run[0].left", "or file"),
     ("amplitude = 0.038109", "amplitude = -1.0", "run[0].left.amplitude", "at least 0"),
-    ("phase_deg = 18.7489", "phase = 18.7489", "run[0].left.phase", "phase_deg"),
+    ("phase_deg = 18.7489", "phase = 18.7489", "run[0].left.phase", "belongs in [[run]]"),
     ("phase_deg = 18.7489", "phase_deg = 1e9", "run[0].left.phase_deg", "at most 360"),
     ('plane = "left"', 'plane = "middle"', "run[0].trial[0].plane", "left"),
     ("mass_g = 10.0", "mass_g = 0", "run[0].trial[0].mass_g", "nothing"),
@@ -150,7 +150,8 @@ def test_rules_between_tables(tmp_path: Path) -> None:
     assert "two planes coincide" in str(
         refused(tmp_path, RIG, ROTOR.replace("= 0.52", "= 0").replace("= 0.61", "= 0"), RUN)
     )
-    assert "without [rig]" in str(refused(tmp_path, BARE_ROTOR, RUN))
+    with pytest.raises(InputError, match=r"without \[rig\] the rig is not known"):
+        abu_calc.balance(written(tmp_path, BARE_ROTOR, RUN))
     assert "balance grade needs" in str(
         refused(tmp_path, BARE_ROTOR, RUN, 'trial = { plane = "left", mass_g = 1, angle_deg = 0 }',
                 '[tolerance]\nbalance_grade = "G6.3"')

@@ -59,4 +59,4 @@ def test_the_screen_says_what_to_remove_where_and_what_remains() -> None:
     screen = as_text(balance_screen(abu_calc.balance(PRESET)))
     lines = [line.strip() for line in screen.splitlines()]
     assert lines[2].startswith("LEFT plane: remove 12.00 g at 205.0°")
-    assert any(line.startswith("expected after correction") and "permitted 693" in line for line in lines)
+    assert any(line.startswith("expected after correction") and "48 g·mm" in line for line in lines)

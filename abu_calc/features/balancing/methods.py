@@ -1,0 +1,271 @@
+"""Imbalances behind the readings: by the rig's data, by trial masses, by stored coefficients, or without phase.
+
+    by data            Q = mean over the runs of imbalances(X) − T              formulas.py beside it
+    by trials          X = W·(Q + T), W and W·Q by least squares over the runs of each speed, T the masses that were on
+    by coefficients    X − W·T = W·Q, W as stored
+    without phase      |X| = g·|Q + T|                                          without_phase.py beside it
+
+Q is one for all speeds and sensors: least squares over their equations, each divided by the amplitude of its sensor at
+its speed. Numbers in SI; imbalances and motions as complex numbers, as in formulas.py.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.features.balancing.formulas import (
+    Matrix,
+    Vector,
+    condition_number,
+    imbalances,
+    influence,
+    natural_frequencies,
+)
+from abu_calc.features.balancing.runs import ONE_SPEED, Balancing, RunOnRig
+from abu_calc.features.balancing.without_phase import solved_without_phase, tells_without_phase
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
+
+Array = NDArray[np.complex128]
+Method = Literal["rig data", "trial masses", "runs without phase", "stored coefficients"]
+
+TELLS_APART: Final = 1e-6
+"""Least singular value of the trials, over the largest, with which they tell all planes and the rest apart."""
+WORST_CONDITION: Final = 300.0
+"""Beyond it errors of a third of a percent are as large as the answer: no number is given."""
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Imbalances of the rotor without the masses of the runs [kg m]; the influence of the planes on the sensors at each
+    run [m per kg m]; what the runs read less what these make of them [m].
+    """
+
+    method: Method
+    imbalance: Vector
+    influences: tuple[Matrix, ...]
+    misfits: tuple[Vector, ...]
+    condition: float
+    """Condition number of the equations for the imbalance."""
+
+
+def method_of(case: Balancing) -> Method:
+    """Method of balancing: stored coefficients if they are given, then trial masses if they suffice, since measured
+    values rank before assumed ones.
+
+    Raises InputError with what is missing if nothing suffices.
+    """
+    if case.coefficients is not None:
+        _refuse_other_coefficients(case)
+        return "stored coefficients"
+    if not case.runs[0].phases:
+        tells_without_phase(case)
+        return "runs without phase"
+    lacking = next((lack for group in case.speed_groups if (lack := lacking_at(case, group))), None)
+    if lacking is None:
+        return "trial masses"
+    if case.roll is not None:
+        return "rig data"
+    raise lacking
+
+
+def lacking_at(case: Balancing, group: Sequence[int]) -> InputError | None:
+    """Error that says what the trial runs of a speed lack to give influence coefficients; None if they suffice."""
+    runs = [case.runs[index] for index in group]
+    trials = np.array([[*run.placed, 1.0] for run in runs], dtype=complex)
+    scale = np.abs(trials).max(axis=0)
+    planes = case.planes
+    full = bool(scale.min() > 0) and len(trials) > planes
+    apart = np.linalg.svd(trials / np.where(scale > 0, scale, 1.0), compute_uv=False) if full else np.zeros(planes + 1)
+    if full and apart[-1] > TELLS_APART * apart[0]:
+        return None
+    groups = len(case.speed_groups)
+    at = f" at {from_si(runs[0].speed, 'rpm'):.0f} rpm" if groups > 1 else ""
+    names = ("left", "right") if planes == 2 else ("single",)
+    missing = [name for k, name in enumerate(names) if scale[k] == 0]
+    found = f"{len(runs)} run{'s' * (len(runs) > 1)}{at}"
+    found += f", none with a trial in the {missing[0]} plane" if missing else ""
+    if not missing and full:
+        found += ", whose trials put the planes in one fixed ratio"
+    several = " Influence coefficients belong to one speed." if groups > 1 else ""
+    if planes == 1:
+        return InputError(
+            "the trial runs do not give the influence of the plane", place=Place(key="run"), found=found,
+            allowed="two runs at least: one without a trial and one with",
+            remedy="add a run with a trial mass: trial = { mass_g, angle_deg }. Stored coefficients do without: "
+            f"--coefficients FILE.{several}",
+        )  # fmt: skip
+    unknown = "" if any(run.weights for run in case.runs) else ": without [rig] the rig is not known"
+    return InputError(
+        f"the trial runs do not distinguish the planes{unknown}", place=Place(key="run"), found=found,
+        allowed="three runs at least: one without a trial and one with a trial in each plane, or others as different"
+        f"{', all at one speed' if several else ''}",
+        remedy=f"add runs, or [rig] with its data. Stored coefficients do without: --coefficients FILE.{several}",
+    )  # fmt: skip
+
+
+def _refuse_other_coefficients(case: Balancing) -> None:
+    stored = case.coefficients
+    if stored is None:
+        return
+    for index, run in enumerate(case.runs):
+        if stored.at(run.speed) is None:
+            raise InputError(
+                "no stored coefficients are of this speed", place=Place(key=f"run[{index}].speed_rpm"),
+                found=f"{from_si(run.speed, 'rpm'):.1f} rpm",
+                allowed=", ".join(f"{from_si(own, 'rpm'):.1f} rpm" for own in stored.speeds) + f" ± {ONE_SPEED:.0%}",
+                remedy="run at a stored speed, or make trial runs at this one",
+            )  # fmt: skip
+        if not run.phases:
+            raise InputError("stored coefficients need phases", place=Place(key=f"run[{index}]"),
+                             remedy="add phase_deg to every reading")  # fmt: skip
+
+
+@formula(
+    "Imbalances by influence coefficients, over all speeds and sensors",
+    "Σ|w_s·(X_s − ΣW_sp·Q_p)|² → min",
+    "kg m",
+    where=(
+        "The trial runs of each speed give W_sp and the readings X_s without trial masses. The weight w_s is one over "
+        "the amplitude of the sensor at the speed. With as many equations as planes the solution is exact."
+    ),
+    source="Goodman 1964, weighted",
+)
+def solved(case: Balancing, method: Method, near: Solution | None = None) -> Solution:
+    """The imbalances behind the runs; `near`: solution of nearly the same case.
+
+    Raises NotTrustworthyError where the planes can hardly be told apart.
+    """
+    if method == "rig data":
+        return _by_rig(case)
+    if method == "runs without phase":
+        imbalance, gains = solved_without_phase(case, None if near is None else near.imbalance[0])
+        rows = tuple(tuple((gain + 0j,) for gain in run_gains) for run_gains in gains)
+        misfits = tuple(
+            tuple(amplitude.real - gain * abs(imbalance + run.placed[0]) + 0j
+                  for amplitude, gain in zip(run.motion, run_gains, strict=True))
+            for run, run_gains in zip(case.runs, gains, strict=True)
+        )  # fmt: skip
+        return Solution(method, (imbalance,), rows, misfits, 1.0)
+    return _by_trials(case) if method == "trial masses" else _by_coefficients(case)
+
+
+def _by_rig(case: Balancing) -> Solution:
+    roll = case.roll
+    if roll is None:
+        raise InputError("the rig is not known", place=Place(key="rig"))
+    influences = tuple(influence(roll, run.speed) for run in case.runs)
+    condition = max(map(condition_number, influences))
+    _refuse_singular(condition, said_of_resonance(case))
+    imbalance = np.mean(
+        [np.subtract(imbalances(roll, run.speed, run.motion), run.placed) for run in case.runs], axis=0
+    )  # fmt: skip
+    return _solution("rig data", imbalance, influences, case.runs, condition)
+
+
+def _by_trials(case: Balancing) -> Solution:
+    matrices, equations = dict[int, Array](), []
+    for group in case.speed_groups:
+        runs = [case.runs[index] for index in group]
+        trials = np.array([[*run.placed, 1.0] for run in runs], dtype=complex)
+        motions = np.array([run.motion for run in runs])
+        scale = np.abs(trials).max(axis=0)
+        coefficients = np.linalg.lstsq(trials / scale, motions, rcond=None)[0] / scale[:, None]
+        matrix = coefficients[:-1].T
+        matrices.update(dict.fromkeys(group, matrix))
+        equations.append((matrix, coefficients[-1], _amplitudes(motions)))
+    imbalance, condition = _least_squares(equations)
+    influences = tuple(_matrix(matrices[index]) for index in range(len(case.runs)))
+    return _solution("trial masses", imbalance, influences, case.runs, condition)
+
+
+def _by_coefficients(case: Balancing) -> Solution:
+    stored = case.coefficients
+    if stored is None:
+        raise InputError("no coefficients are stored", place=Place(key="run"))
+    influences = tuple(stored.matrices[stored.at(run.speed) or 0] for run in case.runs)
+    equations = []
+    for run, rows in zip(case.runs, influences, strict=True):
+        matrix = np.array(rows)
+        equations.append((matrix, np.array(run.motion) - matrix @ np.array(run.placed), _amplitudes([run.motion])))
+    imbalance, condition = _least_squares(equations)
+    return _solution("stored coefficients", imbalance, influences, case.runs, condition)
+
+
+def _amplitudes(motions: Any) -> Any:
+    """Amplitude of each sensor, rms over runs; 1 for a sensor that shows nothing."""
+    sizes = np.sqrt(np.mean(np.abs(np.asarray(motions)) ** 2, axis=0))
+    return np.where(sizes > 0, sizes, 1.0)
+
+
+def _least_squares(equations: Sequence[tuple[Array, Array, Any]]) -> tuple[Array, float]:
+    """Solution and condition number of W·Q = X over all equations, each with the amplitude that it is divided by."""
+    matrix, motion, sizes = (np.concatenate([each[k] for each in equations]) for k in range(3))
+    planes = matrix.shape[1]
+    if len(matrix) < planes:
+        raise InputError(
+            "one sensor at one speed cannot distinguish two planes", place=Place(key="run"),
+            found="1 reading in each run", allowed="two sensors, or two speeds", remedy="add a sensor",
+        )  # fmt: skip
+    if len(matrix) == planes:
+        condition = condition_number(_matrix(matrix))
+        _refuse_singular(condition, planes=planes)
+        return np.linalg.solve(matrix, motion), condition
+    weighted = matrix / sizes[:, None]
+    condition = condition_number(_matrix(weighted))
+    _refuse_singular(condition, planes=planes)
+    scale = np.abs(weighted).max()
+    return np.linalg.lstsq(weighted / scale, motion / sizes / scale, rcond=None)[0], condition
+
+
+def _matrix(values: Array) -> Matrix:
+    return tuple(tuple(row) for row in values.tolist())
+
+
+def _refuse_singular(condition: float, why: str = "", planes: int = 2) -> None:
+    if planes == 1 and not condition < math.inf:
+        raise NotTrustworthyError(
+            "the trial mass does not change the readings.\n  A heavier trial mass, or another speed."
+        )
+    if not condition <= WORST_CONDITION:
+        raise NotTrustworthyError(
+            f"the sensors hardly distinguish the two planes: the condition number is {condition:.3g}, at most "
+            f"{WORST_CONDITION:g} is accepted.{why}\n  Another speed, planes farther apart, or other trial masses."
+        )
+
+
+def near_resonance(case: Balancing) -> tuple[float, float] | None:
+    """The least relative distance of a run's speed from a natural frequency, and that frequency [rad/s]."""
+    if case.roll is None:
+        return None
+    natural = natural_frequencies(case.roll)
+    return min((abs(run.speed / frequency - 1), frequency) for run in case.runs for frequency in natural)
+
+
+def said_of_resonance(case: Balancing) -> str:
+    """The same as a sentence, for messages; empty where the rig is not known."""
+    near = near_resonance(case)
+    if near is None:
+        return ""
+    return f" The speed is {100 * near[0]:.2g} % off the natural frequency of {from_si(near[1], 'hz'):.2f} Hz."
+
+
+def _solution(
+    method: Method, values: Array, influences: Sequence[Matrix], runs: Sequence[RunOnRig], condition: float
+) -> Solution:
+    Q = tuple(complex(value) for value in values)
+    misfits = []
+    for run, matrix in zip(runs, influences, strict=True):
+        made = motion_of(matrix, tuple(np.add(Q, run.placed).tolist()))
+        misfits.append(tuple(motion - own for motion, own in zip(run.motion, made, strict=True)))
+    return Solution(method, Q, tuple(influences), tuple(misfits), condition)
+
+
+def motion_of(matrix: Matrix, imbalance: Vector) -> Vector:
+    """X = W·Q."""
+    return tuple(sum((w * q for w, q in zip(row, imbalance, strict=True)), 0j) for row in matrix)

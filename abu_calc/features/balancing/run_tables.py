@@ -1,0 +1,339 @@
+"""Tables of the runs of a file of readings: readings, trial masses, and the errors that they may have.
+
+A run holds what was read, or the record it is taken from, and the trial masses that were on.
+"""
+
+from typing import Annotated, ClassVar, Literal, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from abu_calc.features.balancing.instrument import Instrument, Quantity, instrument_of, known_units, plain_instrument
+from abu_calc.inputs.reading.table import Name, Table, problem, usual
+
+
+class Errors(Table):
+    """How far readings, masses put on and data of the rig may be off: one standard deviation each."""
+
+    amplitude_percent: float = Field(
+        default=1.0,
+        description="Error of each amplitude [%]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.01, 20),
+    )
+    phase_deg: float = Field(
+        default=1.0,
+        description="Error of each phase [degrees]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=90,
+        json_schema_extra=usual(0.01, 20),
+    )
+    speed_percent: float = Field(
+        default=0.1,
+        description="Error of the speed [%]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=50,
+        json_schema_extra=usual(0.001, 10),
+    )
+    support_mass_percent: float = Field(
+        default=2.0,
+        description="Error of the moving mass of each support [%]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.01, 50),
+    )
+    stiffness_percent: float = Field(
+        default=2.0,
+        description="Error of each stiffness [%]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.01, 50),
+    )
+    damping_ratio: float = Field(
+        default=0.01,
+        description="Error of rig.damping_ratio; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=0.5,
+        json_schema_extra=usual(0.0001, 0.2),
+    )
+    rotor_mass_percent: float = Field(
+        default=0.5,
+        description="Error of the roll's mass [%]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.01, 50),
+    )
+    inertia_percent: float = Field(
+        default=2.0,
+        description="Error of the roll's inertia [%]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.01, 50),
+    )
+    length_mm: float = Field(
+        default=1.0,
+        description="Error of each of the four lengths [mm]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=1000,
+        json_schema_extra=usual(0.01, 100),
+    )
+    placed_mass_percent: float = Field(
+        default=1.0,
+        description="Error of each mass added or removed, trial or correction [%]; {range}. "
+        "Default: {default}, assumed.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.01, 50),
+    )
+    placed_angle_deg: float = Field(
+        default=1.0,
+        description="Error of the angle of each mass [degrees]; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=90,
+        json_schema_extra=usual(0.01, 20),
+    )
+    coefficient_percent: float = Field(
+        default=2.0,
+        description="Difference of a rotor's influence coefficients from those that were stored of its kind [%]; "
+        "{range}. Default: {default}, assumed.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.01, 50),
+    )
+
+
+Plane = Literal["left", "right"]
+MarkEdge = Literal["leading", "middle", "trailing"]
+Phase = Literal["lag", "lead"]
+
+
+class Reading(Table):
+    """Reading of one sensor."""
+
+    inline: ClassVar[bool] = True
+
+    name: Name | None = Field(
+        default=None,
+        description="Name of the sensor, in readings alone. Without it: its number, from 1.",
+        examples=["fan end, horizontal"],
+        min_length=1,
+        max_length=60,
+    )
+    amplitude: float = Field(
+        description="Amplitude at the speed of rotation, in the unit of the run; {range}.",
+        examples=[0.038109],
+        ge=0,
+        le=1e6,
+    )
+    phase_deg: float | None = Field(
+        default=None,
+        description="Phase [degrees], by the convention of the run, t from the passage of the zero mark; {range}. "
+        "Without it in all runs: balancing without phase.",
+        examples=[18.7489],
+        ge=-360,
+        le=360,
+    )
+
+
+class Trial(Table):
+    """A known mass that was on in this run."""
+
+    inline: ClassVar[bool] = True
+
+    plane: Plane | None = Field(
+        default=None,
+        description="The correction plane it was in: left or right. With [single_plane] it is left out.",
+        examples=["left"],
+    )
+    mass_g: float = Field(
+        description="Its mass [g]; {range}, negative: metal that was taken off.",
+        examples=[10.0],
+        ge=-1e6,
+        le=1e6,
+        json_schema_extra=usual(0.01, 5000),
+    )
+    angle_deg: float = Field(
+        description="Angle from the zero mark, counted by rotor.angle_marks [degrees]; {range}.",
+        examples=[0.0],
+        ge=-360,
+        le=360,
+    )
+    radius_mm: float | None = Field(
+        default=None,
+        description="Radius it was at [mm]; {range}. Without it: the correction radius of its plane.",
+        examples=[120.0],
+        gt=0,
+        le=1e5,
+        json_schema_extra=usual(5, 5000),
+    )
+
+    @model_validator(mode="after")
+    def _is_a_mass(self) -> Self:
+        if self.mass_g == 0:
+            raise problem("a trial mass of nothing", "mass_g", remedy="leave trial out, or give the mass")
+        return self
+
+
+def listed(value: object) -> object:
+    """A single table as a list of one."""
+    return [value] if isinstance(value, dict) else value
+
+
+class Run(Table):
+    """A run on the rig at steady speed; several are averaged as vectors."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"speed_rpm", "quantity", "phase", "left", "right"})
+
+    speed_rpm: float | None = Field(
+        default=None,
+        description="Speed of rotation [rpm]; {range}. With file it may be left out: the marks tell it.",
+        examples=[3000.0],
+        gt=0,
+        le=1e6,
+        json_schema_extra=usual(60, 60000),
+    )
+    quantity: Quantity | None = Field(
+        default=None,
+        description="Quantity that the sensors read: displacement (mm), velocity (mm/s) or acceleration (m/s²), all "
+        "0–peak. The quantity decides the side: an acceleration points opposite to the displacement.",
+        examples=["displacement"],
+    )
+    unit: str | None = Field(
+        default=None,
+        description="In place of quantity, the unit as the instrument shows it: µm, mil, mm, mm/s, ips, m/s² or g, "
+        "then 0-peak, peak-peak or rms.",
+        examples=["µm peak-peak"],
+        max_length=40,
+    )
+    phase: Phase | None = Field(
+        default=None,
+        description="Convention of the phases. lag: A·cos(ωt − phase), lead: A·cos(ωt + phase). Without it: lag, with "
+        "a warning.",
+        examples=["lag"],
+    )
+    left: Reading | None = Field(
+        default=None,
+        description="Sensor at the left support.",
+        examples=[{"amplitude": 0.038109, "phase_deg": 18.7489}],
+    )
+    right: Reading | None = Field(
+        default=None,
+        description="Sensor at the right support.",
+        examples=[{"amplitude": 0.031642, "phase_deg": 152.7485}],
+    )
+    readings: Annotated[
+        tuple[Reading, ...],
+        Field(strict=False, max_length=40),
+        BeforeValidator(listed, json_schema_input_type=Reading | Annotated[tuple[Reading, ...], Field(max_length=40)]),
+    ] = Field(
+        default=(),
+        description="In place of left and right: the readings of any number of sensors, one table or a list of them. "
+        "All runs list the same sensors.",
+        examples=[[{"amplitude": 0.038109, "phase_deg": 18.7489}]],
+    )
+    file: str | None = Field(
+        default=None,
+        description="A recorded run in place of left and right: a CSV file beside this one. Its columns are "
+        "time (s), left, right (in the unit of quantity) and mark (pulses, either polarity).",
+        examples=["run1.csv"],
+        min_length=1,
+    )
+    mark_edge: MarkEdge | None = Field(
+        default=None,
+        description="With file: what of a pulse is the mark's passage: its leading edge, its middle or its trailing "
+        "edge. Without it: the leading edge of a square pulse, the middle of a rounded one.",
+        examples=["leading"],
+    )
+    sensor_to_mark_deg: float = Field(
+        default=0.0,
+        description="Place of the zero-mark sensor from the vibration sensors, in the sense of rotation [degrees]; "
+        "{range}. Default: {default}, in line with them.",
+        ge=-360,
+        le=360,
+    )
+    trial: Annotated[
+        tuple[Trial, ...],
+        Field(strict=False, max_length=20),
+        BeforeValidator(listed, json_schema_input_type=Trial | Annotated[tuple[Trial, ...], Field(max_length=20)]),
+    ] = Field(
+        default=(),
+        description="Known masses that were on in this run alone, one table or a list of them: plane, mass_g, "
+        "angle_deg. For influence coefficients.",
+    )
+
+    @property
+    def instrument(self) -> Instrument:
+        """Unit of the amplitudes."""
+        shown = None if self.unit is None else instrument_of(self.unit)
+        return shown or plain_instrument(self.quantity or "displacement")
+
+    @property
+    def sensors(self) -> tuple[tuple[str, Reading], ...]:
+        """Readings by the names of their sensors."""
+        sides = tuple((side, reading) for side, reading in (("left", self.left), ("right", self.right)) if reading)
+        return sides or tuple((reading.name or str(k), reading) for k, reading in enumerate(self.readings, 1))
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """A record takes the place of readings, and they of it."""
+        if key == "file":
+            return ("left", "right", "readings", "phase")
+        return {
+            "left": ("file", "mark_edge", "readings"),
+            "right": ("file", "mark_edge", "readings"),
+            "readings": ("file", "mark_edge", "left", "right"),
+            "unit": ("quantity",),
+            "quantity": ("unit",),
+        }.get(key, ())
+
+    @model_validator(mode="after")
+    def _has_a_unit(self) -> Self:
+        if self.unit is None:
+            if self.quantity is None:
+                raise problem("the key is missing", "quantity", remedy='add quantity = "displacement", or unit = "…"')
+            return self
+        shown = instrument_of(self.unit)
+        if shown is None:
+            raise problem(
+                "the unit is not known", "unit", found=self.unit, allowed=", ".join(known_units()),
+                remedy="name the unit and the kind of amplitude, such as \"mil peak-peak\"",
+            )  # fmt: skip
+        if self.quantity is not None and self.quantity != shown.quantity:
+            raise problem(
+                "unit and quantity contradict each other", "quantity", found=self.quantity, allowed=shown.quantity,
+                remedy="leave quantity out",
+            )  # fmt: skip
+        if self.file is not None and shown.factor != 1:
+            raise problem(
+                "a recorded run holds the signal itself, no rms and no peak-peak", "unit", found=self.unit,
+                allowed="a unit with 0-peak", remedy="write the unit of the signal with 0-peak",
+            )  # fmt: skip
+        return self
+
+    @model_validator(mode="after")
+    def _read_or_recorded(self) -> Self:
+        given = [key for key in ("left", "right", "readings") if getattr(self, key)]
+        if self.file is None:
+            if self.speed_rpm is None:
+                raise problem(
+                    "the key is missing", "speed_rpm", remedy="add speed_rpm = 3000.0, or file, a recorded run"
+                )
+            if not given:
+                raise problem("the key is missing", "left", remedy=f"add left = {EXAMPLE}, or file, a recorded run")
+            if self.mark_edge is not None:
+                raise problem("mark_edge goes with file only", "mark_edge", remedy="leave mark_edge out")
+        elif given:
+            raise problem("a run is read or recorded, not both", given[0], remedy=f"leave {given[0]} out, or file")
+        elif self.phase is not None:
+            raise problem(
+                "phase goes with readings only", "phase", remedy="leave phase out: records have no convention"
+            )
+        if "readings" in given and len(given) > 1:
+            raise problem("readings list all sensors", given[0], remedy=f"leave {given[0]} out, or readings")
+        names = [name for name, _ in self.sensors]
+        if len(set(names)) < len(names):
+            raise problem("two sensors have one name", "readings", remedy="give each sensor its own name")
+        return self
+
+
+EXAMPLE = "{ amplitude = …, phase_deg = … }"
