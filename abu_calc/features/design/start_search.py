@@ -253,8 +253,8 @@ def _time_in_words(outcome: StartOutcome) -> str:
 
 
 NOT_TRIED: Final = (
-    "No change was simulated for further start cases. `abu size FILE --full` prints commands that repeat the worst "
-    "of them. Add `--set` entries to try changes."
+    "No change was simulated for further start cases. To try one, add `--set` to the command that "
+    "`abu size FILE --full` prints."
 )
 NAMES: Final = {
     "ABU401": "loudest",

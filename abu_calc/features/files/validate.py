@@ -15,6 +15,7 @@ from abu_calc.inputs.reading.document import FileReading
 from abu_calc.inputs.scene import SceneDescription
 from abu_calc.reporting.blocks import Block, Paragraph
 from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.screen import many
 
 
 def refuse_unusable(source: FileReading) -> None:
@@ -76,7 +77,7 @@ def validate(
         results.append({"file": file, "sha256": loaded.sha256, "overrides": as_plain(replaced), "defaults": defaults,
                         "warnings": list(loaded.warnings)})  # fmt: skip
         warnings += [f"{file}: {warning}" for warning in loaded.warnings]
-        blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
+        blocks.append(Paragraph(f"{file}: valid, {many(len(defaults), 'default')} used", "pass"))
         blocks += [Paragraph(f"! {warning}", indent=4) for warning in loaded.warnings]
     if len(faults) == 1:
         raise faults[0]
