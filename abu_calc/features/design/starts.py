@@ -239,7 +239,7 @@ class FurtherStarts(Record):
     settling_time_s: Annotated[float | None, Quantity("slowest of them", "t_s", 3)]
     rare_settling_time_s: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_s", 3)]
     level_db: Annotated[float, Quantity("loudest of them", "L")]
-    repeats: tuple[RepeatedStart, ...]
+    repeats: tuple[RepeatedStart, ...] = ()
 
     @classmethod
     def of(cls, searched: SearchResult | None, design: Design) -> Self | None:
