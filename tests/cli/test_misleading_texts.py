@@ -133,3 +133,18 @@ def test_the_required_capacity_names_margin_and_imbalance() -> None:
     assert told is not None
     assert float(told[1]) == pytest.approx(result["required_capacity_g_mm"], rel=1e-4)
     assert float(told[2]) == pytest.approx(result["imbalance_g_mm"], rel=1e-3)
+
+
+def test_the_list_of_subjects_fits_a_screen_and_names_every_check() -> None:
+    from abu_calc.foundation.checks import CHECK_CODES
+
+    short = abu("explain").out
+    assert len(short.splitlines()) <= 48 and all(code in short for code in CHECK_CODES)
+    assert len(abu("explain", "--full").out.splitlines()) > 100
+
+
+def test_each_mark_of_the_picture_of_accuracy_stands_for_one_method() -> None:
+    from abu_calc.features.accuracy.view import MARKS
+
+    lower = [mark.lower() for name, mark in MARKS.items() if name not in ("closed-form", "envelope")]
+    assert len({*MARKS.values(), *lower}) == len(MARKS) + len(lower)
