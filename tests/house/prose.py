@@ -207,6 +207,12 @@ SCREENS: Final = (
     ("check-fit", "--designation", "6203"),
     ("balance", "sapropel-screw-rig"),
     ("balance", "sapropel-screw-rig", "--full"),
+    *((command, name) for name in PRESETS for command in ("simulate", "stability", "levels")),
+    *(("grinding", name) for name in PRESETS[:4]),
+    ("compare", "avtovaz-707-222", "msh-230"),
+    ("factory",),
+    ("explain",),
+    ("presets",),
 )
 """Commands whose reports are read."""
 
