@@ -80,8 +80,8 @@ def estimate_source() -> str:
     "J_i = M·k_i²",
     "kg m²",
     where=(
-        "Relative to the length L (straight: wheel plane to rear end; angle: spindle axis to rear end) or the height H "
-        "(angle: body axis to wheel plane; face: wheel plane to top):\n"
+        "L, length: straight, wheel plane to rear end; angle, spindle axis to rear end. H, height: angle, body axis to "
+        "wheel plane; face, wheel plane to top.\n"
         "  straight: a = 0.44 L (0.39 … 0.50), k_x = k_y = 0.284 L (0.26 … 0.31), k_z = 0.06 L (0.05 … 0.07);\n"
         "  angle: b = 0.29 L (0.25 … 0.34), a = 0.80 H (0.70 … 0.90), k_x = 0.136 L (0.12 … 0.15), "
         "k_y = 0.29 L (0.265 … 0.315), k_z = 0.295 L (0.27 … 0.32), J_xz = −0.2·M·a·b (−0.13 … −0.30);\n"

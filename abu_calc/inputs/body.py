@@ -32,8 +32,8 @@ class Handle(Table):
 
     position_mm: Position | None = Field(
         default=None,
-        description="Place in space, from the centre of mass [mm]: x from the body toward the spindle, y across, z "
-        "along the spindle toward the wheel; {range}. Takes the place of from_center_of_mass_mm.",
+        description="Place in space, from the centre of mass [mm]; {range}. x points from the body toward the spindle, "
+        "y across, z along the spindle toward the wheel. Takes the place of from_center_of_mass_mm.",
         examples=[[62.0, 120.0, -8.0]],
         json_schema_extra=usual(1, 1000),
     )
@@ -117,8 +117,8 @@ class MachineTable(Table):
     center_of_mass_from_wheel_mm: Position | None = Field(
         default=None,
         description="From the wheel's centre to the centre of mass of the machine as used, wheel and autobalancer on "
-        "[mm]: x from the body toward the spindle, y across, z along the spindle toward the wheel; {range}. At an "
-        "angle grinder x and z are negative. Goes with inertia_kg_m2, or with length_mm for an estimate.",
+        "[mm]; {range}. x points from the body toward the spindle, y across, z along the spindle toward the wheel. At "
+        "an angle grinder x and z are negative. Goes with inertia_kg_m2, or with length_mm for an estimate.",
         examples=[[-95.0, 0.0, -48.0]],
         json_schema_extra=usual(1, 1000),
     )

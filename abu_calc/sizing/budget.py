@@ -177,7 +177,7 @@ def ovality_residual(lobes: float) -> float:
     "m",
     shown="um",
     where=(
-        "For a body in space the inertances A_pq of wheel and race take these places: the louder axis counts, as the "
+        "For a body in space the inertances A_pq of wheel and race take these places. The louder axis counts, as the "
         "forward whirl that moves the wheel as much."
     ),
     assumed="as for the plane ratio",
