@@ -131,8 +131,8 @@ class RollingBearing(Table):
     )
     internal_clearance: ClearanceGroup | None = Field(
         default=None,
-        description="Group of internal clearance. Ball and roller bearings, pairs of tapered ones: C2, CN, C3, C4 or C5 "
-        "(ISO 5753-1). Pairs of angular contact bearings of 40°: CA, CB, CC, or the preload GA, GB, GC. When "
+        description="Group of internal clearance. Ball and roller bearings, pairs of tapered ones: C2, CN, C3, C4 or "
+        "C5 (ISO 5753-1). Pairs of angular contact bearings of 40°: CA, CB, CC, or the preload GA, GB, GC. When "
         "given, by this key or the designation's suffix, the clearance left after mounting is checked.",
         examples=["C3"],
     )
