@@ -15,7 +15,7 @@ def test_presets_say_where_each_value_comes_from() -> None:
         text = abu("presets", preset["name"]).out.split("[expected]")[0]
         for line in text.splitlines():
             if "=" in line and not line.startswith(("#", "name", "model")):
-                assert "#" in line and ("assumed: " in line or any(c.isdigit() for c in line.split("#")[1]) or
+                assert "#" in line and ("assumed: " in line or "fitted: " in line or any(c.isdigit() for c in line.split("#")[1]) or
                                         "worked example" in line), line  # fmt: skip
 
 
