@@ -12,11 +12,13 @@ from tests.cli.runner import abu
 
 def test_presets_say_where_each_value_comes_from() -> None:
     for preset in json.loads(abu("presets", "--json").out)["result"]["presets"]:
-        text = abu("presets", preset["name"]).out.split("[expected]")[0]
+        text, *measured = abu("presets", preset["name"]).out.split("[expected]")[0].split("[[measured]]")
+        assert all("\nsource = " in table for table in measured)
         for line in text.splitlines():
             if "=" in line and not line.startswith(("#", "name", "model")):
-                assert "#" in line and ("assumed: " in line or "fitted: " in line or any(c.isdigit() for c in line.split("#")[1]) or
-                                        "worked example" in line), line  # fmt: skip
+                origins = ("assumed: ", "fitted: ", "worked example")
+                named = any(origin in line for origin in origins)
+                assert "#" in line and (named or any(c.isdigit() for c in line.split("#")[1])), line
 
 
 def test_the_list_has_every_preset_with_its_machine() -> None:
