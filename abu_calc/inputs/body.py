@@ -363,16 +363,17 @@ class Suspension(Table):
 
     @model_validator(mode="after")
     def _numbers_go_with_springs(self) -> Self:
-        for key in ("natural_frequencies_hz", "damping_ratios"):
-            given = getattr(self, key) is not None
-            if self.model == "springs" and not given:
-                raise problem(f'model = "springs" needs {key}', key, remedy=f"add {key} = {_EXAMPLE[key]}")
-            if self.model == "hands" and given:
-                raise problem(
-                    f'model = "hands" takes no {key}: its numbers are those of ISO 10068',
-                    key,
-                    remedy=f'leave {key} out, or write model = "springs"',
-                )
+        given = [key for key in _EXAMPLE if getattr(self, key) is not None]
+        missing = [key for key in _EXAMPLE if key not in given]
+        if self.model == "springs" and missing:
+            example = " and ".join(f"{key} = {_EXAMPLE[key]}" for key in missing)
+            raise problem(f'model = "springs" needs {" and ".join(missing)}', missing[0], remedy=f"add {example}")
+        if self.model == "hands" and given:
+            raise problem(
+                f'model = "hands" takes no {" and no ".join(given)}: its numbers are those of ISO 10068',
+                given[0],
+                remedy=f'leave {" and ".join(given)} out, or write model = "springs"',
+            )
         return self
 
 

@@ -186,6 +186,12 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
     return blocks
 
 
+def options_of(provenance: Provenance) -> str:
+    """The replaced entries of a result as options of a command, each after a space."""
+    entries = (entry for key, value in provenance.overrides for entry in _entries(key, value))
+    return "".join(f" --set {shlex.quote(entry.replace(' = ', '=', 1))}" for entry in entries)
+
+
 def _entries(path: str, value: object) -> Iterator[str]:
     """An entry that was replaced as a file would have it, exactly; of a table each key on a line of its own."""
     if isinstance(value, dict) and value:

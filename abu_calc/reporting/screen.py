@@ -160,7 +160,7 @@ def _next(result: Result, more: Sequence[str]) -> str:
     source, codes = result.provenance, [check.code for check in result.checks if check.status != "pass"]
     codes = codes or [check.code for check in result.checks]
     asked = [f"`abu explain {codes[0]}`, what a check asks"] if codes else []
-    defaults = [f"{many(len(source.defaults), 'default')} in force"] if source.defaults else []
+    defaults = [f"{many(len(source.defaults), 'default')} used"] if source.defaults else []
     replaced = [f"{many(len(source.overrides), 'entry', 'entries')} replaced"] if source.overrides else []
     within = f" ({', '.join([*defaults, *replaced])})" if defaults or replaced else ""
     return f"More: {'; '.join([f'--full, the whole report{within}', *more, *asked])}."

@@ -2,6 +2,9 @@
 
 import datetime
 import importlib
+import re
+import shlex
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from abu_calc.foundation.checks import Check, Status, number_of, overall
@@ -21,6 +24,8 @@ FIGURES: Final = "abu_calc.registry"
 It is imported by its name when somebody wants a figure, as a plugin is.
 """
 
+COMMAND: Final = re.compile(r"(`abu [a-z-]+ )FILE\b")
+"""Command whose placeholder gives way to the file of the result."""
 NOTHING: Final = Record()
 """A model of results that stand on no equations."""
 
@@ -84,7 +89,16 @@ class Result(Record):
     def __init__(self, **values: object) -> None:
         super().__init__(**values)
         # Checks stand in the order of their codes; several of one code keep theirs.
-        self.__dict__["checks"] = tuple(sorted(self.checks, key=lambda check: number_of(check.code)))
+        self.__dict__["checks"] = tuple(
+            replace(check, message=self._named(check.message), remedy=check.remedy and self._named(check.remedy))
+            for check in sorted(self.checks, key=lambda check: number_of(check.code))
+        )
+        self.__dict__["warnings"] = tuple(map(self._named, self.warnings))
+
+    def _named(self, text: str) -> str:
+        """A text whose commands name the file of this result."""
+        file = self.provenance.file
+        return text if file is None else COMMAND.sub(lambda found: found[1] + shlex.quote(file), text)
 
     @property
     def status(self) -> Status:

@@ -6,9 +6,10 @@ holds the axis farthest off, and all parts are in line.
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import Final
 
 from abu_calc.formulas.friction_band import worst_friction
 from abu_calc.formulas.slow_motion import shaken_drag
@@ -317,13 +318,26 @@ def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst:
         level = math.inf if after is None else level_of(after, worst=worst)
         least = min(least, level)
         if after is not None and level <= limit:
-            return set_action(entries, after.candidate, Moved(FRICTION if worst else EXPECTED, before, level, "dB",
-                                                              limit))  # fmt: skip
+            moved = Moved(FRICTION if worst else EXPECTED, before, level, "dB", limit)
+            return set_action(entries, after.candidate, moved, more=_beyond_practice(entries))
     return Action(
         f"No change was found: a quarter of the race's eccentricity and rolling friction leaves "
         f"{decibels(least, limit)} (limit {limit:g} dB, calculated). What remains is {_left(candidate)}a heavier "
         "machine, or another limits.vibration_level_db."
     )
+
+
+PRACTICE: Final = {
+    "autobalancer.race_eccentricity_mm": (0.005, "careful work keeps a race within 0.005 mm"),
+    "autobalancer.rolling_friction_mm": (0.0005, "hard, ground and clean races reach 0.0005 mm of friction"),
+}
+"""Least value that practice reaches for each entry, and the words for it; engineering practice (unverified)."""
+
+
+def _beyond_practice(entries: Mapping[str, object]) -> str:
+    """Sentence on entries that practice does not reach; empty if it does."""
+    beyond = [text for key, (least, text) in PRACTICE.items() if float(str(entries.get(key, least))) < least]
+    return f"This is finer than usual: {' and '.join(beyond)}." if beyond else ""
 
 
 def level_of(after: Followed, *, worst: bool) -> float:

@@ -78,3 +78,73 @@ def test_only_a_horizontal_spindle_has_a_speed_that_carries_balls_over(name: str
     text = once("size", name, "--full").out
     assert ("carry-over speed of the balls" in text) is told
     assert re.search(r"ring would grow by [\d.]+ µm", flat(text))
+
+
+LITTLE = (
+    "--set", "machine.mass_kg=1.9", "--set", "machine.speed_rpm=11000", "--set", "wheel.imbalance_g_mm=30",
+    "--set", "autobalancer.max_outer_diameter_mm=50", "--set", "autobalancer.max_width_mm=14",
+    "--set", "autobalancer.bore_diameter_mm=14",
+)  # fmt: skip
+"""A small machine whose race eccentricity leaves almost as much as its wheel's imbalance moves."""
+
+
+def test_a_small_benefit_is_named_at_the_top_and_an_action_finer_than_practice_says_so() -> None:
+    little, usual = (once("size", "msh-230", *options) for options in (LITTLE, ()))
+    assert "The autobalancer is not expected to lower the idle level." in little.out[:400]
+    some = once("size", "msh-230", *LITTLE, "--set", "wheel.imbalance_g_mm=35").out
+    assert "The autobalancer is expected to lower the idle level by" in flat(some[:400])
+    assert "expected to lower" not in flat(usual.out)
+    for out in (little.out, some):
+        finest = [float(value) for value in re.findall(r"race_eccentricity_mm=([\d.]+)", out)]
+        finer = "finer than usual: careful work keeps a race within 0.005 mm" in flat(out)
+        assert finer is (min(finest, default=1.0) < 0.005)
+
+
+def test_an_action_is_no_command_that_repeats_a_start_case() -> None:
+    """The whole report has the command, with the file and the entries of the result."""
+    options = ("--set", "autobalancer.rolling_friction_mm=0.0021")
+    for words in ((), ("--full",)):
+        assert "To repeat the" not in once("size", "avtovaz-707-305", *options, *words).out
+    whole = flat(once("size", "avtovaz-707-305", *options, "--full").out)
+    told = re.search(
+        r"ABU702, slowest: `abu simulate avtovaz-707-305 --set autobalancer.rolling_friction_mm=0.0021 .*?`", whole
+    )
+    assert told and "FILE" not in told[0]
+
+
+def test_no_report_names_a_file_that_is_not_there() -> None:
+    for command in ("size", "grinding", "simulate"):
+        assert not re.search(r"`abu [^`]*\bFILE\b", once(command, "avtovaz-707-222").out)
+
+
+def test_a_valid_file_counts_its_defaults(tmp_path: Path) -> None:
+    file = tmp_path / "new.toml"
+    assert abu("init", str(file)).status == 0
+    assert "valid, 1 default used" in flat(abu("validate", str(file)).out)
+    hands = file.read_text("utf-8").replace('model = "springs"', 'model = "hands"')
+    file.write_text(hands, encoding="utf-8")
+    told = flat(abu("validate", str(file)).err)
+    assert "takes no natural_frequencies_hz and no damping_ratios" in told
+
+
+def test_the_required_capacity_names_margin_and_imbalance() -> None:
+    told = re.search(r"Capacity .*required: 1.2 × ([\d.]+); imbalance ([\d.]+)", once("size", "msh-230").out)
+    result = once("size", "msh-230", "--json").document["result"]
+    assert told is not None
+    assert float(told[1]) == pytest.approx(result["required_capacity_g_mm"], rel=1e-4)
+    assert float(told[2]) == pytest.approx(result["imbalance_g_mm"], rel=1e-3)
+
+
+def test_the_list_of_subjects_fits_a_screen_and_names_every_check() -> None:
+    from abu_calc.foundation.checks import CHECK_CODES
+
+    short = abu("explain").out
+    assert len(short.splitlines()) <= 48 and all(code in short for code in CHECK_CODES)
+    assert len(abu("explain", "--full").out.splitlines()) > 100
+
+
+def test_each_mark_of_the_picture_of_accuracy_stands_for_one_method() -> None:
+    from abu_calc.features.accuracy.view import MARKS
+
+    lower = [mark.lower() for name, mark in MARKS.items() if name not in ("closed-form", "envelope")]
+    assert len({*MARKS.values(), *lower}) == len(MARKS) + len(lower)

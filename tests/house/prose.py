@@ -46,7 +46,7 @@ BANNED: Final = {
 }
 """Words and phrases that the glossary replaces, where they have no other meaning in these texts."""
 HEADLESS: Final = re.compile(r"(?:What|Of|Where|Who)\s")
-REPEATING: Final = ("Cost:", "Range:", "Left out:", "Action: See the action of")
+REPEATING: Final = ("Assumed:", "Cost:", "Range:", "Left out:", "Action: See the action of")
 """Beginnings of sentences that may repeat: computing times, ranges of formulas, effects left out of scenes."""
 SENTENCE: Final = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 ONE_OF_MANY: Final = re.compile(
@@ -209,6 +209,12 @@ SCREENS: Final = (
     ("balance", "sapropel-screw-rig", "--full"),
     ("declare", "avtovaz-707-222", "--starts", "500"),
     ("declare", "avtovaz-707-305", "--starts", "500", "--full"),
+    *((command, name) for name in PRESETS for command in ("simulate", "stability", "levels")),
+    *(("grinding", name) for name in PRESETS[:4]),
+    ("compare", "avtovaz-707-222", "msh-230"),
+    ("factory",),
+    ("explain",),
+    ("presets",),
 )
 """Commands whose reports are read."""
 

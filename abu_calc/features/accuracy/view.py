@@ -16,9 +16,9 @@ from abu_calc.reporting.parts import notices, of_scene, provenance_blocks
 from abu_calc.reporting.screen import shortened
 
 MARKS: Final = {
-    "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
+    "closed-form": "f", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
     "scipy-radau": "I", "scipy-bdf": "B", "compiled-dop853": "E", "compiled-rk45": "C",
-    "plain-dop853": "E", "plain-rk45": "C",
+    "plain-dop853": "P", "plain-rk45": "K",
 }  # fmt: skip
 WIDTH: Final = 58
 HEIGHT: Final = 16
@@ -49,7 +49,7 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
         *(Paragraph(line) for line in _not_computed(result.points)),
         *(skipped if result.skipped else []),
         Heading("Error against time", "error-against-time"),
-        Picture(tuple(picture(result.points)), _legend(), indent=0),
+        Picture(tuple(picture(result.points)), _legend(result.points), indent=0),
         Heading("Conventions", "conventions"),
         Paragraph(ABOUT),
         *notices(result),
@@ -142,11 +142,17 @@ def picture(points: tuple[MeasuredPoint, ...]) -> list[str]:
     return [*lines, f"{'error':>8} +{'-' * WIDTH}", f"{'':8}  {''.join(axis).rstrip()} s"]
 
 
-def _legend() -> str:
-    return (
-        "; ".join(f"{mark} {name}" for name, mark in MARKS.items())
-        + ". Small letters stand for the full equations with every effect."
-    )
+def _legend(points: tuple[MeasuredPoint, ...]) -> str:
+    """The marks that the picture shows."""
+    shown = {_mark(point): point for point in points if point.error is not None and point.wall_s is not None}
+    marks = "; ".join(f"{mark} {_marked(point)}" for mark, point in shown.items())
+    return f"{marks}."
+
+
+def _marked(point: MeasuredPoint) -> str:
+    if point.rung in MARKS:
+        return point.rung
+    return f"{point.integrator}, every effect" if point.rung == "everything" else f"{point.integrator}"
 
 
 def _mark(point: MeasuredPoint) -> str:

@@ -16,9 +16,7 @@ MEASURED: Final = "Measured runs"
 
 def declare(
     how: Delivery,
-    machine: Annotated[
-        str | None, typer.Argument(metavar="[MACHINE]", help="Machine file or name of a preset.")
-    ] = None,
+    machine: Annotated[str | None, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")] = None,
     set_: Overrides = None,
     starts: Annotated[int, typer.Option("--starts", metavar="N", help="Starts of the balls to simulate.")] = 10_000,
     recordings: Annotated[

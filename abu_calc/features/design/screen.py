@@ -51,7 +51,7 @@ class Case(NamedTuple):
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The report on one screen: tables first, then actions, then notes as far as there is room."""
-    about = [Heading(title_with_speed(result)), verdict_line(result), *arm_change(result)]
+    about = [Heading(title_with_speed(result)), verdict_line(result), *small_benefit(result), *arm_change(result)]
     tables = numbers_that_matter(result)
     body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
     groups = action_groups(result.checks, marked(tables))
@@ -86,6 +86,21 @@ def title_with_speed(result: SizeResult) -> str:
     return f"{result.title}, {result.model.speed_rad_per_s * 30 / math.pi:.6g} rpm"
 
 
+LEAST_BENEFIT: Final = 3.0
+"""Reduction of the expected idle level [dB] below which the first screen names it."""
+
+
+def small_benefit(result: SizeResult) -> list[Block]:
+    """A line if the autobalancer is expected to lower the idle level but little; nothing otherwise."""
+    before, after = result.vibration.level_before_db, result.vibration.level_after_db
+    if before is None or after is None or (lowered := before - after) >= LEAST_BENEFIT:
+        return []
+    if lowered <= TENTH:
+        return [Paragraph("The autobalancer is not expected to lower the idle level.", "warn")]
+    text = f"The autobalancer is expected to lower the idle level by {lowered:.1f} dB only."
+    return [Paragraph(f"{text} `abu explain budget` explains what remains.", "warn")]
+
+
 def arm_change(result: SizeResult) -> list[Block]:
     """The line that says what to change on a swing arm; nothing without one."""
     return arm_line(result.swing_arm.advice) if result.swing_arm else []
@@ -93,7 +108,8 @@ def arm_change(result: SizeResult) -> list[Block]:
 
 def about(result: SizeResult) -> list[Block]:
     """First lines of the whole report: title, verdict, what to make."""
-    return [Heading(result.title), verdict_line(result), *arm_change(result), BLANK, *make(result)]
+    return [Heading(result.title), verdict_line(result), *small_benefit(result), *arm_change(result), BLANK,
+            *make(result)]  # fmt: skip
 
 
 def make(result: SizeResult) -> list[Block]:
@@ -101,7 +117,7 @@ def make(result: SizeResult) -> list[Block]:
     abu, section = result.autobalancer, result.section
     title = "Make" if result.status == "pass" else "Best found"
     share = f"{number(100 * abu.mass_fraction, 2)} % of the machine"
-    capacity = f"required, with margin: {number(_needed(result), 5)}"
+    capacity = _required(result)
     groove = abu.groove_radius_mm
     shape = "" if groove is None else (
         f"groove R {number(groove, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, "
@@ -123,6 +139,13 @@ def make(result: SizeResult) -> list[Block]:
         Case("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
     )  # fmt: skip
     return [Grid((title, ""), tuple((row.label, row.value) for row in rows))]
+
+
+def _required(result: SizeResult) -> str:
+    """Required capacity with its margin, and the imbalance, of which it is the larger part."""
+    needed, bare = _needed(result), result.required_capacity_g_mm
+    margin = f"{needed / bare:.3g} × {number(bare, 5)}" if bare and needed > bare else number(needed, 5)
+    return f"required: {margin}; imbalance {number(result.imbalance_g_mm, 4)}"
 
 
 def _needed(result: SizeResult) -> float:

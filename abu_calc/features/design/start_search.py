@@ -183,13 +183,13 @@ def _run(
 def repeated(outcome: StartOutcome, design: Design) -> str:
     """The options of `abu simulate` that repeat a start of a design, which they pin."""
     member = outcome.member
-    angles = ",".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
+    angles = ", ".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
     balls = design.autobalancer
     sets = [
         f"autobalancer.ball_count={balls.ball_count}",
         f"autobalancer.ball_diameter_mm={from_si(balls.ball_diameter, 'mm'):.10g}",
         *([f"run_up.time_s={member.run_up:.10g}"] if member.run_up and not member.by_motor else []),
-        f"start.angles_deg=[{angles}]",
+        f"'start.angles_deg=[{angles}]'",
     ]
     scene = "--scene run-up " if member.run_up else ""
     scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
@@ -221,11 +221,19 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
             f"By the slowest of all start cases, one of {1 / RARE:.0f} takes {searched.foreseen:.3g} s (limit "
             f"{limit:g} s). The slowest further start case settles in {worst.settling_time_or_inf:.3g} s"
         )
-    again = (
-        f"To repeat the {NAMES[check.code]} of the further start cases: `abu simulate FILE {repeated(worst, design)}`."
-    )
-    remedy = f"{check.remedy} {again}" if check.remedy else again
-    return replace(check, status="warn", message=f"{check.message}. {share}", remedy=remedy)
+    return replace(check, status="warn", message=f"{check.message}. {share}", remedy=check.remedy or NOT_TRIED)
+
+
+def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str, str, str]]:
+    """Code of each check that further start cases break or come near to, the worst case in words, options to repeat it.
+
+    The options are those of `abu simulate`. Settling times count, too, if one start case of 1000 would be late.
+    """
+    limit = design.case.table.limits.settling_time_s
+    for code, (breaks, order, _) in BROKEN.items():
+        broken = [outcome for outcome in searched.outcomes if breaks(outcome, design)]
+        if broken or (code == "ABU702" and searched.outcomes and searched.foreseen > limit):
+            yield code, NAMES[code], repeated(max(broken or searched.outcomes, key=order), design)
 
 
 def _late(outcome: StartOutcome, design: Design) -> bool:
@@ -244,6 +252,10 @@ def _time_in_words(outcome: StartOutcome) -> str:
     )
 
 
+NOT_TRIED: Final = (
+    "No change was simulated for further start cases. To try one, add `--set` to the command that "
+    "`abu size FILE --full` prints."
+)
 NAMES: Final = {
     "ABU401": "loudest",
     "ABU701": "one with the largest imbalance left",

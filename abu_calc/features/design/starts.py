@@ -13,7 +13,7 @@ from typing import Annotated, Final, Self
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.features.design.start_search import SearchResult
+from abu_calc.features.design.start_search import SearchResult, worst_further
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -219,6 +219,15 @@ class SettlingOfStart(Record):
 
 
 @record
+class RepeatedStart(Record):
+    """The worst further start case for one check, with the options of `abu simulate` that repeat it."""
+
+    check: Annotated[str, Quantity("check")]
+    which: Annotated[str, Quantity("which")]
+    options: Annotated[str, Quantity("options of `abu simulate`")]
+
+
+@record
 class FurtherStarts(Record):
     """Start cases at the given drag rate beside the listed ones, looked for where they are worst; they only warn.
 
@@ -230,9 +239,10 @@ class FurtherStarts(Record):
     settling_time_s: Annotated[float | None, Quantity("slowest of them", "t_s", 3)]
     rare_settling_time_s: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_s", 3)]
     level_db: Annotated[float, Quantity("loudest of them", "L")]
+    repeats: tuple[RepeatedStart, ...] = ()
 
     @classmethod
-    def of(cls, searched: SearchResult | None) -> Self | None:
+    def of(cls, searched: SearchResult | None, design: Design) -> Self | None:
         """Record of a search; None if there was none, or without an answer."""
         if searched is None or not searched.outcomes:
             return None
@@ -241,6 +251,10 @@ class FurtherStarts(Record):
             settling_time_s=finite(max(outcome.settling_time_or_inf for outcome in searched.outcomes)),
             rare_settling_time_s=finite(searched.foreseen),
             level_db=max(outcome.loudest for outcome in searched.outcomes),
+            repeats=tuple(
+                RepeatedStart(check=code, which=which, options=options)
+                for code, which, options in worst_further(searched, design)
+            ),
         )
 
 
@@ -262,7 +276,13 @@ class EnsembleResult(Record):
     further_starts: FurtherStarts | None
 
     @classmethod
-    def of(cls, ensemble: Ensemble, predicted_level: float | None = None, searched: SearchResult | None = None) -> Self:
+    def of(
+        cls,
+        ensemble: Ensemble,
+        design: Design,
+        predicted_level: float | None = None,
+        searched: SearchResult | None = None,
+    ) -> Self:
         """Record in user units; `predicted_level` [dB]: the one that measurements are compared with."""
         return cls.read(
             ensemble,
@@ -273,5 +293,5 @@ class EnsembleResult(Record):
             predicted_level_db=predicted_level,
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
             settling_by_start=SettlingOfStart.all_of(ensemble),
-            further_starts=FurtherStarts.of(searched),
+            further_starts=FurtherStarts.of(searched, design),
         )

@@ -234,7 +234,7 @@ def size(
         ),
         ensemble=None
         if tried.ensemble is None
-        else EnsembleResult.of(tried.ensemble, predicted_level(design, tried.ensemble), tried.searched),
+        else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
         data_gaps=data_gaps(design, tried.ensemble, accuracy),
         simulation=tuple(
             SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs

@@ -14,6 +14,7 @@ from abu_calc.features.design.screen import (
     numbers_that_matter,
     other_notes,
     point_mass,
+    small_benefit,
     starts_and_defaults,
     title_with_speed,
 )
@@ -54,6 +55,7 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     tables = numbers_that_matter(result)
     changed = any(check.overrides for check in result.checks if check.status != "pass")
     body: list[Block] = [
+        *small_benefit(result),
         *arm_change(result),
         *make(result),
         *tables,

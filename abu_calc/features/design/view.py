@@ -13,7 +13,7 @@ from abu_calc.features.design.screen import (
     numbers_that_matter,
     section_picture,
 )
-from abu_calc.features.design.starts import SettlingOfStart
+from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.grinding.view import start_blocks
 from abu_calc.features.swing_arm.view import arm_facts, motion_blocks, printed_otherwise
@@ -23,7 +23,9 @@ from abu_calc.reporting.parts import (
     check_blocks,
     default_blocks,
     facts,
+    file_of,
     measured_after_blocks,
+    options_of,
     provenance_blocks,
     shown_blocks,
     value_of,
@@ -38,7 +40,7 @@ CONVENTIONS = (
 START = (
     "Every scene starts at full speed, with the axis at rest. The balls start at rest in the race, together 20° ahead "
     "of the imbalance. The race's centre lies at 180° from it. Rolling inertia and viscous drag are always included. "
-    "The estimated influence of an effect is the change that leaving it out may cause. `abu effects FILE` lists them."
+    "The estimated influence of an effect is the change that leaving it out may cause. `abu effects {file}` lists them."
 )
 
 WAYS = (
@@ -50,8 +52,8 @@ WAYS = (
     "Below the optimum drag rate small disturbances decay at h₀/(2J), whatever the mass of the balls. Above it heavier "
     "balls settle faster. From standstill the balls take up the speed at h₀/J. The radius of the groove has no "
     "influence in the plane.",
-    "`abu simulate FILE --start spread --race-centre 0` repeats one start case.",
 )
+REPEAT = "`abu simulate {file} --start spread --race-centre 0` repeats one listed start case."
 GAPS = (
     "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the "
     "three assumed values that most move the verdict, for the balls and the race of this design. Levels are "
@@ -140,6 +142,22 @@ def _ensemble(result: SizeResult) -> list[Block]:
         Heading("Settling time in s, by start case and drag rate, slower side of the race"),
         _ways(many.settling_by_start),
         *map(Paragraph, WAYS),
+        Paragraph(REPEAT.format(file=file_of(result))),
+        *_further(result, many.further_starts),
+    ]
+
+
+def _further(result: SizeResult, further: FurtherStarts | None) -> list[Block]:
+    """Worst further start cases, with the commands that repeat them."""
+    if further is None or not further.repeats:
+        return []
+    replaced = options_of(result.provenance)
+    return [
+        Heading("To repeat further start cases"),
+        *(
+            Paragraph(f"{each.check}, {each.which}: `abu simulate {file_of(result)}{replaced} {each.options}`.", hang=2)
+            for each in further.repeats
+        ),
     ]
 
 
@@ -262,7 +280,7 @@ def _tenths(value: float | None) -> str:
 
 def _simulation(result: SizeResult) -> list[Block]:
     blocks = [block for scene in result.simulation for block in _scene(scene, idle_case(result))]
-    return [*blocks, Paragraph(START)] if blocks else []
+    return [*blocks, Paragraph(START.format(file=file_of(result)))] if blocks else []
 
 
 def _scene(scene: SimulatedScene, case: str) -> list[Block]:

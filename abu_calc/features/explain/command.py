@@ -8,6 +8,7 @@ from abu_calc.cli.command import add_command
 from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.screen import BLANK
 
 What = Annotated[
     str | None,
@@ -53,15 +54,32 @@ def _listed() -> Outcome:
         Heading("Checks"),
         Grid(("code", "check", "step"), tuple((check.code, check.name, check.step) for check in CHECK_CODES.values())),
         Paragraph(
-            "abu explain STEP or CODE shows them, abu explain EFFECT one of `abu effects`; abu size MACHINE --explain "
-            "puts the numbers in."
+            "`abu explain STEP` and `abu explain CODE` show them, `abu explain EFFECT` one of `abu effects`. `abu size "
+            "MACHINE --explain` puts the numbers in."
         ),
+    )
+    codes: dict[str, list[str]] = {}
+    for check in CHECK_CODES.values():
+        codes.setdefault(check.step or "other checks", []).append(check.code)
+    titles = {name: each.title for name, each in STEPS.items()}
+    short = (
+        Heading("Steps and their checks"),
+        Grid(
+            ("step", "what", "checks"),
+            tuple((name, titles.get(name, ""), " ".join(codes.get(name, ()))) for name in (*STEPS, "other checks")),
+        ),
+        BLANK,
+        Paragraph(
+            "`abu explain capacity` shows the formulas of a step, `abu explain ABU201` the question, the grades and "
+            "the action of a check. `abu explain ball_contact` describes an effect, and `abu effects` lists them."
+        ),
+        Paragraph("More: --full, the names of all formulas and checks; `abu size MACHINE --explain`, with numbers."),
     )
     result = {
         "steps": {name: each.title for name, each in STEPS.items()},
         "checks": {code: check.name for code, check in CHECK_CODES.items()},
     }
-    return Outcome("explain", result, blocks)
+    return Outcome("explain", result, blocks, short=lambda: short)
 
 
 def _step(name: str) -> Outcome:

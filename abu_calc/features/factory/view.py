@@ -10,8 +10,8 @@ from abu_calc.reporting.screen import many
 Span = tuple[float, float]
 
 NOTE = (
-    "Levels in dB re 5e-8 m/s with the autobalancer, in the octave; Δ: lowered by. Model: the plane model, idle the "
-    "median of all start cases, hot and cold oil included; loaded: pressed to the workpiece after the balls have "
+    "Levels in dB re 5e-8 m/s with the autobalancer, in the octave; Δ: lowered by. Model: the plane model. Idle: "
+    "the median of all start cases, hot and cold oil included. Loaded: pressed to the workpiece after the balls have "
     "settled. Miss: outside the published range. –: no motion of the model in that octave."
 )
 ALONG = "Sensors of {machines} measured along the spindle, where the plane model has no motion."

@@ -16,6 +16,7 @@ from abu_calc.inputs.reading.document import FileReading
 from abu_calc.inputs.scene import SceneDescription
 from abu_calc.reporting.blocks import Block, Paragraph
 from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.screen import many
 
 
 def refuse_unusable(source: FileReading) -> None:
@@ -91,7 +92,7 @@ def validate(
                         "warnings": list(loaded.warnings),
                         **({"missing": list(missing)} if missing else {})})  # fmt: skip
         warnings += [f"{file}: {warning}" for warning in loaded.warnings]
-        blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
+        blocks.append(Paragraph(f"{file}: valid, {many(len(defaults), 'default')} used", "pass"))
         blocks += [Paragraph(f"! {warning}", indent=4) for warning in loaded.warnings]
         blocks += [Paragraph(line, indent=4) for line in missing]
     if len(faults) == 1:

@@ -15,6 +15,12 @@ HEAD: Final = (
     "A {kind} file of abu-calc. Put in your own numbers; the unit stands in the key. Keys and tables with a # right "
     "before them are optional: take the # away to use them."
 )
+FIRST: Final = (
+    "Values without a # are those of an example. Replace those of [machine], [suspension] and [wheel], and in "
+    "[autobalancer] the room: max_outer_diameter_mm, max_width_mm and bore_diameter_mm. Values called assumed may "
+    "stay: reports say what they move. A preset may be nearer to your machine: `abu presets` lists them, and "
+    "`abu init FILE --preset NAME` copies one."
+)
 
 
 def template() -> str:
@@ -32,7 +38,8 @@ def scene_template() -> str:
 
 def template_of(kind: str, model: type[Table]) -> str:
     """Text of a complete file of a kind, made from its model."""
-    return "\n".join([*_comment(HEAD.format(kind=kind)), *_tables(model, (), live=True)]) + "\n"
+    head = f"{HEAD.format(kind=kind)} {FIRST}" if kind == "machine" else HEAD.format(kind=kind)
+    return "\n".join([*_comment(head), *_tables(model, (), live=True)]) + "\n"
 
 
 def _tables(model: type[Table], path: tuple[str, ...], *, live: bool) -> list[str]:

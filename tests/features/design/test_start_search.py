@@ -17,6 +17,7 @@ from abu_calc.features.design.start_search import (
     neighbours,
     search,
     with_searched,
+    worst_further,
 )
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read_machine
@@ -70,12 +71,14 @@ def test_the_search_is_the_same_whatever_the_workers() -> None:
 
 @pytest.mark.parametrize("name", ["late-bunched-elsewhere", "late-run-up-hands"])
 def test_what_the_listed_starts_miss_warns_and_can_be_repeated(name: str) -> None:
-    """By the very options that the check prints, with the very time it says."""
+    """By the very options that the report prints, with the very time it says; the action is no such command."""
     file = str(MACHINES / f"{name}.toml")
-    (check,) = (check for check in abu_calc.size(abu_calc.read(file)).checks if check.code == "ABU702")
-    assert check.status == "warn" and check.remedy
+    sized = abu_calc.size(abu_calc.read(file))
+    (check,) = (check for check in sized.checks if check.code == "ABU702")
+    assert check.status == "warn" and check.remedy and "start.angles_deg" not in check.remedy
     time = float(check.message.rsplit("in ", 1)[1].removesuffix(" s"))
-    line = check.remedy.split("`abu simulate FILE ")[1].split("`")[0]
+    assert sized.ensemble is not None and sized.ensemble.further_starts is not None
+    (line,) = (each.options for each in sized.ensemble.further_starts.repeats if each.check == "ABU702")
     again = abu("simulate", file, *shlex.split(line), "--json").document
     assert again["result"]["settling_time_s"] == pytest.approx(time, rel=0.02)
 
@@ -107,7 +110,8 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
             assert told == check
         else:
             assert told.status == "warn" and told.message.startswith("as listed. 1 of 2 further start cases")
-            assert told.remedy and "--set start.angles_deg=[" in told.remedy
+            assert told.remedy and "No change was simulated" in told.remedy
+            assert code in [each for each, *_ in worst_further(SearchResult((good, bad)), found)]
     passed = Check(code, "", "pass", "as listed", 1.0, 2.0, "s", None)
     assert with_searched(passed, SearchResult((good,), lost=1), found).status == "warn"
     assert with_searched(passed, SearchResult((good,), lost=1, hurried=True), found).status == "not-done"

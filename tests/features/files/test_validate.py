@@ -23,7 +23,7 @@ def test_validate_tells_every_file(tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.toml"
     wrong.write_text("[machine]\n", encoding="utf-8")
     seen = abu("validate", "msh-230", "swing-arm-grinder")
-    assert seen.status == 0 and "msh-230: right" in seen.out
+    assert seen.status == 0 and "msh-230: valid" in seen.out
     seen = abu("validate", "msh-230", str(wrong))
     assert seen.status == 2 and "wrong.toml" in seen.err
 
