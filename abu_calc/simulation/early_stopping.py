@@ -20,6 +20,7 @@ from abu_calc.simulation.response import (
     evaluate,
     needed_times,
     settling_times,
+    with_creep,
 )
 
 LOOKS: Final = (0.1875, 0.25, 0.375, 0.5, 0.7)
@@ -85,22 +86,31 @@ class Early:
     def response(self, samples: Samples, creep: float = 0.0) -> Response:
         """Response of a run that may have ended early; its residual imbalance may yet fall by `creep` [kg m]."""
         end = float(samples.t[-1])
-        if end not in self._courses:
-            self._courses[end] = Course(self.scene)
-            self._courses[end](samples)
-        if (end, creep) not in self._responses:
-            scene, course = replace(self.scene, duration=end), self._courses[end].until(end)
-            self._responses[end, creep] = evaluate(scene, samples, course, creep)
-        return self._responses[end, creep]
+        if end not in self._responses:
+            self._responses[end] = evaluate(replace(self.scene, duration=end), samples, self._course_until(samples))
+        response = self._responses[end]
+        return response if creep == 0 else with_creep(response, self.scene, self._course_until(samples), creep)
+
+    def _course_until(self, samples: Samples) -> Course:
+        """Residual history up to the end of these samples; those that were read before are not read again."""
+        read = self._read[-1]
+        if len(samples.t) > read:
+            self._course(Samples(samples.t[read:], samples.y[:, read:]))
+            self._read.append(len(samples.t))
+        return self._course.until(float(samples.t[-1]))
 
     @cached_property
-    def _courses(self) -> dict[float, Course]:
-        """Residual history of the run up to each time at which it might end."""
-        return {}
+    def _course(self) -> Course:
+        return Course(self.scene)
 
     @cached_property
-    def _responses(self) -> dict[tuple[float, float], Response]:
-        """Responses of the run up to each time at which it might end, by the creep that is left to it."""
+    def _read(self) -> list[int]:
+        """Numbers of samples that were read."""
+        return [0]
+
+    @cached_property
+    def _responses(self) -> dict[float, Response]:
+        """Responses of the run up to each time at which it might end."""
         return {}
 
     def enough(self, samples: Samples) -> bool:
