@@ -1,15 +1,14 @@
 """Reading of a recorded motion from a CSV or a WAV file.
 
-CSV: a column of time, and columns of acceleration, velocity or displacement with their units. WAV: samples of whole
-numbers or floats, full scale ±1; a scale gives their quantity. The kind of a file and its faults are told before it is
-looked into.
+CSV: a column of time, and columns of a motion with their units, or of a voltage with the sensitivity of its sensor.
+WAV: samples of whole numbers or floats, full scale ±1; a scale gives their quantity. The kind of a file and its faults
+are told before it is looked into.
 """
 
 import io
 import os
-import re
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,40 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading.plain import found_as
 from abu_calc.inputs.reading.sources import regular_file
-from abu_calc.inputs.recording import (
-    AXIS,
-    QUANTITIES,
-    MotionQuantity,
-    Recording,
-    RecordingColumn,
-    RecordingOptions,
-    chosen,
-    column_of,
-    flat_tops,
-    recording,
-)
-
-EVEN: Final = 0.05
-"""Share of a step by which times may stray from their grid: more is not the rounding of written times."""
-
-
-@dataclass(frozen=True)
-class Lines:
-    """Rows of numbers with their line numbers, and the names above them."""
-
-    path: str
-    names: tuple[str, ...]
-    numbers: tuple[int, ...]
-    values: NDArray[np.float64]
+from abu_calc.inputs.recording import Recording, RecordingOptions, chosen, flat_tops, recording
+from abu_calc.inputs.recording_columns import QUANTITIES, MotionQuantity, RecordingColumn, column_of
+from abu_calc.inputs.recording_table import Lines, decoded, rate_of, table_of
+from abu_calc.inputs.sensitivity import Sensitivity, sensitivities, sensitivity_of
 
 
 def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recording:
     """The recording of a CSV file."""
     remarks: list[str] = []
-    table = _table(path, _text(path, content), remarks)
+    table = table_of(path, decoded(path, content), remarks)
     columns = [column_of(name) for name in table.names]
     time = next((k for k, column in enumerate(columns) if column.is_time), None)
     if time is None:
@@ -58,12 +35,17 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
             "no column of time", place=Place(path, table.numbers[0] - 1), found=", ".join(table.names),
             remedy='Name it "t_s" or "time [s]": equally spaced times are asked for.',
         )  # fmt: skip
-    rate = _rate(table, time, columns[time])
+    rate = rate_of(table, time, columns[time])
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
     picked = _picked(table, columns, time, asked, simulated=simulated)
-    quantity = _quantity(path, [columns[k] for k in picked], asked, remarks)
+    sensors = [_sensor(table, columns[k], k + 1 - (k > time), asked) for k in picked]
+    _all_used(path, asked, sensors)
+    quantity = _quantity(path, [columns[k] for k in picked], sensors, asked, remarks)
     with np.errstate(over="ignore", invalid="ignore"):  # samples that large are refused below
-        axes = [(columns[k].name, table.values[:, k] * _unit(columns[k], quantity, asked, remarks)) for k in picked]
+        axes = [
+            (columns[k].name, table.values[:, k] * _unit(columns[k], sensor, quantity, asked, remarks))
+            for k, sensor in zip(picked, sensors, strict=True)
+        ]
         clipped = [(name, _clipped(values)) for name, values in axes]
     for name, cut in clipped:
         if cut is not None:
@@ -71,164 +53,59 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
                 f"{name} stays at its largest value again and again, first on line {table.numbers[cut]}: a recording "
                 "that is clipped reads too low."
             )
-    return recording(path, content, quantity, axes, rate, remarks, simulated=simulated)
+    handles = asked.handle_names() or _handles(table, [columns[k] for k in picked], remarks)
+    return recording(path, content, quantity, axes, rate, remarks, simulated=simulated, handles=handles)
 
 
-def _text(path: str, content: bytes) -> str:
-    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return content.decode("utf-16", errors="replace")
-    if b"\0" in content[:4096]:
-        raise InputError("neither a table of text nor a WAV file", place=Place(path))
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        # Two letters of the upper half side by side are a Cyrillic word of Windows; alone they are µ or ².
-        return content.decode("cp1251" if re.search(rb"[\xc0-\xff]{2}", content[:4096]) else "latin-1", "replace")
-
-
-def _table(path: str, text: str, remarks: list[str]) -> Lines:
-    """Names and numbers; comments (#) and empty lines left out."""
-    rows = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
-    first = next((k for k, (_, line) in enumerate(rows) if _numeric(line)), None)
-    if first is None:
-        raise InputError("no row of numbers", place=Place(path), remedy="Columns: time, and what moved.")
-    if first > 2:
+def _handles(table: Lines, columns: Sequence[RecordingColumn], remarks: list[str]) -> tuple[str, ...]:
+    """Handle of each column by its name; empty if the names tell none. Refused if only some names tell one."""
+    handles = tuple(column.handle for column in columns)
+    if not any(handles):
+        if len(columns) > 1 and not all(column.names_axis for column in columns):
+            remarks.append(
+                f"{', '.join(column.name for column in columns)} are taken for axes of one place; --handle says "
+                "otherwise."
+            )
+        return ()
+    if "" in handles:
         raise InputError(
-            "more lines above the numbers than names and units", place=Place(path, rows[0][0]),
-            found=rows[0][1].strip()[:60], remedy="Keep one line of names, or begin the others with #.",
+            "columns with and without the name of a handle", place=Place(table.path, table.head),
+            found=", ".join(column.name for column in columns),
+            remedy="Say which belong together: --handle front=1,2,3 --handle rear=4,5,6 (Python: handles=).",
         )  # fmt: skip
-    delimiter = _delimiter(rows[first][1])
-    if delimiter and rows[first][1].rstrip().endswith(delimiter):  # every row ends so
-        rows = [(number, line.rstrip().removesuffix(delimiter)) for number, line in rows]
-    heads = [[cell.strip().strip('"') for cell in _cells(line, delimiter)] for _, line in rows[:first]]
-    if delimiter != "," and "," in rows[first][1]:
-        rows = [(number, _pointed(path, number, line) if k >= first else line) for k, (number, line) in enumerate(rows)]
-        remarks.append("Commas are taken for decimal points.")
-    width = len(_cells(rows[first][1], delimiter))
-    for (number, _), head in zip(rows[:first], heads, strict=True):
-        if len(head) != width:
+    return handles
+
+
+def _sensor(table: Lines, column: RecordingColumn, number: int, asked: RecordingOptions) -> Sensitivity | None:
+    """Sensitivity of a column in volts; None for one in units of motion. Refused if it is missing or not asked for."""
+    own = next((one for one in asked.sensitivities if one.channel in (column.name, str(number))), None)
+    sensor = sensitivity_of(asked.sensitivities, column.name, number)
+    if column.volts is None or asked.scale is not None:
+        if own is not None:
             raise InputError(
-                "another number of columns than the names above", place=Place(path, rows[first][0]),
-                found=f"{width}, names on line {number}: {len(head)}",
-                remedy="Are commas decimal points? Then put ; between the columns, or write points.",
+                "a sensitivity for a column that is not in V or mV", place=Place(table.path, table.head, column.name),
+                found=f"sensitivity {own.text}", remedy="Leave it out, or name the column's unit: ax_mV, ax [V].",
             )  # fmt: skip
-    names = [" ".join(parts) for parts in zip(*heads, strict=True)] if len(heads) == 1 else []
-    if len(heads) == 2:
-        names = [f"{name} [{unit.strip('[]()')}]" for name, unit in zip(*heads, strict=True)]
-    names = names or ["t", *(f"column {k}" for k in range(2, width + 1))]
-    numbers, lines = zip(*rows[first:], strict=True)
-    return Lines(path, tuple(names), numbers, _values(path, names, numbers, lines, delimiter))
-
-
-def _numeric(line: str) -> bool:
-    """True if the first cell of a line is a number.
-
-    A comma before a digit may be a decimal point, or end the cell.
-    """
-    cell = re.split(r"[;\t]|,(?!\d)|\s", line.strip())[0].strip('"')
-    return re.fullmatch(r"[-+]?(\d+([.,]\d*)*|[.,]\d+)([eE][-+]?\d+(,.*)?)?", cell) is not None
-
-
-def _delimiter(line: str) -> str | None:
-    """Delimiter of the cells in a row of numbers; None: blanks."""
-    return next((sign for sign in (";", "\t", ",") if sign in line), None)
-
-
-def _cells(line: str, delimiter: str | None) -> list[str]:
-    return line.strip().split(delimiter)
-
-
-def _pointed(path: str, number: int, line: str) -> str:
-    if "." in line:
-        raise InputError("points and commas both stand for decimals", place=Place(path, number), found=line.strip())
-    return line.replace(",", ".")
-
-
-def _values(
-    path: str, names: Sequence[str], numbers: Sequence[int], lines: Sequence[str], delimiter: str | None
-) -> NDArray[np.float64]:
-    """Numbers, row by row; the first cell that is none is told with its line and column."""
-    plain = [line.strip().replace('"', "") for line in lines]
-    try:
-        array = np.loadtxt(plain, delimiter=delimiter, ndmin=2, comments=None)
-        if np.isfinite(array).all() and array.shape[1] == len(names):
-            return np.asarray(array, dtype=float)
-    except ValueError:
-        pass
-    for number, line in zip(numbers, plain, strict=True):
-        cells = line.split(delimiter)
-        if len(cells) != len(names):
-            raise InputError(
-                "another number of columns than before", place=Place(path, number),
-                found=f"{len(cells)}", allowed=f"{len(names)}",
-                remedy="A row that was cut off, or commas as decimal points: put ; between the columns then.",
-            )  # fmt: skip
-        for name, cell in zip(names, cells, strict=True):
-            _check_cell(Place(path, number, name), cell.strip())
-    raise InputError("the numbers cannot be read", place=Place(path, numbers[0]))
-
-
-def _check_cell(place: Place, cell: str) -> None:
-    try:
-        good = bool(np.isfinite(float(cell)))
-    except ValueError:
-        good = False
-    if not good:
-        raise InputError("not a number", place=place, found=cell or "nothing", remedy="Every row needs every number.")
-
-
-def _rate(table: Lines, time: int, column: RecordingColumn) -> float:
-    """Samples a second of times that are equally spaced but for the rounding of their digits."""
-    t, path, count = table.values[:, time], table.path, len(table.values)
-
-    def place(row: int) -> Place:
-        return Place(path, table.numbers[row], column.name)
-
-    if count < 3:
-        raise InputError("too few rows", place=Place(path), found=f"{count}")
-    steps = np.diff(t)
-    back = np.flatnonzero(steps <= 0)
-    if len(back):
-        k = int(back[0]) + 1
-        raise InputError("the times do not ascend", place=place(k), found=f"{t[k]:.12g} after {t[k - 1]:.12g}")
-    usual = float(t[-1] - t[0]) / (count - 1)
-    stray = float(np.abs(t - np.linspace(t[0], t[-1], count)).max())
-    rounded = stray <= 1.01 * _resolution(t) <= 1.01 * usual and not _gaps(steps)
-    if stray > EVEN * usual and not rounded:
-        raise _uneven(steps, place)
-    return 1 / (usual * (column.unit or 1.0))
-
-
-def _resolution(t: NDArray[np.float64]) -> float:
-    """One unit of the last digit that the times are written with, decimals; 0 for more than nine."""
-    for digits in range(10):
-        scaled = t * 10.0**digits
-        if float(np.abs(scaled - np.round(scaled)).max()) < 1e-6 * max(1.0, float(np.abs(scaled).max()) * 1e-6):
-            return float(10.0**-digits)
-    return 0.0
-
-
-def _gaps(steps: NDArray[np.float64]) -> list[int]:
-    """Steps of time that are twice as wide as others or wider, if they are few."""
-    wide = np.flatnonzero(steps > 1.9 * float(np.median(steps)))
-    return [int(k) for k in wide] if len(wide) <= max(3, len(steps) // 1000) else []
-
-
-def _uneven(steps: NDArray[np.float64], place: Callable[[int], Place]) -> InputError:
-    """Fault in the steps of time: a gap, if they are alike but for few, or no fixed rate."""
-    usual, gaps = float(np.median(steps)), _gaps(steps)
-    if gaps:
-        k = gaps[0]
-        return InputError(
-            "a gap in the times", place=place(k + 1), found=f"{steps[k]:.6g} after steps of {usual:.6g}",
-            remedy="Cut the file there, and take its longest part.",
+        return None
+    if sensor is None:
+        raise InputError(
+            "a column of a voltage, and no sensitivity of its sensor", place=Place(table.path, table.head, column.name),
+            remedy=f'Give it in mV per m/s², or with its unit: --sensitivity "{column.name}=100 mV/g" (Python: '
+            "sensitivity=). If the column is no motion, leave it out: --channels.",
         )  # fmt: skip
-    k = int(np.argmax(np.abs(steps - usual)))
-    return InputError(
-        "the times are not equally spaced", place=place(k + 1),
-        found=f"a step of {steps[k]:.6g} among steps of {usual:.6g}",
-        remedy="Record at a fixed rate, or write the times with more digits.",
-    )  # fmt: skip
+    return sensor
+
+
+def _all_used(path: str, asked: RecordingOptions, sensors: Sequence[Sensitivity | None]) -> None:
+    """Refuse a sensitivity that no channel takes."""
+    for given in asked.sensitivities:
+        if given not in sensors:
+            what = "no column that is read is in V or mV" if given.channel is None else "no such channel is read"
+            raise InputError(
+                f"a sensitivity without use: {what}", place=Place(path, key="sensitivity"),
+                found=f"{given.channel}={given.text}" if given.channel else given.text,
+                remedy="Leave it out, or name a column in V or mV.",
+            )  # fmt: skip
 
 
 def _picked(
@@ -236,12 +113,12 @@ def _picked(
 ) -> list[int]:
     """Columns to read: those asked for, else x and y of a trajectory, else all that may be the quantity."""
     others = [k for k in range(len(columns)) if k != time]
-    if asked.channels:
-        return [others[k] for k in chosen(table.path, [columns[k].name for k in others], asked.channels)]
+    if asked.asked_channels:
+        return [others[k] for k in chosen(table.path, [columns[k].name for k in others], asked.asked_channels)]
     if simulated:
         return [table.names.index("x_mm"), table.names.index("y_mm")]
-    known = [k for k in others if columns[k].quantity is not None]
-    wanted = [k for k in known if asked.quantity in (None, columns[k].quantity)]
+    known = [k for k in others if columns[k].quantity is not None or columns[k].volts is not None]
+    wanted = [k for k in known if asked.quantity in (None, columns[k].quantity) or columns[k].volts is not None]
     if known and not wanted:
         raise InputError(
             f"no column of {asked.quantity}", place=Place(table.path, key="quantity"),
@@ -249,7 +126,7 @@ def _picked(
         )  # fmt: skip
     if not (wanted or others):
         raise InputError("no column beside the time", place=Place(table.path), remedy="Columns: time, what moved.")
-    strange = [columns[k].name for k in others if not AXIS.fullmatch(columns[k].name)]
+    strange = [columns[k].name for k in others if not columns[k].may_be_axis]
     if not wanted and len(others) > 1 and strange:
         raise InputError(
             "which columns are the motion is not clear", place=Place(table.path), found=", ".join(strange),
@@ -259,9 +136,11 @@ def _picked(
 
 
 def _quantity(
-    path: str, columns: Sequence[RecordingColumn], asked: RecordingOptions, remarks: list[str]
-) -> MotionQuantity:
-    quantities = list(dict.fromkeys(column.quantity for column in columns if column.quantity is not None))
+    path: str, columns: Sequence[RecordingColumn], sensors: Sequence[Sensitivity | None], asked: RecordingOptions,
+    remarks: list[str],
+) -> MotionQuantity:  # fmt: skip
+    told = [*(sensor.quantity for sensor in sensors if sensor is not None), *(column.quantity for column in columns)]
+    quantities = list(dict.fromkeys(quantity for quantity in told if quantity is not None))
     if asked.quantity is not None and quantities in ([], [asked.quantity]):
         return asked.quantity
     if asked.quantity is not None or len(quantities) > 1:
@@ -277,8 +156,14 @@ def _quantity(
     return quantities[0] if quantities else "acceleration"
 
 
-def _unit(column: RecordingColumn, quantity: MotionQuantity, asked: RecordingOptions, remarks: list[str]) -> float:
+def _unit(
+    column: RecordingColumn, sensor: Sensitivity | None, quantity: MotionQuantity, asked: RecordingOptions,
+    remarks: list[str],
+) -> float:  # fmt: skip
     """SI per unit of a column."""
+    if sensor is not None and column.volts is not None:
+        remarks.append(f"{column.name} is read with a sensitivity of {sensor.text}.")
+        return column.volts / sensor.volts_per_unit
     if asked.scale is not None:
         if column.unit is not None:
             remarks.append(f"The scale takes the place of the unit in {column.name}.")
@@ -300,24 +185,35 @@ WHOLE: Final = {"uint8": (128.0, 128.0), "int16": (0.0, 32768.0), "int32": (0.0,
 
 
 def wav_recording(path: str, content: bytes, asked: RecordingOptions) -> Recording:
-    """The recording of a WAV file; its scale must be given."""
-    if asked.scale is None:
+    """The recording of a WAV file; its scale, or full scale and sensitivities, must be given."""
+    if asked.scale is None and not (asked.sensitivities and asked.full_scale is not None):
         raise InputError(
             "a WAV file does not say what its samples stand for", place=Place(path),
-            remedy="Give --scale S: m/s² at full scale (with --quantity velocity m/s); Python: scale=.",
+            remedy="Give --scale S: m/s² at full scale (with --quantity velocity m/s); Python: scale=. Or give "
+            "--full-scale-mV and --sensitivity (Python: full_scale_mV=, sensitivity=).",
         )  # fmt: skip
     rate, data = _read(path, content)
-    remarks = []
-    quantity = asked.quantity or "acceleration"
-    if asked.quantity is None:
-        remarks.append("The samples are taken for accelerations; --quantity velocity says otherwise.")
+    remarks: list[str] = []
     columns = data.reshape(len(data), -1).T
     names = [f"channel {k}" for k in range(1, len(columns) + 1)]
-    picked = chosen(path, names, asked.channels) if asked.channels else list(range(len(columns)))
-    if len(picked) > 1:
+    picked = chosen(path, names, asked.asked_channels) if asked.asked_channels else list(range(len(columns)))
+    described = [RecordingColumn(names[k], None, False, None, asked.full_scale) for k in picked]
+    table = Lines(path, tuple(names), (), data)
+    sensors = [_sensor(table, column, k + 1, asked) for k, column in zip(picked, described, strict=True)]
+    _all_used(path, asked, sensors)
+    quantity = _quantity(path, described, sensors, asked, [])
+    if asked.quantity is None and asked.scale is not None:
+        remarks.append("The samples are taken for accelerations; --quantity velocity says otherwise.")
+    if len(picked) > 1 and not asked.handles:
         remarks.append(f"The {len(picked)} channels are taken for axes of one place.")
-    axes = [(names[k], _full_scale(path, names[k], columns[k], rate) * asked.scale) for k in picked]
-    return recording(path, content, quantity, axes, float(rate), remarks)
+    axes = [
+        (
+            column.name,
+            _full_scale(path, column.name, columns[k], rate) * _unit(column, sensor, quantity, asked, remarks),
+        )
+        for k, column, sensor in zip(picked, described, sensors, strict=True)
+    ]
+    return recording(path, content, quantity, axes, float(rate), remarks, handles=asked.handle_names())
 
 
 def _read(path: str, content: bytes) -> tuple[int, NDArray[Any]]:
@@ -360,27 +256,61 @@ LARGEST: Final = 2**30
 
 
 def read_recording(
-    file: str | os.PathLike[str], quantity: str | None = None, scale: float | None = None, channels: Sequence[str] = ()
+    file: str | os.PathLike[str],
+    quantity: str | None = None,
+    scale: float | None = None,
+    channels: Sequence[str] = (),
+    *,
+    sensitivity: float | str | Sequence[float | str] | Mapping[str, float | str] | None = None,
+    handles: Mapping[str, Sequence[str]] | None = None,
+    full_scale_mV: float | None = None,
 ) -> Recording:
-    """Reads a CSV (time and up to three columns of a motion) or a WAV file.
+    """Reads a CSV (time, and up to three columns of a motion for each handle) or a WAV file.
 
     `scale`: m/s² (velocity: m/s, displacement: m) per unit of the file, for WAV per full scale. `channels`: names or
-    numbers, from 1, of the columns or channels to take. Raises InputError with file, line and column for what is wrong.
+    numbers, from 1, of the columns or channels to take. `sensitivity`: of sensors recorded in V or mV, in mV per m/s²
+    or a text with its unit, for all or by channel. `handles`: the channels at each handle; without them columns such
+    as "front_ax_m_per_s2" name their handle. `full_scale_mV`: of a WAV file with sensitivities. Raises InputError
+    with file, line and column for what is wrong.
     """
     path, content = _content(file)
     known = next((name for name in QUANTITIES if name == quantity), None)
     if quantity is not None and known is None:
         allowed = ", ".join(QUANTITIES)
         raise InputError("not a quantity of motion", place=Place(key="quantity"), found=quantity, allowed=allowed)
-    if scale is not None and not (np.isfinite(scale) and scale > 0):
-        raise InputError(
-            "not a scale", place=Place(key="scale"), found=f"{scale:g}", allowed="a number above 0",
-            remedy="SI per unit of the file: m/s² for accelerations, m/s for velocities.",
-        )  # fmt: skip
-    asked = RecordingOptions(known, scale, tuple(channels))
-    if content[:4] in (b"RIFF", b"RIFX", b"RF64") or Path(path).suffix.lower() == ".wav":
-        return wav_recording(path, content, asked)
-    return csv_recording(path, content, asked)
+    for key, value in (("scale", scale), ("full_scale_mV", full_scale_mV)):
+        if value is not None and not (np.isfinite(value) and value > 0):
+            raise InputError(
+                "not a scale", place=Place(key=key), found=f"{value:g}", allowed="a number above 0",
+                remedy="SI per unit of the file: m/s² for accelerations, m/s for velocities."
+                if key == "scale" else "The voltage at full scale in mV.",
+            )  # fmt: skip
+    placed = tuple((name, tuple(axes)) for name, axes in (handles or {}).items())
+    full_scale = None if full_scale_mV is None else full_scale_mV / 1000
+    asked = RecordingOptions(known, scale, tuple(channels), sensitivities(sensitivity), placed, full_scale)
+    is_wav = content[:4] in (b"RIFF", b"RIFX", b"RF64") or Path(path).suffix.lower() == ".wav"
+    _options_agree(asked, is_wav=is_wav)
+    return wav_recording(path, content, asked) if is_wav else csv_recording(path, content, asked)
+
+
+def _options_agree(asked: RecordingOptions, *, is_wav: bool) -> None:
+    """Refuse options that exclude each other, or that the kind of file has no use for."""
+    faults = (
+        ("channels", asked.channels and asked.handles, "both channels and handles", "Use --handle alone."),
+        ("sensitivity", asked.sensitivities and asked.scale is not None, "both a scale and a sensitivity", "Give one."),
+        ("full_scale_mV", asked.full_scale is not None and not is_wav, "a full scale, but no WAV file", "Omit it."),
+        ("full_scale_mV", asked.full_scale is not None and asked.scale is not None, "both a scale and a full scale",
+         "Give one."),
+    )  # fmt: skip
+    for key, fault, message, remedy in faults:
+        if fault:
+            raise InputError(message, place=Place(key=key), remedy=remedy)
+    for name, axes in asked.handles:
+        if not name.strip() or not axes:
+            raise InputError(
+                "a handle needs a name and its channels", place=Place(key="handle"), found=f"{name}={','.join(axes)}",
+                remedy="--handle front=1,2,3 (Python: handles=).",
+            )  # fmt: skip
 
 
 def is_recording(file: str) -> bool:

@@ -72,16 +72,24 @@ def reasons(checks: Iterable[Check]) -> list[Paragraph]:
 def told(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     """Each group with its grade, reason and action, and below it the entries of its action.
 
-    An action that stands above is referred to; entries that stand above are not repeated.
+    Entries that stand above are not repeated.
     """
-    lines, printed, code_of = list[Paragraph](), set[tuple[str, ...]](), dict[str, str]()
-    for alike in groups:
-        action, code = alike[0].remedy or "", alike[0].code
-        first = code_of.setdefault(action, code)
-        lines.append(reason(alike, f"See the action of {first}." if first != code else action))
+    lines, printed = list[Paragraph](), set[tuple[str, ...]]()
+    for alike, line in zip(groups, without_entries(groups), strict=True):
+        lines.append(line)
         if alike[0].overrides not in printed:
             lines += paste_lines(alike[0].overrides)
             printed.add(alike[0].overrides)
+    return lines
+
+
+def without_entries(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
+    """Each group with its grade, reason and action; an action that stands above is referred to."""
+    lines, code_of = list[Paragraph](), dict[str, str]()
+    for alike in groups:
+        action, code = alike[0].remedy or "", alike[0].code
+        first = code_of.setdefault(action, code)
+        lines.append(_reason(alike, f"See the action of {first}." if first != code else action))
     return lines
 
 
@@ -109,7 +117,7 @@ def unlike(checks: Iterable[Check]) -> list[list[Check]]:
     return list(groups.values())
 
 
-def reason(alike: Sequence[Check], action: str) -> Paragraph:
+def _reason(alike: Sequence[Check], action: str) -> Paragraph:
     """Checks of one grade, one reason and one action."""
     first, more = alike[0], len(alike) - MOST_ALIKE
     names = ", ".join(f"{check.code} {check.name}{value_and_limit(check)}" for check in alike[:MOST_ALIKE])

@@ -11,7 +11,7 @@ from typing import Final
 
 from abu_calc.foundation.checks import Check, Status
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.reporting.parts import reason, told, unlike, warning_lines
+from abu_calc.reporting.parts import told, unlike, warning_lines, without_entries
 from abu_calc.reporting.text import height
 from abu_calc.simulation.result import Result
 
@@ -46,7 +46,7 @@ def one_screen(
     reasons = told(groups)
     if taken_by(reasons) > min(taken, room - kept - 1 - taken_by(body)):  # entries of actions stand in the report, too
         codes = [[check.code for check in alike] for alike in groups]
-        reasons = fitted([reason(alike) for alike in groups], codes, taken)
+        reasons = fitted(without_entries(groups), codes, taken)
     room -= height(reasons)
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.recording import LARGEST, chosen, column_of, flat_tops, recording
+from abu_calc.inputs.recording import LARGEST, chosen, flat_tops, recording
 
 WAVE = np.sin(np.arange(200) / 7.3)
 
@@ -45,17 +45,12 @@ def test_a_crest_that_is_cut_off_is_told_from_one_that_is_rounded() -> None:
     assert flat_tops(np.maximum(rounded, -0.5), step) is not None
 
 
-@pytest.mark.parametrize(("name", "quantity", "unit"), [
-    ("a [g]", "acceleration", 9.80665), ("vx_mm_per_s", "velocity", 1e-3), ("ax", "acceleration", None),
-    ("disp (µm)", "displacement", 1e-6), ("x_mm", "displacement", 1e-3), ("signal", None, None),
-    ("ускорение [м/с²]", "acceleration", 1.0),
-])  # fmt: skip
-def test_a_name_tells_quantity_and_unit(name: str, quantity: str | None, unit: float | None) -> None:
-    column = column_of(name)
-    assert (column.quantity, column.unit, column.is_time) == (quantity, unit, False)
-
-
-@pytest.mark.parametrize(("name", "unit"), [("t_s", 1.0), ("Time (ms)", 1e-3), ("время", None), ("clock [min]", 60.0)])
-def test_a_name_tells_time(name: str, unit: float | None) -> None:
-    column = column_of(name)
-    assert (column.is_time, column.unit, column.quantity) == (True, unit, None)
+def test_axes_belong_to_their_handle() -> None:
+    """Three axes at most at each handle, not in the file."""
+    axes = [(name, WAVE) for name in "abcdef"]
+    made = recording("r.csv", b"", "velocity", axes, 50.0, handles=["front"] * 3 + ["rear"] * 3)
+    assert made.axes_by_handle == {"front": (0, 1, 2), "rear": (3, 4, 5)}
+    assert recording("r.csv", b"", "velocity", axes[:2], 50.0).axes_by_handle == {"": (0, 1)}
+    with pytest.raises(InputError, match="three axes") as refused:
+        recording("r.csv", b"", "velocity", axes, 50.0, handles=["front"] * 4 + ["rear"] * 2)
+    assert refused.value.place.key == "front" and refused.value.found == "a, b, c, d"

@@ -166,6 +166,82 @@ def test_russian_windows(tmp_path: Path) -> None:
     assert found.quantity == "velocity" and largest(found) == pytest.approx(3e-3, rel=1e-6)
 
 
+# voltages and handles
+def six(head: str) -> str:
+    """Axis k of six has k times the wave."""
+    rows = [",".join([f"{t:.6f}", *(f"{k * x:.9f}" for k in range(1, 7))]) for t, x in zip(T, WAVE, strict=True)]
+    return table(head, rows)
+
+
+FRONT_REAR = "t_s," + ",".join(f"{handle}_a{axis}_mV" for handle in ("front", "rear") for axis in "xyz")
+
+
+def test_a_voltage_is_turned_into_motion_by_its_own_sensitivity(tmp_path: Path) -> None:
+    """k times 3 mV, at 10 mV per m/s² k·0.3 m/s², at 100 mV/g k·0.03 g."""
+    file = written(tmp_path, six(FRONT_REAR))
+    found = read_recording(file, sensitivity=[10.0, "rear_az_mV=100 mV/g", "2=20"])
+    assert found.quantity == "acceleration" and found.axes_by_handle == {"front": (0, 1, 2), "rear": (3, 4, 5)}
+    tops = [float(np.abs(values).max()) for values in found.samples]
+    assert tops == pytest.approx([0.3, 0.3, 0.9, 1.2, 1.5, 0.18 * 9.80665], rel=1e-6)
+    assert sum("sensitivity" in remark for remark in found.told) == 6
+    velocity = read_recording(written(tmp_path, table("t_s,x [V]")), sensitivity="20 mV/(mm/s)")
+    assert velocity.quantity == "velocity" and largest(velocity) == pytest.approx(0.150, rel=1e-6)
+
+
+@pytest.mark.parametrize(("head", "asked", "key", "word"), [
+    ("t_s,ax_mV", {}, "ax_mV", "no sensitivity"), ("t_s,a [V]", {}, "a [V]", "no sensitivity"),
+    ("t_s,ax_mV", {"sensitivity": "ay_mV=10"}, "ax_mV", "no sensitivity"),
+    ("t_s,ax_mV", {"sensitivity": [10.0, "ay_mV=10"]}, "sensitivity", "without use"),
+    ("t_s,ax_m_per_s2", {"sensitivity": 10.0}, "sensitivity", "without use"),
+    ("t_s,ax_m_per_s2", {"sensitivity": "1=10"}, "ax_m_per_s2", "not in V or mV"),
+    ("t_s,ax", {"sensitivity": "ax=10"}, "ax", "not in V or mV"),
+    ("t_s,ax_mV", {"sensitivity": "20 mV/(mm/s)"}, None, "several quantities"),
+    ("t_s,ax_mV", {"sensitivity": 10.0, "scale": 2.0}, "sensitivity", "both"),
+    ("t_s,ax_mV", {"sensitivity": 10.0, "full_scale_mV": 5.0}, "full_scale_mV", "no WAV"),
+    ("t_s,ax_mV", {"sensitivity": 10.0, "quantity": "velocity"}, None, "several quantities"),
+])  # fmt: skip
+def test_voltages_that_cannot_be_motion_are_refused(
+    tmp_path: Path, head: str, asked: dict[str, object], key: str | None, word: str
+) -> None:
+    with pytest.raises(InputError) as refusal:
+        read_recording(written(tmp_path, table(head)), **asked)  # type: ignore[arg-type]
+    assert word in str(refusal.value) and refusal.value.place.key == key
+
+
+def test_a_scale_takes_the_place_of_a_sensitivity(tmp_path: Path) -> None:
+    assert largest(read_recording(written(tmp_path, table("t_s,ax_mV")), scale=0.1)) == pytest.approx(0.3, rel=1e-6)
+
+
+def test_handles_by_channels(tmp_path: Path) -> None:
+    file = written(tmp_path, six("t_s," + ",".join(f"CH{k} [m/s²]" for k in range(1, 7))))
+    found = read_recording(file, handles={"rear": ["4", "5", "6"], "front": ["CH1 [m/s²]", "2"]})
+    assert found.axes_by_handle == {"rear": (0, 1, 2), "front": (3, 4)}
+    assert [round(float(np.abs(values).max())) for values in found.samples] == [12, 15, 18, 3, 6]
+    assert "--handle" in str(refused(file))
+
+
+@pytest.mark.parametrize(("asked", "word"), [
+    ({"handles": {"front": ["1"]}, "channels": ["2"]}, "both channels and handles"),
+    ({"handles": {"": ["1"]}}, "needs a name"),
+    ({"handles": {"front": []}}, "needs a name"), ({"handles": {"front": ["1"], "rear": ["1"]}}, "twice"),
+    ({"handles": {"front": ["7"]}}, "no such channel"), ({"handles": {"front": ["1", "2", "3", "4"]}}, "three axes"),
+])  # fmt: skip
+def test_handles_that_cannot_be_are_refused(tmp_path: Path, asked: dict[str, object], word: str) -> None:
+    file = written(tmp_path, six("t_s," + ",".join(f"CH{k} [m/s²]" for k in range(1, 7))))
+    with pytest.raises(InputError, match=word):
+        read_recording(file, **asked)  # type: ignore[arg-type]
+
+
+def test_two_columns_without_axes_are_told_to_be_one_place(tmp_path: Path) -> None:
+    file = written(tmp_path, table("t_s,front [m/s²],rear [m/s²]", [row + "," + row.split(",")[1] for row in ROWS]))
+    assert any("axes of one place" in remark for remark in read_recording(file).told)
+
+
+def test_a_column_that_names_no_handle_beside_others_is_refused(tmp_path: Path) -> None:
+    file = written(tmp_path, six(FRONT_REAR.replace("rear_az_mV", "az_mV")))
+    assert "without the name of a handle" in str(refused(file, sensitivity=10.0))
+
+
 # WAV
 def wav(values: np.ndarray, rate: int = 8000) -> bytes:
     buffer = io.BytesIO()
@@ -207,6 +283,18 @@ def test_channels_of_a_wav_are_axes(tmp_path: Path) -> None:
     assert read_recording(both, "acceleration", 10.0, ["2"]).names == ("channel 2",)
     four = written(tmp_path, wav(np.stack([TONE] * 4, axis=1).astype("float32")), "four.wav")
     assert "three axes" in str(refused(four, scale=1.0))
+
+
+def test_a_wav_in_volts_has_a_sensitivity_for_each_channel(tmp_path: Path) -> None:
+    """Half of 5000 mV, at 10 and 20 mV per m/s²."""
+    file = written(tmp_path, wav(np.stack([TONE] * 4, axis=1).astype("float32")), "r.wav")
+    handles = {"front": ["1", "2"], "rear": ["3", "4"]}
+    found = read_recording(file, sensitivity=[10, "channel 4=20"], full_scale_mV=5000, handles=handles)  # type: ignore[list-item]
+    tops = [float(np.abs(values).max()) for values in found.samples]
+    assert tops == pytest.approx([250, 250, 250, 125], rel=1e-3) and list(found.axes_by_handle) == ["front", "rear"]
+    for asked in ({"sensitivity": 10.0}, {"full_scale_mV": 5000.0}, {"scale": 1.0, "full_scale_mV": 5.0}):
+        with pytest.raises(InputError):
+            read_recording(file, channels=["1"], **asked)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("kind", ["int16", "int32", "float32", "uint8"])

@@ -1,6 +1,7 @@
 """A report on one screen: verdict, reasons and tables cut to the room there is."""
 
 import re
+from dataclasses import replace
 from typing import ClassVar
 
 import pytest
@@ -59,6 +60,18 @@ def test_passed_checks_stand_in_one_line_and_the_first_open_one_is_explained() -
     text = as_text(one_screen(sample("pass", "fail", "pass"), [Heading("sample")]))
     assert "Passed: ABU401 403." in text and "`abu explain ABU402`" in text
     assert "Passed" not in as_text(one_screen(sample(), [Heading("sample")]))
+
+
+def test_reasons_that_fill_the_screen_leave_their_entries_to_the_report() -> None:
+    """Thirty reasons with entries to paste: a screen is a screen, and one action stands in it once."""
+    checks = tuple(
+        Check(f"ABU4{k:02}", f"thing {k}", "warn", f"reason {k}", remedy="Set it.", overrides=(f"machine.a={k}",))
+        for k in range(30)
+    )
+    blocks = one_screen(replace(sample(), checks=checks), [Heading("sample")])
+    text = as_text(blocks)
+    assert height(blocks) <= LINES and "--set" not in text
+    assert text.count("Action: Set it.") == 1 and "Action: See the action of ABU400." in text
 
 
 def test_a_picture_takes_the_lines_that_are_left() -> None:

@@ -16,7 +16,7 @@ from abu_calc.features.compare.view import (
 )
 from abu_calc.foundation.units import quantity_and_unit, unit_of
 from abu_calc.reporting.blocks import Block, Heading, Paragraph
-from abu_calc.reporting.parts import RANK, reason, told, unlike, warning_blocks
+from abu_calc.reporting.parts import RANK, told, unlike, warning_blocks, without_entries
 from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by
 from abu_calc.reporting.text import height
 
@@ -82,7 +82,7 @@ def _reasons(result: CompareResult, room: int) -> list[Block]:
     room_for_lines = room - 2 - (2 if notes else 0)
     if taken_by(lines) > room_for_lines:  # entries to paste are left to the whole report
         codes = [[check.code for check in alike] for alike in groups]
-        lines = fitted([reason(alike) for alike in groups], codes, room_for_lines)
+        lines = fitted(without_entries(groups), codes, room_for_lines)
     counts = list[str]()
     if lines and lines[0].mark is None:  # there is room for none
         named = ", ".join(dict.fromkeys(check.code for alike in groups for check in alike))

@@ -29,7 +29,8 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.recording import QUANTITIES, Recording
+from abu_calc.inputs.recording import Recording
+from abu_calc.inputs.recording_columns import QUANTITIES
 from abu_calc.inputs.recording_files import is_recording, read_recording
 from abu_calc.inputs.scene import SceneDescription, read_any
 from abu_calc.simulation.arguments import checked, one_of
