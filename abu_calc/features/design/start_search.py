@@ -174,9 +174,9 @@ def _other_speeds(design: Design) -> list[float]:
 
 
 def at_near_speeds(member: Member, design: Design) -> Iterator[Member]:
-    """The same start at speeds of the range a little below and above."""
+    """The same start at speeds of the range a little below and above; a motor idles at one speed."""
     (low, high), speed = design.case.speed_range, member.speed or design.case.speed
-    if member.by_motor or math.isclose(low, high, rel_tol=EQUAL_SPEEDS):
+    if design.case.table.motor is not None or math.isclose(low, high, rel_tol=EQUAL_SPEEDS):
         return
     for near in (max(speed - SPEED_STEP * (high - low), low), min(speed + SPEED_STEP * (high - low), high)):
         if not math.isclose(near, speed, rel_tol=EQUAL_SPEEDS):
