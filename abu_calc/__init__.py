@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from abu_calc.features.balancing.read import Readings, read_readings
     from abu_calc.features.balancing.study import BalanceResult, balance
     from abu_calc.features.compare.study import CompareResult, compare
+    from abu_calc.features.declare.measured import MeasuredDeclareResult, declare_recordings
+    from abu_calc.features.declare.read import Recordings, read_recordings
+    from abu_calc.features.declare.study import DeclareResult, declare
     from abu_calc.features.design.study import SizeResult, size
     from abu_calc.features.effects.study import EffectsResult, effects
     from abu_calc.features.factory.study import FactoryResult, factory
@@ -58,6 +61,18 @@ _ROOMS: Final = {
     "features.compare.study": (
         "CompareResult",
         "compare",
+    ),
+    "features.declare.measured": (
+        "MeasuredDeclareResult",
+        "declare_recordings",
+    ),
+    "features.declare.read": (
+        "Recordings",
+        "read_recordings",
+    ),
+    "features.declare.study": (
+        "DeclareResult",
+        "declare",
     ),
     "features.design.study": (
         "SizeResult",
@@ -125,18 +140,21 @@ __all__ = [
     "Check",
     "CheckFitResult",
     "CompareResult",
+    "DeclareResult",
     "EffectsResult",
     "FactoryResult",
     "GrindingResult",
     "InputError",
     "LevelsResult",
     "Machine",
+    "MeasuredDeclareResult",
     "NotTrustworthyError",
     "OutputError",
     "Race",
     "RangeError",
     "Readings",
     "Recording",
+    "Recordings",
     "Scene",
     "SceneDescription",
     "SimulateResult",
@@ -149,6 +167,8 @@ __all__ = [
     "balance",
     "check_fit",
     "compare",
+    "declare",
+    "declare_recordings",
     "effects",
     "factory",
     "grinding",
@@ -157,6 +177,7 @@ __all__ = [
     "read",
     "read_readings",
     "read_recording",
+    "read_recordings",
     "read_scene",
     "simulate",
     "size",

@@ -192,6 +192,19 @@ FEATURES: Final[tuple[Feature, ...]] = (
         group="Measure",
     ),
     Feature(
+        "declare",
+        "declare.command",
+        ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
+        "declare.pages:declare_extras",
+        figures=(
+            Known("values", "a type test was simulated"),
+            Known("runs", "runs of the simulated type test differ"),
+            Known("eccentricity", "a break-even eccentricity was searched"),
+            Known("series", "a series of recordings has a mean"),
+        ),
+        group="Measure",
+    ),
+    Feature(
         "factory",
         "factory.command",
         ("factory.study:FactoryResult",),

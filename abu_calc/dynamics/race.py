@@ -105,6 +105,7 @@ def balls_of(races: Sequence[Race]) -> Balls:
     sizes = [len(race.ball_masses) for race in races]
 
     def each(name: str) -> Array:
+        """A number of each race, repeated for its balls."""
         return np.repeat(np.array([getattr(race, name) for race in races], dtype=float), sizes)
 
     return Balls(

@@ -53,11 +53,13 @@ def _operations(operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
     """An operation with what stands on the right, and with what stands on the left."""
 
     def right(self: Column, other: Any) -> Any:
+        """A column and what stands to its right."""
         if isinstance(other, Column):
             return Column(operation(self.values, other.values))
         return Column(operation(self.values, other)) if isinstance(other, NUMBER) else NotImplemented
 
     def left(self: Column, other: Any) -> Any:
+        """A column and what stands to its left."""
         return Column(operation(other, self.values)) if isinstance(other, NUMBER) else NotImplemented
 
     return right, left

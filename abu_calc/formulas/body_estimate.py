@@ -5,7 +5,7 @@ by; every number that follows from the body has a band of its own, found by `Bod
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, Literal
 
 from abu_calc.formulas.rigid_body import Inertia, RigidBody, Vector
@@ -55,11 +55,18 @@ class BodyEstimate:
         >>> round(low, 2), round(high, 2)
         (0.23, 0.36)
         """
-        nominal, down, up = quantity(self.nominal), 0.0, 0.0
+        return self.bands(lambda placed: (quantity(placed),))[0]
+
+    def bands(self, quantities: Callable[[PlacedBody], Sequence[float]]) -> tuple[tuple[float, float], ...]:
+        """Bands of several quantities, each as `band` finds it."""
+        nominal = quantities(self.nominal)
+        down, up = [0.0] * len(nominal), [0.0] * len(nominal)
         for pair in self.ends:
-            changes = [quantity(placed) - nominal for placed in pair]
-            down, up = math.hypot(down, min(*changes, 0.0)), math.hypot(up, max(*changes, 0.0))
-        return nominal - down, nominal + up
+            for place, values in enumerate(zip(*map(quantities, pair), strict=True)):
+                changes = [value - nominal[place] for value in values]
+                down[place] = math.hypot(down[place], min(*changes, 0.0))
+                up[place] = math.hypot(up[place], max(*changes, 0.0))
+        return tuple((value - low, value + high) for value, low, high in zip(nominal, down, up, strict=True))
 
 
 def estimate_source() -> str:

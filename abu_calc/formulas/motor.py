@@ -29,6 +29,7 @@ def idle_speed(
     """
 
     def surplus(speed: float) -> float:
+        """Torque left over [N m] at a speed [rad/s]; zero at the idle speed."""
         return stall_torque * (1 - speed / no_load_speed) - displacement**2 * reaction(speed).imag / 2
 
     return root(surplus, 0.0, no_load_speed) if surplus(no_load_speed) < 0 else no_load_speed

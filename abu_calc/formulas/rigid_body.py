@@ -116,14 +116,17 @@ class RigidBody:
     def _compliance(self) -> Matrix | None:
         return None if self.inertia is None else self.inertia.inverse(self.rotor_polar_inertia)
 
-    def acceleration(self, at: Vector, force_at: Vector, force: Motion = ROTATING) -> Motion:
-        """Acceleration at a place by a force at another, both [per unit force, 1/kg]: A_pq·force.
+    def acceleration(self, at: Vector, force_at: Vector, force: Motion = ROTATING, added: float = 0.0) -> Motion:
+        """Acceleration at a place by a force at another [per unit force, 1/kg]: A_pq·force.
+
+        `added` [kg] is carried with the mass; centre of mass and inertia are those of the machine with it.
 
         >>> body = RigidBody(6.4, Inertia(0.10, 0.10, 0.10))
         >>> [round(abs(a), 3) for a in body.acceleration((0, 0, 0.2), (0, 0, 0.2))]
         [0.556, 0.556, 0.0]
         """
-        direct = force[0] / self.mass, force[1] / self.mass, force[2] / self.mass
+        mass = self.mass + added
+        direct = force[0] / mass, force[1] / mass, force[2] / mass
         compliance = self._compliance
         if compliance is None:
             return direct
@@ -163,8 +166,8 @@ class RigidBody:
         assumed="as for the inertance",
         source="derived by averaging: a backward whirl does not move the balls",
     )
-    def forward(self, at: Vector, force_at: Vector) -> complex:
-        x, y, _ = self.acceleration(at, force_at)
+    def forward(self, at: Vector, force_at: Vector, added: float = 0.0) -> complex:
+        x, y, _ = self.acceleration(at, force_at, added=added)
         return x + 1j * y
 
     @formula(
@@ -180,13 +183,13 @@ class RigidBody:
         assumed="as for the inertance",
         source="derived; checked by integration of six degrees of freedom",
     )
-    def effective_mass(self, place: Vector) -> float:
+    def effective_mass(self, place: Vector, added: float = 0.0) -> float:
         """
         >>> body = RigidBody(2.4, Inertia(0.0040, 0.0200, 0.0190, -0.0015))
         >>> round(body.effective_mass((0.095, 0.0, 0.048)), 5)
         1.08336
         """
-        return 2 / self.forward(place, place).real
+        return 2 / self.forward(place, place, added).real
 
 
 def _cross(a: Motion | Vector, b: Motion | Vector) -> Motion:

@@ -144,6 +144,7 @@ def natural_frequency(suspension: SuspensionReaction, axis: int, mass: float) ->
         return float((suspension.stiffness[axis] / mass) ** 0.5)
 
     def real(speed: float) -> float:
+        """Real part of the dynamic stiffness [N/m] at a speed [rad/s]; zero at a resonance."""
         return dynamic_stiffness(suspension, axis, speed, mass).real
 
     speed = FASTEST

@@ -24,18 +24,21 @@ MODULATION = Range("κ_a = l·m₀e/J_O", 0.0, 0.3, key="swing_arm.moment_of_ine
 
 @dataclass(frozen=True)
 class Arm:
-    """The arm with the machine on it [SI]; inertia about the arm's axis, with the autobalancer."""
+    """The arm with the machine on it [SI]; inertia about the arm's axis, with the autobalancer.
+
+    Stiffness and damping of the joint are reduced to the length. Without a contact the arm idles.
+    """
 
     length: float
     inertia: float
     joint_stiffness: float
     joint_damping: float
-    contact_stiffness: float
-    friction: float
-    disk_radius: float
-    contact_angle: float
-    touch_angle: float
-    pressing_moment: float
+    contact_stiffness: float = 0.0
+    friction: float = 0.0
+    disk_radius: float = 0.0
+    contact_angle: float = 0.0
+    touch_angle: float = 0.0
+    pressing_moment: float = 0.0
 
 
 @formula(
@@ -48,6 +51,11 @@ class Arm:
 )
 def contact_gain(angle: float, friction: float, ratio: float) -> float:
     return math.sin(angle) * (math.sin(angle) + friction * (ratio - math.cos(angle)))
+
+
+def _slope(angle: float, friction: float, ratio: float) -> float:
+    """dk_Z/dZ, of the gain above."""
+    return math.sin(2 * angle) + friction * ratio * math.cos(angle) - friction * math.cos(2 * angle)
 
 
 @formula(
@@ -64,11 +72,7 @@ def worst_contact_angle(friction: float, ratio: float) -> float:
     (1.75012, 1.87707)
     """
     f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
-
-    def slope(angle: float) -> float:
-        return math.sin(2 * angle) + f * r * math.cos(angle) - f * math.cos(2 * angle)
-
-    return root(slope, math.pi / 2, 3 * math.pi / 4, xtol=1e-12)
+    return root(lambda angle: _slope(angle, f, r), math.pi / 2, 3 * math.pi / 4, xtol=1e-12)
 
 
 @formula(
@@ -86,11 +90,7 @@ def lifting_angle(friction: float, ratio: float) -> float:
     (0.144, -0.022)
     """
     f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
-
-    def slope(angle: float) -> float:
-        return math.sin(2 * angle) + f * r * math.cos(angle) - f * math.cos(2 * angle)
-
-    return root(slope, 0.0, math.pi / 2, xtol=1e-12) if f > 0 and r < 1 else 0.0
+    return root(lambda angle: _slope(angle, f, r), 0.0, math.pi / 2, xtol=1e-12) if f > 0 and r < 1 else 0.0
 
 
 @formula(
@@ -116,6 +116,7 @@ def lifted_angles(arm: Arm) -> tuple[float, float] | None:
     lowest = lifting_angle(arm.friction, ratio)
 
     def stiffness(angle: float) -> float:
+        """Stiffness of the arm [N/m] at a contact angle [rad]."""
         return arm.joint_stiffness + arm.contact_stiffness * contact_gain(angle, arm.friction, ratio)
 
     if stiffness(lowest) > 0:
@@ -138,6 +139,7 @@ def parametric_angles(arm: Arm, speed: float) -> tuple[float, ...]:
     wanted = arm.inertia * speed**2 / (4 * arm.length**2)
 
     def excess(angle: float) -> float:
+        """Stiffness of the arm above the resonant one [N/m] at a contact angle [rad]."""
         return arm.joint_stiffness + arm.contact_stiffness * contact_gain(angle, arm.friction, ratio) - wanted
 
     crossed = (pair for pair in itertools.pairwise(places) if excess(pair[0]) * excess(pair[1]) < 0)

@@ -126,6 +126,8 @@ class Check:
     bound: Literal["most", "least"] = "most"
     overrides: tuple[str, ...] = ()
     """Entries of the file that the action replaces, such as "machine.mass_kg=5.6"; `--set` takes each."""
+    requested: bool = True
+    """False of a check whose data are optional and missing: NOT EVALUATED, but the status does not wait for it."""
 
     def with_action(self, action: "Action | str | None") -> "Check":
         """The check with another action."""
@@ -141,7 +143,7 @@ def parts_of(action: Action | str | None) -> tuple[str | None, tuple[str, ...]]:
 def coded(
     code: str, status: Grade, message: str, value: float | None = None, limit: float | None = None,
     unit: str | None = None, remedy: Action | str | None = None, bound: Literal["most", "least"] = "most", *,
-    of: str = "",
+    of: str = "", requested: bool = True,
 ) -> Check:  # fmt: skip
     """A check by its code, whose name stands in the table of codes; `of` names the one of several that it is of.
 
@@ -150,16 +152,19 @@ def coded(
     """
     name = CHECK_CODES[code].name
     text, overrides = parts_of(remedy)
-    return Check(code, f"{name}, {of}" if of else name, status, message, value, limit, unit, text, bound, overrides)
+    titled = f"{name}, {of}" if of else name
+    return Check(code, titled, status, message, value, limit, unit, text, bound, overrides, requested)
 
 
 def overall(checks: Iterable[Check]) -> Status:
     """The worst of several: fail before not-done before pass; a warning passes; no checks at all are not-done.
 
+    A check that was not requested does not count.
+
     >>> overall([])
     'not-done'
     """
-    statuses = {check.status for check in checks}
+    statuses = {check.status for check in checks if check.requested}
     if "fail" in statuses:
         return "fail"
     return "pass" if statuses and statuses <= {"pass", "warn"} else "not-done"
@@ -171,7 +176,7 @@ def worst(checks: Iterable[Check]) -> Grade:
     >>> worst([])
     'pass'
     """
-    statuses = {check.status for check in checks}
+    statuses = {check.status for check in checks if check.requested}
     order: tuple[Grade, ...] = ("fail", "not-done", "warn", "pass")
     return next((grade for grade in order if grade in statuses), "pass")
 

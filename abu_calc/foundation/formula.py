@@ -153,7 +153,7 @@ class Formula:
     def name(self) -> str:
         """The name in words.
 
-        >>> Formula("sizing.case:RigidMachine.effective_mass", "Effective mass at a place").name
+        >>> Formula("formulas.rigid_body:RigidBody.effective_mass", "Effective mass at a place").name
         'effective mass'
         """
         return self.key.replace(":", ".").rsplit(".", 1)[-1].replace("_", " ")

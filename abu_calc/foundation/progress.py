@@ -37,13 +37,19 @@ def share_of(progress: Progress, text: str) -> Share | None:
         return None
     shown = -1.0
 
-    def told(share: float) -> None:
+    def tell(share: float) -> None:
+        """Report the share if it is a hundredth more than the one reported last."""
         nonlocal shown
         if share >= shown + STEP:
             shown = share
             progress(Stage(text, share))
 
-    return told
+    return tell
+
+
+def counted(progress: Progress, text: str, total: int) -> Callable[[int], None]:
+    """Callback that gets how many of a total are done; `text` has two places for these numbers: "{} of {} starts"."""
+    return lambda done: progress(Stage(text.format(done, total), done / total))
 
 
 def within(progress: Progress, what: str) -> Progress:

@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, fields
 from inspect import getattr_static
+from operator import attrgetter
 from types import NoneType
 from typing import Any, ClassVar, Final, NamedTuple, Never, Self, TypeVar, dataclass_transform, get_args, get_type_hints
 
@@ -39,7 +40,16 @@ def record(kind: type[T]) -> type[T]:
     Construction, comparison and text are those of `Record`: to write them for each class anew would take a good part
     of a command's start.
     """
-    return dataclass(init=False, eq=False, repr=False, match_args=False)(kind)
+    made = dataclass(init=False, eq=False, repr=False, match_args=False)(kind)
+    for name in kind.__annotations__:
+        if name.endswith("_"):  # a field whose entry is a word of Python, such as with_
+            setattr(made, _entry(name), property(attrgetter(name)))
+    return made
+
+
+def _entry(name: str) -> str:
+    """Name of a field's entry in the result: a field ends with _ if the name is a word of Python."""
+    return name.removesuffix("_")
 
 
 @record
@@ -119,7 +129,7 @@ class Record:
     @classmethod
     def entries(cls) -> tuple[str, ...]:
         """Names of the fields that are entries of the result, in order."""
-        return tuple(field.name for field in _fields(cls) if field.name not in cls.left_out)
+        return tuple(_entry(field.name) for field in _fields(cls) if field.name not in cls.left_out)
 
     def to_dict(self) -> dict[str, Any]:
         """The entries as JSON has them."""
@@ -229,7 +239,8 @@ def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 def hints(kind: type[Record]) -> Mapping[str, Any]:
     """The type of each field, with its quantity."""
-    return get_type_hints(kind, include_extras=True)
+    own = get_type_hints(kind, include_extras=True)
+    return own | {_entry(name): hint for name, hint in own.items()}
 
 
 def quantities(kind: type[Record]) -> Mapping[str, Quantity]:

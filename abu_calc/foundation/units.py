@@ -27,6 +27,7 @@ SI_PER_UNIT: Final[dict[str, float]] = {
     "rad": 1.0,
     "s": 1.0,
     "min": 60.0,
+    "h": 3600.0,
     "per_s": 1.0,
     "N": 1.0,
     "kN": 1e3,
@@ -42,6 +43,8 @@ SI_PER_UNIT: Final[dict[str, float]] = {
     "m_per_s2": 1.0,
     "kg_m2": 1.0,
     "K": 1.0,
+    "mm2_per_s": 1e-6,
+    "percent": 0.01,
 }
 """SI value of one unit, by the suffix that keys carry (frequencies and speeds become rad/s)."""
 
@@ -59,6 +62,8 @@ SYMBOLS: Final[dict[str, str]] = {
     "m_per_s": "m/s",
     "m_per_s2": "m/s²",
     "kg_m2": "kg·m²",
+    "mm2_per_s": "mm²/s",
+    "percent": "%",
     "db": "dB",
 }
 """Form in which a unit is shown, if that differs from its suffix."""

@@ -122,6 +122,15 @@ class Limits(Table):
         le=200,
         json_schema_extra=usual(85, 130),
     )
+    a_hv_m_per_s2: float | None = Field(
+        default=None,
+        description="Highest permitted vector total a_hv of the weighted accelerations, at the highest handle, with "
+        "the autobalancer, idle [m/s²]; {range}. When given, it is checked.",
+        examples=[2.5],
+        gt=0,
+        le=1000,
+        json_schema_extra=usual(0.5, 30),
+    )
     settling_time_s: float = Field(
         default=1.0,
         description="Longest permitted time for the balls to settle [s]; {range}. Default: {default}, as measured on "

@@ -9,6 +9,9 @@ from abu_calc.inputs.reading.table import Name, Table, boxed, problem, usual
 
 MOST_HANDLES: Final = 100
 Speed = Annotated[float, Field(ge=1, le=300_000)]
+Length = Annotated[float, Field(ge=-10_000, le=10_000)]
+Position = Annotated[tuple[Length, ...], Field(strict=False, min_length=3, max_length=3)]
+Moment = Annotated[float, Field(gt=0, le=1e6)]
 Frequency = Annotated[float, Field(gt=0, le=10_000)]
 DampingRatio = Annotated[float, Field(ge=0, le=10)]
 
@@ -17,14 +20,44 @@ class Handle(Table):
     """A place where vibration levels are wanted; without any, levels are those in the wheel plane."""
 
     name: Name = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
-    from_center_of_mass_mm: float = Field(
+    from_center_of_mass_mm: float | None = Field(
+        default=None,
         description="Place along the spindle axis, from the centre of mass, positive toward the wheel "
-        "[mm]; {range}, at a grinder -300 … 200.",
+        "[mm]; {range}, at a grinder -300 … 200. Or position_mm.",
         examples=[100.0],
         ge=-2000,
         le=2000,
         json_schema_extra=usual(5, 1000),
     )
+
+    position_mm: Position | None = Field(
+        default=None,
+        description="Place in space, from the centre of mass [mm]: x from the body toward the spindle, y across, z "
+        "along the spindle toward the wheel; {range}. Takes the place of from_center_of_mass_mm.",
+        examples=[[62.0, 120.0, -8.0]],
+        json_schema_extra=usual(1, 1000),
+    )
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """The place [mm] from the centre of mass."""
+        if self.position_mm is not None:
+            x, y, z = self.position_mm
+            return x, y, z
+        return 0.0, 0.0, self.from_center_of_mass_mm or 0.0
+
+    @model_validator(mode="after")
+    def _has_one_place(self) -> Self:
+        given = [key for key in ("from_center_of_mass_mm", "position_mm") if getattr(self, key) is not None]
+        if len(given) == 2:
+            raise problem("a handle has one place", "position_mm", remedy="remove one of its two keys")
+        if not given:
+            raise problem(
+                "missing: the place of the handle",
+                "from_center_of_mass_mm",
+                remedy="add from_center_of_mass_mm, or position_mm = [x, y, z]",
+            )
+        return self
 
 
 class MachineTable(Table):
@@ -64,8 +97,9 @@ class MachineTable(Table):
     transverse_inertia_kg_m2: float | None = Field(
         default=None,
         description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, "
-        "grinders 0.02 … 0.3. With center_of_mass_to_wheel_mm the machine is a rigid body. "
-        "Without both keys it is a point mass: an imbalance found from a level is uncertain by a factor of 2 to 3.",
+        "grinders 0.02 … 0.3. With center_of_mass_to_wheel_mm the machine is a rigid body whose centre of mass lies on "
+        "the spindle axis. Elsewhere: inertia_kg_m2, or length_mm for an estimate. Without any of them the machine is "
+        "a point mass: an imbalance found from a level is uncertain by a factor of 2 to 3.",
         examples=[0.10],
         gt=0,
         le=1e6,
@@ -79,6 +113,57 @@ class MachineTable(Table):
         ge=0,
         le=10_000,
         json_schema_extra=usual(25, 1000),
+    )
+    center_of_mass_from_wheel_mm: Position | None = Field(
+        default=None,
+        description="From the wheel's centre to the centre of mass of the machine as used, wheel and autobalancer on "
+        "[mm]: x from the body toward the spindle, y across, z along the spindle toward the wheel; {range}. At an "
+        "angle grinder x and z are negative. Goes with inertia_kg_m2, or with length_mm for an estimate.",
+        examples=[[-95.0, 0.0, -48.0]],
+        json_schema_extra=usual(1, 1000),
+    )
+    inertia_kg_m2: Annotated[tuple[Moment, ...], Field(strict=False, min_length=3, max_length=3)] | None = Field(
+        default=None,
+        description="Moments of inertia about x, y, z through the centre of mass, of the machine as used [kg·m²]; "
+        "{range}, grinders 0.004 … 0.3. The third holds the mass of what spins, not its spin. Goes with "
+        "center_of_mass_from_wheel_mm. Without inertia, length_mm and height_mm give an estimate.",
+        examples=[[0.004, 0.02, 0.019]],
+        json_schema_extra=usual(0.0001, 20),
+    )
+    inertia_xz_kg_m2: float | None = Field(
+        default=None,
+        description="Product of inertia J_xz = −∫xz dm [kg·m²]; {range}. Goes with inertia_kg_m2; default: 0.",
+        examples=[-0.0015],
+        ge=-1e6,
+        le=1e6,
+        json_schema_extra=usual(1e-5, 20),
+    )
+    rotor_polar_inertia_kg_m2: float | None = Field(
+        default=None,
+        description="Polar moment of inertia of what spins with the spindle: wheel, flange, spindle [kg·m²]; {range}. "
+        "Default: 0 with inertia_kg_m2, that of the wheel as a disk in an estimate.",
+        examples=[0.0004],
+        ge=0,
+        le=1e5,
+        json_schema_extra=usual(1e-6, 1),
+    )
+    length_mm: float | None = Field(
+        default=None,
+        description="Length for an estimate of the inertia [mm]; {range}. Layout straight: from the wheel plane to the "
+        "rear end. Layout angle: from the spindle axis to the rear end.",
+        examples=[450.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(100, 1500),
+    )
+    height_mm: float | None = Field(
+        default=None,
+        description="Height for an estimate of the inertia [mm]; {range}. Layout face: from the wheel plane to the "
+        "top. Layout angle: from the body's axis to the wheel plane.",
+        examples=[60.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(20, 1000),
     )
     power_W: float | None = Field(
         default=None,
@@ -142,7 +227,63 @@ class MachineTable(Table):
                 present,
                 remedy=f"add {absent[0]}, or leave {present} out (a point mass)",
             )
+        if not absent:
+            self._refuse_beside(pair[0], ("inertia_kg_m2", "center_of_mass_from_wheel_mm"))
         return self
+
+    def _refuse_beside(self, key: str, others: tuple[str, ...]) -> None:
+        for other in others:
+            if getattr(self, other) is not None:
+                raise problem(
+                    f"{key} and {other} describe the body in two ways",
+                    other,
+                    remedy=f"leave {other} out, or both transverse_inertia_kg_m2 and center_of_mass_to_wheel_mm",
+                )
+
+    @model_validator(mode="after")
+    def _body_in_space_is_whole(self) -> Self:
+        inertia, center = self.inertia_kg_m2, self.center_of_mass_from_wheel_mm
+        if inertia is not None and center is None:
+            raise problem(
+                "inertia_kg_m2 needs the place of the centre of mass",
+                "inertia_kg_m2",
+                remedy="add center_of_mass_from_wheel_mm = [x, y, z]",
+            )
+        if inertia is None and self.inertia_xz_kg_m2 is not None:
+            raise problem(
+                "inertia_xz_kg_m2 goes with inertia_kg_m2",
+                "inertia_xz_kg_m2",
+                remedy="add inertia_kg_m2 = [Jx, Jy, Jz], or leave inertia_xz_kg_m2 out",
+            )
+        if inertia is None and self.rotor_polar_inertia_kg_m2 is not None and not self.estimates:
+            raise problem(
+                "rotor_polar_inertia_kg_m2 acts only on a body in space",
+                "rotor_polar_inertia_kg_m2",
+                remedy="add inertia_kg_m2 or length_mm, or leave rotor_polar_inertia_kg_m2 out",
+            )
+        if inertia is None and center is not None and not self.estimates:
+            raise problem(
+                "the centre of mass makes a rigid body only with an inertia",
+                "center_of_mass_from_wheel_mm",
+                remedy="add inertia_kg_m2 = [Jx, Jy, Jz], or "
+                + " and ".join(self._lengths_of_layout)
+                + " (an estimate)",
+            )
+        return self
+
+    @property
+    def _lengths_of_layout(self) -> tuple[str, ...]:
+        """Keys of the lengths from which an inertia is estimated."""
+        centre = self.center_of_mass_from_wheel_mm is not None
+        return {"straight": ("length_mm",), "face": ("height_mm",)}.get(
+            self.layout, ("length_mm",) if centre else ("length_mm", "height_mm")
+        )
+
+    @property
+    def estimates(self) -> bool:
+        """True if the inertia is not given, and the lengths are that an estimate needs."""
+        given = self.inertia_kg_m2 is not None or self.transverse_inertia_kg_m2 is not None
+        return not given and all(getattr(self, key) is not None for key in self._lengths_of_layout)
 
     @model_validator(mode="after")
     def _handles_differ(self) -> Self:

@@ -22,9 +22,11 @@ from abu_calc.inputs.bearing_file import (
 )
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
+from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
+from abu_calc.inputs.type_test import TypeTest
 from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import MeasuredAfter, Wheel
 
@@ -110,7 +112,11 @@ class MachineFile(Table):
     bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
         default=(), description="Bearings and their seats: [[bearing]], up to 100."
     )
+    measured: Annotated[tuple[MeasuredOctave, ...], Field(strict=False, max_length=MOST_MEASURED)] = Field(
+        default=(), description="Levels measured by octaves, for `abu factory`: [[measured]], up to 200."
+    )
     limits: Limits = Field(default_factory=Limits)
+    type_test: TypeTest | None = None
     sweep: Sweep | None = None
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 

@@ -115,7 +115,7 @@ def chosen(path: str, names: Sequence[str], channels: Sequence[str]) -> list[int
             raise InputError(
                 "no such channel", place=Place(path), found=asked,
                 allowed=", ".join(f"{k} ({name})" for k, name in enumerate(names, 1)),
-                remedy="--channels takes numbers or names (Python: channels=).",
+                remedy="--channels and --handle take numbers or names (Python: channels=, handles=).",
             )  # fmt: skip
         if index in indices:
             raise InputError("the same channel twice", place=Place(path), found=asked)

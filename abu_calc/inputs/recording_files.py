@@ -39,7 +39,7 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
     picked = _picked(table, columns, time, asked, simulated=simulated)
     sensors = [_sensor(table, columns[k], k + 1 - (k > time), asked) for k in picked]
-    _all_used(path, asked, sensors)
+    _all_used(path, asked, [columns[k].name for k in picked], sensors, remarks)
     quantity = _quantity(path, [columns[k] for k in picked], sensors, asked, remarks)
     with np.errstate(over="ignore", invalid="ignore"):  # samples that large are refused below
         axes = [
@@ -89,23 +89,28 @@ def _sensor(table: Lines, column: RecordingColumn, number: int, asked: Recording
         return None
     if sensor is None:
         raise InputError(
-            "a column of a voltage, and no sensitivity of its sensor", place=Place(table.path, table.head, column.name),
+            "a column of a voltage without the sensitivity of its sensor",
+            place=Place(table.path, table.head, column.name),
             remedy=f'Give it in mV per m/s², or with its unit: --sensitivity "{column.name}=100 mV/g" (Python: '
             "sensitivity=). If the column is no motion, leave it out: --channels.",
         )  # fmt: skip
     return sensor
 
 
-def _all_used(path: str, asked: RecordingOptions, sensors: Sequence[Sensitivity | None]) -> None:
-    """Refuse a sensitivity that no channel takes."""
+def _all_used(
+    path: str, asked: RecordingOptions, names: Sequence[str], sensors: Sequence[Sensitivity | None], remarks: list[str]
+) -> None:
+    """Refuse a sensitivity that no channel takes; remark which channels take the others."""
     for given in asked.sensitivities:
         if given not in sensors:
             what = "no column that is read is in V or mV" if given.channel is None else "no such channel is read"
             raise InputError(
                 f"a sensitivity without use: {what}", place=Place(path, key="sensitivity"),
                 found=f"{given.channel}={given.text}" if given.channel else given.text,
-                remedy="Leave it out, or name a column in V or mV.",
+                remedy="Omit --sensitivity, or name a column in V or mV.",
             )  # fmt: skip
+        own = [name for name, sensor in zip(names, sensors, strict=True) if sensor == given]
+        remarks.append(f"Sensitivity {given.text}: {', '.join(own)}.")
 
 
 def _picked(
@@ -162,7 +167,6 @@ def _unit(
 ) -> float:  # fmt: skip
     """SI per unit of a column."""
     if sensor is not None and column.volts is not None:
-        remarks.append(f"{column.name} is read with a sensitivity of {sensor.text}.")
         return column.volts / sensor.volts_per_unit
     if asked.scale is not None:
         if column.unit is not None:
@@ -200,7 +204,7 @@ def wav_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
     described = [RecordingColumn(names[k], None, False, None, asked.full_scale) for k in picked]
     table = Lines(path, tuple(names), (), data)
     sensors = [_sensor(table, column, k + 1, asked) for k, column in zip(picked, described, strict=True)]
-    _all_used(path, asked, sensors)
+    _all_used(path, asked, [column.name for column in described], sensors, remarks)
     quantity = _quantity(path, described, sensors, asked, [])
     if asked.quantity is None and asked.scale is not None:
         remarks.append("The samples are taken for accelerations; --quantity velocity says otherwise.")
@@ -298,7 +302,8 @@ def _options_agree(asked: RecordingOptions, *, is_wav: bool) -> None:
     faults = (
         ("channels", asked.channels and asked.handles, "both channels and handles", "Use --handle alone."),
         ("sensitivity", asked.sensitivities and asked.scale is not None, "both a scale and a sensitivity", "Give one."),
-        ("full_scale_mV", asked.full_scale is not None and not is_wav, "a full scale, but no WAV file", "Omit it."),
+        ("full_scale_mV", asked.full_scale is not None and not is_wav, "a full scale, but no WAV file",
+         "Omit --full-scale-mV."),
         ("full_scale_mV", asked.full_scale is not None and asked.scale is not None, "both a scale and a full scale",
          "Give one."),
     )  # fmt: skip

@@ -28,6 +28,7 @@ class Lines:
 
 
 def decoded(path: str, content: bytes) -> str:
+    """Text of a file in UTF-8, UTF-16 or a Windows code page. Raises InputError for what is no text."""
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return content.decode("utf-16", errors="replace")
     if b"\0" in content[:4096]:

@@ -10,6 +10,8 @@ from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.standards.tolerance_classes import RingLoad
 
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
+BearingKind = Literal["ball", "angular-contact", "cylindrical", "tapered", "spherical", "needle", "drawn-cup"]
+ClearanceGroup = Literal["C2", "CN", "C3", "C4", "C5", "CA", "CB", "CC", "GA", "GB", "GC"]
 _CLASSES: Final = {"NORMAL": "0", "P0": "0", "PN": "0", "P6": "6", "P5": "5", "P4": "4", "P2": "2"}
 
 
@@ -34,10 +36,11 @@ class RollingBearing(Table):
         examples=["6203"],
         min_length=1,
     )
-    bearing_type: Literal["ball", "angular-contact", "cylindrical", "tapered", "spherical"] | None = Field(
+    bearing_type: BearingKind | None = Field(
         default=None,
-        description="Type of a bearing given by its sizes: ball (deep groove), angular-contact, cylindrical, tapered "
-        "or spherical. Decides the makers' fits and the tables of its rings and clearance.",
+        description="Type of a bearing given by its sizes: ball (deep groove), angular-contact, cylindrical, tapered, "
+        "spherical, needle (machined rings) or drawn-cup. Decides the makers' fits, the tables of its rings and "
+        "clearance, and the catalogue's bearing of these sizes.",
         examples=["ball"],
     )
     bore_mm: float | None = Field(
@@ -80,6 +83,15 @@ class RollingBearing(Table):
         le=1e5,
         json_schema_extra=usual(0.01, 300),
     )
+    axial_load_kN: float | None = Field(
+        default=None,
+        description="Axial load [kN]; {range}. With the radial load it gives the equivalent loads. Without it they are "
+        "those of the radial load alone, and the check of the axial load is not evaluated.",
+        examples=[0.2],
+        ge=0,
+        le=1e5,
+        json_schema_extra=usual(0.01, 300),
+    )
     dynamic_load_rating_kN: float | None = Field(
         default=None,
         description="Basic dynamic load rating C [kN]; {range}. Default: that of the designation.",
@@ -117,9 +129,10 @@ class RollingBearing(Table):
         'P4, P2, which may be written so, too). Default: by the designation\'s suffix, else "0".',
         examples=["0"],
     )
-    internal_clearance: Literal["C2", "CN", "C3", "C4"] | None = Field(
+    internal_clearance: ClearanceGroup | None = Field(
         default=None,
-        description="Group of radial clearance of a deep groove ball bearing: C2, CN, C3 or C4 (ISO 5753-1). When "
+        description="Group of internal clearance: C2, CN, C3, C4 or C5 (ISO 5753-1) of ball and roller bearings and of "
+        "pairs of tapered ones; CA, CB, CC or the preload GA, GB, GC of pairs of angular contact bearings of 40°. When "
         "given, by this key or the designation's suffix, the clearance left after mounting is checked.",
         examples=["C3"],
     )
@@ -174,6 +187,58 @@ class Bearing(RollingBearing):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"designation"})
 
+    position_mm: float | None = Field(
+        default=None,
+        description="Place of the bearing along the spindle from the wheel's centre, positive toward the machine [mm], "
+        "{usual} either way. With the places of two bearings, `abu size` computes their life with and without the "
+        "autobalancer.",
+        examples=[40.0],
+        ge=-10_000,
+        le=10_000,
+        json_schema_extra=usual(1, 1000),
+    )
+    lubricant_viscosity_mm2_per_s: float | None = Field(
+        default=None,
+        description="Kinematic viscosity of the oil, or of the grease's base oil, at the bearing's temperature "
+        "[mm²/s]; {range}. With the speed it gives the modified rating life (a_ISO); without it that is not evaluated.",
+        examples=[20.0],
+        gt=0,
+        le=1e5,
+        json_schema_extra=usual(2, 1000),
+    )
+    contamination_factor: float = Field(
+        default=0.5,
+        description="Contamination factor e_C of ISO 281: 1 (extreme cleanliness), 0.8 (high), 0.5 (normal), 0.3 "
+        "(slight), 0.1 (typical contamination), down to 0; {range}. Default: {default}, assumed.",
+        ge=0,
+        le=1,
+        json_schema_extra=usual(0.1, 1),
+    )
+    required_life_h: float | None = Field(
+        default=None,
+        description="Rating life that the bearing must reach [h]; {range}. Without it a life below 3000 h, the makers' "
+        "guide for hand-held tools, is a warning.",
+        examples=[5000.0],
+        gt=0,
+        le=1e9,
+        json_schema_extra=usual(300, 100_000),
+    )
+    short_pairs_warn_percent: float = Field(
+        default=1.0,
+        description="Share of pairs with too little interference above which ABU605 and ABU615 warn [%]; {range}. "
+        "Default: {default}.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.1, 10),
+    )
+    short_pairs_fail_percent: float = Field(
+        default=5.0,
+        description="Share of pairs with too little interference above which ABU605 and ABU615 fail [%]; {range}, not "
+        "below short_pairs_warn_percent. Default: {default}.",
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.5, 50),
+    )
     shaft_fit: str | None = Field(
         default=None,
         description="Tolerance class of the shaft by ISO 286, small letters. Without it the answer is which to write.",
@@ -245,10 +310,17 @@ class Bearing(RollingBearing):
         le=500,
         json_schema_extra=usual(0.1, 150),
     )
+    temperature_range_K: Pair | None = Field(
+        default=None,
+        description="Lowest and highest temperature of all parts above that of mounting (20 °C) [K], ascending, "
+        "{usual} either way. When given, the fits are shown and advised for both ends, too.",
+        examples=[[-40.0, 60.0]],
+        json_schema_extra=usual(1, 150),
+    )
     speed_rpm: float | None = Field(
         default=None,
         description="Speed of the shaft with the inner ring [rpm]; {range}. When given, the loss of interference by "
-        "centrifugal growth is counted.",
+        "centrifugal growth is counted, and the rating life and the limiting speed are checked.",
         examples=[5800.0],
         ge=0,
         le=300_000,
@@ -346,19 +418,33 @@ class Bearing(RollingBearing):
         return ("designation",) if key in SIZES else ()
 
     def unused(self) -> frozenset[str]:
-        """The friction without a starting torque."""
-        return frozenset() if self.starting_torque_N_m is not None else frozenset({"seat_friction"})
+        """The friction without a starting torque; the contamination without a viscosity."""
+        absent = (
+            ("seat_friction", self.starting_torque_N_m),
+            ("contamination_factor", self.lubricant_viscosity_mm2_per_s),
+        )
+        return frozenset(key for key, needed in absent if needed is None)
+
+    @model_validator(mode="after")
+    def _shares_ascend(self) -> Self:
+        if self.short_pairs_warn_percent > self.short_pairs_fail_percent:
+            raise problem(
+                "the share of short pairs that fails is below the one that warns",
+                "short_pairs_fail_percent",
+                found=f"{self.short_pairs_fail_percent:g}",
+                allowed=f"at least {self.short_pairs_warn_percent:g}",
+            )
+        return self
 
     @model_validator(mode="after")
     def _band_ascends(self) -> Self:
-        band = self.asked_interference_um
-        if band is not None and not band[0] < band[1]:
-            raise problem(
-                "the band of interference must ascend",
-                "asked_interference_um",
-                found=f"[{band[0]:g}, {band[1]:g}]",
-                remedy="write the least first",
-            )
+        ascending = (("asked_interference_um", "the band of interference"), ("temperature_range_K", "the temperatures"))
+        for key, what in ascending:
+            band = getattr(self, key)
+            if band is not None and not band[0] < band[1]:
+                raise problem(
+                    f"{what} must ascend", key, found=f"[{band[0]:g}, {band[1]:g}]", remedy="write the least first"
+                )
         return self
 
     @model_validator(mode="after")

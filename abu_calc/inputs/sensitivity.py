@@ -74,7 +74,8 @@ def _sensitivity(channel: str | None, value: float | str) -> Sensitivity:
     if match is None or number is None or quantity is None or not (math.isfinite(number) and number > 0):
         raise InputError(
             "not a sensitivity", place=Place(key="sensitivity"), found=f"{channel}={text}" if channel else text,
-            allowed=ALLOWED, remedy="Write a decimal point, not a comma." if "," in text else None,
+            allowed=ALLOWED,
+            remedy='Write --sensitivity "CHANNEL=100 mV/g", with a decimal point (Python: sensitivity=).',
         )  # fmt: skip
     shown = f"{number:g} {match[2] or 'mV per m/s²'}"
     return Sensitivity(channel, quantity, number * size, shown)

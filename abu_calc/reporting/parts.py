@@ -61,7 +61,7 @@ def check_blocks(checks: Sequence[Check]) -> list[Block]:
     """All checks as a table; those that did not simply pass with their reasons and remedies below."""
     rows = tuple((WORD[check.status], check.code, check.name, _value(check), limit_of(check)) for check in checks)
     table = Grid(("", "code", "check", "value", "limit"), rows, frozenset({3}))
-    return [Heading("Checks", "checks"), table, *reasons(checks)]
+    return [Heading("Checks", "checks"), table, *reasons(checks), *not_requested(checks)]
 
 
 def reasons(checks: Iterable[Check]) -> list[Paragraph]:
@@ -89,7 +89,7 @@ def without_entries(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     for alike in groups:
         action, code = alike[0].remedy or "", alike[0].code
         first = code_of.setdefault(action, code)
-        lines.append(_reason(alike, f"See the action of {first}." if first != code else action))
+        lines.append(_reason(alike, f"See the action of {first}." if action and first != code else action))
     return lines
 
 
@@ -110,11 +110,29 @@ def paste_lines(overrides: Sequence[str]) -> list[Paragraph]:
 
 
 def unlike(checks: Iterable[Check]) -> list[list[Check]]:
-    """Checks that did not simply pass, the worst first; those of one grade, reason and remedy together."""
+    """Checks that did not simply pass, the worst first; those of one grade, reason and remedy together.
+
+    Checks that nobody requested are left to `not_requested`.
+    """
     groups: dict[tuple[str, ...], list[Check]] = {}
-    for check in sorted((item for item in checks if item.status != "pass"), key=lambda item: RANK.index(item.status)):
+    judged = (item for item in checks if item.status != "pass" and item.requested)
+    for check in sorted(judged, key=lambda item: RANK.index(item.status)):
         groups.setdefault((check.status, check.message, check.remedy or ""), []).append(check)
     return list(groups.values())
+
+
+def not_requested(checks: Iterable[Check]) -> list[Paragraph]:
+    """A line on the checks that optional data would allow, with what each wants; empty if there are none."""
+    wanted: dict[str, list[str]] = {}
+    for check in checks:
+        if not check.requested:
+            wanted.setdefault((check.remedy or "").removesuffix("."), []).append(check.code)
+    if not wanted:
+        return []
+    texts = (
+        f"{', '.join(dict.fromkeys(codes))} ({action[:1].lower()}{action[1:]})" for action, codes in wanted.items()
+    )
+    return [Paragraph(f"Not evaluated for lack of optional data: {'; '.join(texts)}.", hang=MARGIN)]
 
 
 def _reason(alike: Sequence[Check], action: str) -> Paragraph:

@@ -11,7 +11,7 @@ from typing import Final
 
 from abu_calc.foundation.checks import Check, Status
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.reporting.parts import told, unlike, warning_lines, without_entries
+from abu_calc.reporting.parts import not_requested, told, unlike, warning_lines, without_entries
 from abu_calc.reporting.text import height
 from abu_calc.simulation.result import Result
 
@@ -38,7 +38,7 @@ def one_screen(
     lines that are left then, `picture` draws what it can, below the body.
     """
     passed = [Paragraph(_passed(result.checks))] if result.checks else []
-    last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
+    last: list[Block] = [BLANK, *passed, *not_requested(result.checks), Paragraph(_next(result, more))]
     warnings, groups = warning_lines(result.warnings), unlike(result.checks)
     room = LINES - height([*about, *last])
     kept = min(2 + taken_by(warnings), LEAST) if warnings else 0
@@ -116,7 +116,8 @@ def verdict_line(result: Result, unjudged: str | None = None) -> Paragraph:
 
     `unjudged`: text in place of PASS if no check judged what the word could stand for.
     """
-    count, total = Counter(check.status for check in result.checks), len(result.checks)
+    requested = [check for check in result.checks if check.requested]
+    count, total = Counter(check.status for check in requested), len(requested)
     if unjudged and result.status == "pass":
         return Paragraph(unjudged, "warn" if count["warn"] else None)
     if not total:

@@ -15,12 +15,12 @@ from typing import Final
 
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.receptance import reference_imbalance
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.formulas.slow_motion import shaken_drag
+from abu_calc.simulation.balance import balances
 from abu_calc.simulation.early_stopping import Way
 from abu_calc.simulation.ensemble_results import StartOutcome
-from abu_calc.simulation.response import balances
 from abu_calc.sizing.design import Design
 
 LINGERING: Final = 0.1

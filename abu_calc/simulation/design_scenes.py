@@ -6,7 +6,7 @@ from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
-from abu_calc.foundation.progress import Progress, Stage, silent
+from abu_calc.foundation.progress import Progress, counted, silent
 from abu_calc.simulation.effect_selection import Ledger, chosen
 from abu_calc.simulation.ensemble_checks import WORK
 from abu_calc.simulation.scene_of_design import scene_of_design
@@ -50,11 +50,8 @@ def simulated(
     watched = progress if alone else silent  # of those side by side, each on its own
     tasks = [(design, name, accuracy, watched) for name in names]
 
-    def told(done: int) -> None:
-        if watched is silent:
-            progress(Stage(f"{done} of {len(names)} scenes", done / len(names)))
-
-    runs = list(side_by_side(_simulated, tasks, workers, told))
+    whole = counted(silent if alone else progress, "{} of {} scenes", len(names))
+    runs = list(side_by_side(_simulated, tasks, workers, whole))
     return tuple(run for run in runs if isinstance(run, SceneRun)), tuple(
         run for run in runs if isinstance(run, SceneFailure)
     )

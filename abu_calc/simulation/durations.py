@@ -57,6 +57,7 @@ def slowest_in_hand(design: Design) -> float:
     """`slowest_rate` of a machine on its springs or in hands."""
 
     def rate_at(drag: float) -> float:
+        """Slowest decay rate of the balls [1/s] at a viscous drag rate [1/s]."""
         if drag == design.case.drag:
             return design.track.decay_rates[0][1]
         case, held = replace(design.case, drag=drag), design.frequency.natural_frequencies

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.receptance import reference_imbalance
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Until, merged
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.simulation.response import (

@@ -21,16 +21,17 @@ from abu_calc.dynamics.trajectory import Samples, Trajectory
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
-from abu_calc.foundation.progress import Progress, Stage, silent, within
+from abu_calc.foundation.progress import Progress, counted, silent, within
+from abu_calc.simulation.balance import allowed_imbalance, balances, slip
 from abu_calc.simulation.creeping import MARGIN, felt_mass, harmless_way, linger
 from abu_calc.simulation.early_stopping import Early, Way
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
-from abu_calc.simulation.response import Response, allowed_imbalance, balances, needed_times, slip
+from abu_calc.simulation.response import Response, needed_times
 from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
 from abu_calc.simulation.start_cases import DRAGS, Member, members, scene_of_member
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import level_at_loudest
+from abu_calc.sizing.places import level_at_loudest
 
 
 def hanging_bounds(design: Design) -> HangingBounds:
@@ -269,10 +270,7 @@ def every_start(
     wanted = integrator_for(design, starts[0][0], accuracy, tolerance) if starts else "auto"
     tasks = [(design, start, accuracy, tolerance, work, early_end, wanted) for start, early_end in starts]
 
-    def told(done: int) -> None:
-        progress(Stage(f"idle: {done} of {len(tasks)} starts", done / len(tasks)))
-
-    return side_by_side(start_once, tasks, workers, told)
+    return side_by_side(start_once, tasks, workers, counted(progress, "idle: {} of {} starts", len(tasks)))
 
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> StartOutcome:

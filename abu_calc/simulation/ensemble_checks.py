@@ -7,8 +7,8 @@ from dataclasses import replace
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check, Grade, coded, verdict
 from abu_calc.foundation.units import from_si
+from abu_calc.simulation.balance import balanced_well
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
-from abu_calc.simulation.response import balanced_well
 from abu_calc.simulation.scene_of_design import guided
 from abu_calc.simulation.start_cases import OPPOSITE
 from abu_calc.simulation.tried_changes import TriedChange

@@ -9,7 +9,7 @@ from operator import attrgetter
 from typing import Any
 
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.simulation.response import SLIPPING, balances
+from abu_calc.simulation.balance import SLIPPING, balances
 from abu_calc.simulation.start_cases import Member
 
 

@@ -19,7 +19,7 @@ from abu_calc.dynamics.averaging.envelope import (
 )
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.resting import resting_angles
-from abu_calc.dynamics.supports.receptance import reference_imbalance, weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance, weighing_amplitude
 from abu_calc.dynamics.trajectory import Times, Trajectory
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.formulas.slow_motion import decay_rate

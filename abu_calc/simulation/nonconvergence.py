@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import IntegratorChoice
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.receptance import weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import weighing_amplitude
 from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
 from abu_calc.simulation.response import Course, Response, evaluate, sampling
 
 
@@ -116,25 +117,31 @@ FELT: Final = 0.1
 COMPARED: Final = {"amplitude": "amplitude", "settling": "settling time", "angles": "ball angles"}
 
 
-def unreached(
-    scene: Scene,
-    accuracy: float,
-    apart: float,
-    runs: tuple[Response, Response],
-    choice: IntegratorChoice,
-    tolerance: float,
-    most: int,
-    otherwise: NotTrustworthyError | None = None,
-) -> NotTrustworthyError:
-    """The error that says so, from the two finest runs, so far apart; another run shows whether the motion is chaotic.
+@dataclass(frozen=True)
+class FinestRuns:
+    """The two finest runs of a scene, which do not agree."""
 
-    `otherwise`: what stopped the runs before rounding did.
+    coarse: Response
+    fine: Response
+    apart: float
+    """Difference as accuracy measures errors; infinite if the balls made other turns."""
+    choice: IntegratorChoice
+    tolerance: float
+    """Tolerance of the finer run."""
+
+
+def unreached(
+    scene: Scene, accuracy: float, runs: FinestRuns, most: int, otherwise: NotTrustworthyError | None = None
+) -> NotTrustworthyError:
+    """Error of an accuracy that is not reached; another run shows whether the motion is chaotic.
+
+    `most`: work that this run may take. `otherwise`: what stopped the runs before rounding did.
     """
-    worst, key = max((QUANTITIES[key](scene, *runs), key) for key in COMPARED)
+    worst, key = max((QUANTITIES[key](scene, runs.coarse, runs.fine), key) for key in COMPARED)
     by = "in whether they settle" if math.isinf(worst) else "in the turns of the balls"
-    by = f"by {apart:.2g}, most in the {COMPARED[key]}" if math.isfinite(apart) else by
+    by = f"by {runs.apart:.2g}, most in the {COMPARED[key]}" if math.isfinite(runs.apart) else by
     first = f"{scene.name}: the accuracy {accuracy:.3g} is not reached, the two finest runs differ {by}"
-    growth = _growth(scene, runs[1], choice, tolerance, most)
+    growth = _growth(scene, runs, most)
     # A run that more work would finish is chaotic only where what starts that small comes near the accuracy.
     if growth > SENSITIVE and (otherwise is None or growth * MOVED > FELT * accuracy):
         return ChaoticError(
@@ -152,14 +159,15 @@ def unreached(
     )
 
 
-def _growth(scene: Scene, response: Response, choice: IntegratorChoice, tolerance: float, most: int) -> float:
+def _growth(scene: Scene, runs: FinestRuns, most: int) -> float:
     """Growth of an error at the start, in amplitude and angles; 0 if that run cannot be finished."""
     moved = replace(scene, races=tuple(replace(race, start_angles=_moved(race.start_angles)) for race in scene.races))
     try:
-        course, times = Course(moved), sampling(moved)
-        trajectory = choice.integrate(assemble(moved), tolerance, times.read_by(course), choice.evaluations(most))
+        course, times, choice = Course(moved), sampling(moved), runs.choice
+        work = choice.evaluations(most)
+        trajectory = choice.integrate(assemble(moved), runs.tolerance, times.read_by(course), work)
         moved_response = evaluate(moved, trajectory, course)
-        apart = [QUANTITIES[key](scene, moved_response, response) for key in ("amplitude", "angles")]
+        apart = [QUANTITIES[key](scene, moved_response, runs.fine) for key in ("amplitude", "angles")]
     except NotTrustworthyError:
         return 0.0
     return max(apart) / MOVED
@@ -169,6 +177,7 @@ def _moved(angles: tuple[float, ...]) -> tuple[float, ...]:
     """The angles [rad] with the ball moved that has most room ahead of it."""
 
     def room(ball: int) -> float:
+        """Gap ahead of a ball [rad]."""
         turn = 2 * math.pi
         return min((turn - (angles[ball] - other) % turn for k, other in enumerate(angles) if k != ball), default=turn)
 

@@ -9,7 +9,7 @@ from abu_calc.simulation.ensemble import simulate_members
 from abu_calc.simulation.ensemble_results import Ensemble
 from abu_calc.simulation.vibration_records import Compared, compared, level_where_measured
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import level_at_loudest
+from abu_calc.sizing.places import level_at_loudest
 
 
 def predicted_displacement(design: Design, ensemble: Ensemble) -> float | None:

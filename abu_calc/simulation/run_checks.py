@@ -4,11 +4,14 @@ import math
 from collections.abc import Callable
 from typing import Final
 
+from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.checks import Check, coded, overall, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
-from abu_calc.simulation.response import SLIPPING, Response, allowed_imbalance, balances, slip
+from abu_calc.simulation.balance import SLIPPING, allowed_imbalance, balances, slip
+from abu_calc.simulation.response import Response
 from abu_calc.sizing.budget import displacement_level
+from abu_calc.sizing.case import WHEEL_PLANE
 from abu_calc.sizing.design import Design
 
 HELD: Final = frozenset({"idle", "run-up", "grinding"})
@@ -34,7 +37,8 @@ def levels_at_places(design: Design, response: Response) -> tuple[SimulatedPlace
     """Levels where the machine is held: what the race plane does, carried there as by a free rigid body.
 
     What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
-    background as energy. Valid well above the suspension, as in sizing. No places for a machine on a swing arm.
+    background as energy. Valid well above the suspension, as in sizing. The wheel plane of a body in space, whose level
+    is limited, comes last. No places for a machine on a swing arm.
     """
     held = _held(design, response) if response.scene in HELD else []
     return tuple(SimulatedPlaceLevel(name, level(response.velocity_rms)) for name, level in held)
@@ -43,35 +47,42 @@ def levels_at_places(design: Design, response: Response) -> tuple[SimulatedPlace
 def _held(design: Design, response: Response) -> list[tuple[str, Level]]:
     """The level at each place where the machine is held, of a velocity."""
     case = design.case
-    places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    return [(name, _level_of(design, response, place)) for name, place in places]
+    places = dict.fromkeys((*case.places, *case.judged_places))
+    return [(held.name, _level_of(design, response, held.place)) for held in places]
 
 
 def loudest(design: Design, response: Response) -> Level:
-    """The level at the loudest place where the machine is held, of a velocity.
+    """The level at the loudest place whose level is limited, of a velocity.
 
     On a swing arm, where it is not, that on the axis.
     """
-    levels = [level for _, level in _held(design, response)] if response.scene in HELD else [level_from_velocity]
+    levels: list[Level] = [level_from_velocity]
+    if response.scene in HELD:
+        levels = [_level_of(design, response, held.place) for held in design.case.judged_places]
     return lambda velocity: max(level(velocity) for level in levels)
 
 
-def level_at(design: Design, response: Response, place: float) -> float:
+def level_at(design: Design, response: Response, place: Vector) -> float:
     """The level [dB] at a place [m] from the centre of mass, as `levels_at_places`."""
     return _level_of(design, response, place)(response.velocity_rms)
 
 
-def _level_of(design: Design, response: Response, place: float) -> Level:
-    """The level at a place [m] at the speed that the run ends with."""
+def _level_of(design: Design, response: Response, place: Vector) -> Level:
+    """The level of the loudest axis at a place [m] at the speed that the run ends with."""
     case, added, speed = design.case, design.autobalancer.mass, abs(response.final.speed) or design.case.speed
     body, race = case.body, case.race_place
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
-    held, at_race = body.inertance(race, race, added), body.inertance(place, race, added)
-    beside = imbalance * body.inertance(place, body.wheel, added) - balls * at_race
+    held = body.inertance(race, race, added)
+    by_race = body.body.acceleration(place, race, added=added)
+    by_wheel = body.body.acceleration(place, body.wheel, added=added)
+    count = 2 if place == body.wheel else 3
+    axes = [(abs(at), abs(imbalance * wheel - balls * at)) for at, wheel in zip(by_race, by_wheel, strict=True)][:count]
 
     def level(velocity: float) -> float:
+        """Level [dB] at the place, by the rms velocity [m/s] of the race."""
         swing = math.sqrt(2) * velocity / speed / held
-        return displacement_level(math.hypot(swing * at_race, beside), speed, case.background_level)
+        moved = max(math.hypot(swing * at, beside) for at, beside in axes)
+        return displacement_level(moved, speed, case.background_level)
 
     return level
 
@@ -131,9 +142,11 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
 
 def _level(design: Design, response: Response, error: float) -> Check:
     """The loudest place against the limit; a warning where the error of the run leaves it open."""
-    loudest, limit = max(levels_at_places(design, response), key=lambda place: place.level), design.case.level_limit
+    judged = [SimulatedPlaceLevel(held.name, level_at(design, response, held.place))
+              for held in design.case.judged_places]  # fmt: skip
+    loudest, limit = max(judged, key=lambda place: place.level), design.case.level_limit
     passed, safe = loudest.level <= limit, loudest.level + 20 * math.log10(1 + error) <= limit
-    place = "in the wheel plane" if loudest.name == "wheel plane" else f'at the handle "{loudest.name}"'
+    place = "in the wheel plane" if loudest.name == WHEEL_PLANE else f'at the handle "{loudest.name}"'
     message = f"The level {place} at the end of this run"
     if passed and not safe:
         message += f". The error of {error:.2g} leaves open whether the limit is kept"

@@ -43,19 +43,15 @@ def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> Swi
     """The swing arm with the machine and the autobalancer, without balls."""
     case, autobalancer = design.case, design.autobalancer
     arm = read_arm(case, table, autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass)
-    joint = arm.length, arm.inertia, arm.joint_stiffness, arm.joint_damping
     if not cutting:
-        return idle_arm(*joint)
+        return idle_arm(arm)
     angle = pressed_angle(arm)
     if angle is None or angle < arm.touch_angle:
         why = "does not stand" if angle is None else "does not reach the work"
         raise NotTrustworthyError(
             f"the swing arm {why} while cutting\n  turn the contact angle nearer to 90°, or press with a larger moment"
         )
-    return cutting_arm(
-        *joint, arm.contact_stiffness, arm.friction, arm.contact_angle, arm.touch_angle, arm.pressing_moment,
-        arm.disk_radius,
-    )  # fmt: skip
+    return cutting_arm(arm)
 
 
 def ball_rate_on_arm(design: Design, arm: SwingArmSupport, drag: float) -> float:

@@ -14,6 +14,7 @@ from abu_calc.dynamics.supports.planar import Pair, planar, with_body
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport, cutting_arm, idle_arm
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.formulas.balls import INERTIA_FACTORS, half_angle
+from abu_calc.formulas.swing_arm import Arm
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs import duty, scene_effects
@@ -89,25 +90,20 @@ def _tilting(table: SceneTable) -> Held:
 
 def _arm(table: SceneTable) -> Held:
     """Support on a swing arm, at rest where it stands."""
-    arm = _given(table.swing_arm)
-    joint = (
-        to_si(arm.arm_length_mm, "mm"),
-        arm.moment_of_inertia_kg_m2,
-        arm.joint_stiffness_N_per_m,
-        arm.joint_damping_N_s_per_m,
+    given = _given(table.swing_arm)
+    arm = Arm(
+        length=to_si(given.arm_length_mm, "mm"),
+        inertia=given.moment_of_inertia_kg_m2,
+        joint_stiffness=given.joint_stiffness_N_per_m,
+        joint_damping=given.joint_damping_N_s_per_m,
+        contact_stiffness=given.contact_stiffness_N_per_m,
+        friction=given.cutting_coefficient,
+        disk_radius=to_si(given.wheel_radius_mm or 0.0, "mm"),  # which no arm that cuts takes
+        contact_angle=to_si(given.contact_angle_deg, "deg"),
+        touch_angle=to_si(given.touch_angle_deg, "deg"),
+        pressing_moment=given.pressing_moment_N_m,
     )
-    if not arm.cutting:
-        return _standing(arm, idle_arm(*joint))
-    support = cutting_arm(
-        *joint,
-        arm.contact_stiffness_N_per_m,
-        arm.cutting_coefficient,
-        to_si(arm.contact_angle_deg, "deg"),
-        to_si(arm.touch_angle_deg, "deg"),
-        arm.pressing_moment_N_m,
-        to_si(arm.wheel_radius_mm or 0.0, "mm"),  # which no arm takes
-    )
-    return _standing(arm, support)
+    return _standing(given, cutting_arm(arm) if given.cutting else idle_arm(arm))
 
 
 SUPPORTS: Final[Mapping[str, Callable[[SceneTable], Held]]] = {

@@ -16,7 +16,7 @@ from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import too_much
 from abu_calc.dynamics.integrators.work_estimates import softer
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.supports.receptance import reference_imbalance
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Trajectory
 from abu_calc.formulas import motion
 from abu_calc.foundation import patience
@@ -25,7 +25,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, share_of, silent
 from abu_calc.simulation.durations import lasting
 from abu_calc.simulation.model_level import Offer, offer
-from abu_calc.simulation.nonconvergence import difference, unreached
+from abu_calc.simulation.nonconvergence import FinestRuns, difference, unreached
 from abu_calc.simulation.response import Course, Response, evaluate, needed_times, sampling
 
 MOST_ASKED: Final = 4000
@@ -201,6 +201,7 @@ def simulate(
     if not np.all((wanted >= 0) & (wanted <= scene.duration)):
         raise InputError("sample times must lie within the run", allowed=f"0 … {scene.duration:g} s")
     times, started = sampling(scene, wanted), time.perf_counter()
+    request = _Request(scene, accuracy, times, most_evaluations, integrator, warnings, progress)
     offered = Offer(None, "the equations were asked for")
     progress(f"{scene.name}: averages")
     course = Course(scene)
@@ -210,19 +211,38 @@ def simulate(
         run = offered.trajectory
         cost = _cost(run, run.evaluations, run.steps, time.perf_counter() - started, offered.why)
         return Simulation(scene, evaluate(scene, run, course), run, cost, offered.error, warnings, "envelope", offered)
-    return _integrated(scene, accuracy, times, most_evaluations, integrator, warnings, offered, progress)
+    return _integrated(request, offered)
 
 
-def _integrated(
-    scene: Scene, accuracy: float, times: Sampling, most: int | None, integrator: str, warnings: tuple[str, ...],
-    offered: Offer, progress: Progress,
-) -> Simulation:  # fmt: skip
+@dataclass(frozen=True)
+class _Request:
+    """A simulation as it was asked for: scene with its warnings, times of its samples, bounds and integrator."""
+
+    scene: Scene
+    accuracy: float
+    times: Sampling
+    most_evaluations: int | None
+    integrator: str
+    warnings: tuple[str, ...]
+    progress: Progress
+
+    @property
+    def most(self) -> int:
+        """Work that all runs may take together."""
+        if patience.given():
+            return patience.UNBOUNDED
+        return self.most_evaluations or usual_work(self.scene, self.integrator)
+
+
+def _integrated(request: _Request, offered: Offer) -> Simulation:
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
+    scene, accuracy, times, most, progress = (
+        request.scene, request.accuracy, request.times, request.most, request.progress
+    )  # fmt: skip
     equations, needed = assemble(scene), needed_times(scene)
     needed = needed if len(needed) < len(times.times) else times.times  # one array of both where they are the same
-    choice = choose(equations, integrator, tolerances(accuracy)[0])
+    choice = choose(equations, request.integrator, tolerances(accuracy)[0])
     about, fast = choice.expected(equations, tolerances(accuracy)[0]), softer(equations)
-    most = patience.UNBOUNDED if patience.given() else most or usual_work(scene, integrator)
     if about > most:
         raise too_much(f"about {about:.2g}", most, fast)
     started, evaluations, steps, worked = time.perf_counter(), 0, 0, 0
@@ -230,7 +250,7 @@ def _integrated(
     apart, spared, last, alike = math.nan, 0, 0, True
     ended: Simulation | None = None
     for tolerance in tolerances(accuracy):
-        choice = choose(equations, integrator, tolerance, progress)
+        choice = choose(equations, request.integrator, tolerance, progress)
         text = f"{scene.name}: {choice.name}, tolerance {tolerance:g}"
         progress(text)
         course, remarks = Course(scene), Remarks(equations, needed)
@@ -244,9 +264,8 @@ def _integrated(
         except NotTrustworthyError as failure:
             if len(runs) < 2:
                 raise
-            finest = (runs[0], runs[1])
-            error_of_runs = unreached(scene, accuracy, apart, finest, choice, 10 * tolerance, spared, failure)
-            raise _with_end(error_of_runs, ended) from None
+            finest = FinestRuns(runs[0], runs[1], apart, choice, 10 * tolerance)
+            raise _with_end(unreached(scene, accuracy, finest, spared, failure), ended) from None
         progress(f"{scene.name}: reading what came of it")
         last = choice.work(trajectory)
         most, spared, worked = most - last, 2 * last, worked + last
@@ -265,11 +284,12 @@ def _integrated(
         cost = replace(_cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why), work=worked)
         if times.held is None:
             remarks(trajectory)
-        texts = (*warnings, *remarks.texts)
+        texts = (*request.warnings, *remarks.texts)
         ended = Simulation(scene, runs[1], trajectory, cost, error, texts, "equations", offered)
         if error <= accuracy:
             return ended
-    raise _with_end(unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared), ended)
+    finest = FinestRuns(runs[0], runs[1], apart, choice, tolerance)
+    raise _with_end(unreached(scene, accuracy, finest, spared), ended)
 
 
 def balls_rest(scene: Scene, response: Response) -> bool:

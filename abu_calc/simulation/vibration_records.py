@@ -2,16 +2,17 @@
 
 from typing import Annotated, ClassVar, Self
 
+from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import level_from_velocity, velocity_from_level
+from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.budget import displacement_level
-from abu_calc.sizing.case import Case
+from abu_calc.sizing.case import WHEEL_PLANE, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.imbalance import measured_velocity
 from abu_calc.sizing.instruments import UNITS, as_shown, in_words, readings
-from abu_calc.sizing.vibration import LevelPlace
+from abu_calc.sizing.places import AXES, LevelPlace, PlaceBand, weighted_axes
 
 
 @dataclass(frozen=True)
@@ -35,10 +36,10 @@ class Compared:
         return level_from_velocity(self.measured) - level_from_velocity(self.predicted)
 
 
-def measured_place(case: Case, shown: Shown) -> tuple[str, float]:
+def measured_place(case: Case, shown: Shown) -> tuple[str, Vector]:
     """Name and place [m] from the centre of mass of where it was measured."""
     named_handle = next((handle for handle in case.handles if handle.name == shown.at), None)
-    return ("wheel plane", case.body.wheel) if named_handle is None else (named_handle.name, named_handle.place)
+    return (WHEEL_PLANE, case.body.wheel) if named_handle is None else (named_handle.name, named_handle.place)
 
 
 def compared(case: Case, level: float | None) -> Compared | None:
@@ -74,16 +75,46 @@ class InstrumentReadings(Record):
     total_m_per_s2: Annotated[float | None, Quantity("weighted, three axes", "a_hv", 3)]
 
     @classmethod
-    def of(cls, level: float | None, speed: float) -> Self | None:
-        """Readings of a level [dB] at a speed [rad/s]; None without a level."""
-        return None if level is None else cls.read(readings(velocity_from_level(level), speed))
+    def of(cls, level: float | None, speed: float, total: float | None = None) -> Self | None:
+        """Readings of a level [dB] at a speed [rad/s]; None without a level.
+
+        `total`: vector total a_hv of three axes [m/s²]; None: two axes move alike.
+        """
+        if level is None:
+            return None
+        values = readings(velocity_from_level(level), speed)
+        return cls.read(values) if total is None else cls.read(values, total_m_per_s2=total)
+
+
+@record
+class HandleAxis(Record):
+    """One axis of a place: levels, and weighted accelerations, null where W_h is not defined."""
+
+    axis: Annotated[str, Quantity("axis")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    a_h_before_m_per_s2: Annotated[float | None, Quantity("weighted, before", "a_h", 3)]
+    a_h_after_m_per_s2: Annotated[float | None, Quantity("weighted, after", "a_h", 3)]
 
 
 @record
 class HandleLevels(Record):
-    """Levels at one place where the machine is held."""
+    """Levels at one place where the machine is held: of its loudest axis, and of each axis.
 
-    optional: ClassVar[frozenset[str]] = frozenset({"level_at_once_db", "shown_before", "shown_after"})
+    `a_hv_…`: vector total of the weighted accelerations. Bands [low, high] are those that an estimated inertia leaves.
+    """
+
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {
+            "level_at_once_db",
+            "shown_before",
+            "shown_after",
+            "level_before_band_db",
+            "level_after_band_db",
+            "a_hv_before_band_m_per_s2",
+            "a_hv_after_band_m_per_s2",
+        }
+    )
 
     name: Annotated[str, Quantity("place")]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
@@ -93,23 +124,67 @@ class HandleLevels(Record):
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
     shown_before: InstrumentReadings | None = None
     shown_after: InstrumentReadings | None = None
+    position_mm: Annotated[tuple[float, float, float] | None, Quantity("from the centre of mass", "", 4)] = None
+    axes: tuple[HandleAxis, ...] | None = None
+    a_hv_before_m_per_s2: Annotated[float | None, Quantity("three axes, before", "a_hv", 3)] = None
+    a_hv_after_m_per_s2: Annotated[float | None, Quantity("three axes, after", "a_hv", 3)] = None
+    level_before_band_db: Annotated[tuple[float, float] | None, Quantity("band of the level before", "L")] = None
+    level_after_band_db: Annotated[tuple[float, float] | None, Quantity("band of the level after", "L")] = None
+    a_hv_before_band_m_per_s2: Annotated[tuple[float, float] | None, Quantity("band before", "a_hv", 3)] = None
+    a_hv_after_band_m_per_s2: Annotated[tuple[float, float] | None, Quantity("band after", "a_hv", 3)] = None
 
     @classmethod
-    def of(cls, place: LevelPlace, speed: float | None = None, hasty: LevelPlace | None = None) -> Self:
-        """Levels of one place; with the speed [rad/s] also as instruments show them.
+    def of(
+        cls,
+        place: LevelPlace,
+        speed: float | None = None,
+        hasty: LevelPlace | None = None,
+        band: PlaceBand | None = None,
+    ) -> Self:
+        """Levels of one place; with the speed [rad/s] also each axis, and readings as instruments show them.
 
-        `hasty`: the same place, pressed at once.
+        `hasty`: the same place, pressed at once; `band`: what an estimated inertia leaves open.
         """
         levels = place.levels
+        totals = [None if speed is None else place.total(speed, after=after) for after in (False, True)]
         return cls.read(
             place,
             levels,
             level_before_db=levels.before,
             level_after_db=levels.after,
             level_at_once_db=None if hasty is None else hasty.levels.after,
-            shown_before=None if speed is None else InstrumentReadings.of(levels.before, speed),
-            shown_after=None if speed is None else InstrumentReadings.of(levels.after, speed),
+            shown_before=None if speed is None else InstrumentReadings.of(levels.before, speed, totals[0]),
+            shown_after=None if speed is None else InstrumentReadings.of(levels.after, speed, totals[1]),
+            position_mm=None if place.place is None else position_mm(place.place),
+            axes=None if speed is None else _axes(place, speed),
+            a_hv_before_m_per_s2=totals[0],
+            a_hv_after_m_per_s2=totals[1],
+            level_before_band_db=None if band is None else band.before,
+            level_after_band_db=None if band is None else band.after,
+            a_hv_before_band_m_per_s2=None if band is None else band.total_before,
+            a_hv_after_band_m_per_s2=None if band is None else band.total_after,
         )
+
+
+def position_mm(place: Vector) -> tuple[float, float, float]:
+    """A place [m] in millimetres, freed of the rounding of the conversion."""
+    x, y, z = (round(from_si(value, "mm"), 9) + 0.0 for value in place)
+    return x, y, z
+
+
+def _axes(place: LevelPlace, speed: float) -> tuple[HandleAxis, ...]:
+    """Records of the axes of a place at a speed [rad/s]."""
+    before, after = (weighted_axes(place.axes, speed, after=after) or (None,) * 3 for after in (False, True))
+    return tuple(
+        HandleAxis(
+            axis=name,
+            level_before_db=levels.before,
+            level_after_db=levels.after,
+            a_h_before_m_per_s2=a_before,
+            a_h_after_m_per_s2=a_after,
+        )
+        for name, levels, a_before, a_after in zip(AXES[: len(place.axes)], place.axes, before, after, strict=False)
+    )
 
 
 @record

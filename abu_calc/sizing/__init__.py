@@ -13,9 +13,11 @@ from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_moto
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
+from abu_calc.sizing.handles import body_bands, handle_checks
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.operating_speed import frequency_region, region_check
 from abu_calc.sizing.track import track, track_checks
+from abu_calc.sizing.type_test import declared_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
 
 if TYPE_CHECKING:
@@ -53,19 +55,22 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
     arm = _arm(case, imbalance.value, best)
     advice = drawing(case, best, race)
+    bands = body_bands(case, best, frequency.balancing_possible)
     checks = (
         region_check(case, best, frequency),
         *_motor(case, best),
         *candidate_checks(case, best),
         *track_checks(case, best, race),
-        *vibration_checks(case, imbalance.value, best, idle, levels),
+        *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
+        *handle_checks(case, imbalance.value, best, frequency.balancing_possible, bands),
+        *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
         *(arm.checks if arm else ()),
     )
-    warnings = design_warnings(case, best, loaded)
+    warnings = design_warnings(case, best, loaded, bands)
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, arm, advice, checks,
-        warnings,
+        warnings, bands,
     )  # fmt: skip
 
 

@@ -10,6 +10,8 @@ from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.handles import BodyBands, estimate_keys
+from abu_calc.sizing.places import HANDS
 from abu_calc.sizing.trials import Requirement
 from abu_calc.sizing.vibration import LevelsUnderLoad
 from abu_calc.standards.balls import stock_diameter
@@ -63,7 +65,8 @@ def _plane(case: Case, candidate: Candidate) -> tuple[Check, ...]:
     if not case.body.is_rigid:
         return (
             coded("ABU205", "not-done", "The race is off the wheel's plane, and the rigid body is not known",
-                  remedy="Specify machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm."),
+                  remedy=f"Specify {estimate_keys(case)} for an estimate, or machine.transverse_inertia_kg_m2 and "
+                  "machine.center_of_mass_to_wheel_mm."),
         )  # fmt: skip
     rest, permitted = from_si(candidate.budget.plane_offset, "um"), from_si(candidate.budget.permitted, "um")
     near = rest <= permitted
@@ -122,10 +125,12 @@ def _rounded_down(value: float) -> float:
     return round(math.floor(value * 10.0**places) / 10.0**places, max(places, 0))
 
 
-def design_warnings(case: Case, candidate: Candidate, loaded: LevelsUnderLoad | None) -> tuple[str, ...]:
+def design_warnings(
+    case: Case, candidate: Candidate, loaded: LevelsUnderLoad | None, bands: BodyBands | None
+) -> tuple[str, ...]:
     """Warnings that a reader must know and that no check gives."""
     return (
-        *_body_warnings(case),
+        *_body_warnings(case, bands),
         *_sheet_warnings(case),
         *_contact_warnings(case, candidate),
         *_choice_warnings(case, candidate),
@@ -142,14 +147,49 @@ def _loaded_warnings(loaded: LevelsUnderLoad | None) -> list[str]:
     ]
 
 
-def _body_warnings(case: Case) -> list[str]:
+HEAVY_ROTOR = 0.03
+"""Share of J_x from which the polar inertia of what spins counts."""
+
+
+def _body_warnings(case: Case, bands: BodyBands | None) -> list[str]:
+    if bands is not None:
+        low, high = bands.effective_mass
+        mass = case.body.effective_mass()
+        return [
+            f"The inertia is estimated from layout, mass and lengths, not measured: effective mass at the wheel "
+            f"{mass:.3g} kg, 95 % within {low:.3g} … {high:.3g} kg with the autobalancer. Levels at handles have bands."
+        ]
     if case.body.is_rigid:
-        return []
+        return [*_rotor_warning(case), *_hands_warning(case)]
     measured = " An imbalance that a measured level gives is as uncertain." if case.table.wheel.shown else ""
     handles = " All handles move alike." if case.handles else ""
     return [
         f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
-        f"{handles} Specify machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm."
+        f"{handles} Specify {estimate_keys(case)} for an estimate, or machine.transverse_inertia_kg_m2 and "
+        "machine.center_of_mass_to_wheel_mm."
+    ]
+
+
+def _rotor_warning(case: Case) -> list[str]:
+    """Note on the gyroscopic moments of a wheel that the file leaves out of a body in space."""
+    body = case.body.body
+    wheel = case.table.wheel.mass_kg * case.wheel_radius**2 / 2
+    if not case.body.in_space or body.rotor_polar_inertia or body.inertia is None:
+        return []
+    if wheel <= HEAVY_ROTOR * min(body.inertia.xx, body.inertia.yy):
+        return []
+    return [
+        f"The wheel as a disk has a polar inertia of {wheel:.3g} kg·m², whose gyroscopic moments are left out. Specify "
+        "machine.rotor_polar_inertia_kg_m2."
+    ]
+
+
+def _hands_warning(case: Case) -> list[str]:
+    if not case.body.in_space or case.table.suspension.model != "hands" or len(case.handles) >= HANDS:
+        return []
+    return [
+        "Two hands hold a body in space at its first two handles. The file names fewer: levels at handles are those of "
+        "a free body."
     ]
 
 

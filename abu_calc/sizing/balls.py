@@ -219,6 +219,7 @@ def choose_for_motor(case: Case, imbalance: float) -> AutobalancerChoice:
         return choice
 
     def judged(candidate: Candidate) -> Candidate:
+        """The same balls in the same race, with this imbalance and case."""
         return evaluate(case, imbalance, candidate.ball_count, candidate.ball_diameter, candidate.race_radius)
 
     best = judged(other.best)

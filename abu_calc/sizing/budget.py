@@ -37,6 +37,12 @@ class ResidualBudget:
         return math.hypot(*parts) + self.capacity_shortfall
 
     @property
+    def at_race(self) -> float:
+        """The same without the displacement that a race off the wheel's plane leaves at the wheel."""
+        parts = self.race_eccentricity, self.rolling_friction, self.race_ovality
+        return math.hypot(*parts) + self.capacity_shortfall
+
+    @property
     def within(self) -> bool:
         """True if the expected residual displacement is permitted."""
         return self.residual <= self.permitted
@@ -103,8 +109,7 @@ def permitted_displacement(case: Case, added_mass: float, speed: float) -> float
 
 def loudest_transmission(case: Case, added_mass: float) -> float:
     """Largest motion of a handle per motion of the wheel [1]."""
-    places = [handle.place for handle in case.handles] or [case.body.wheel]
-    return max(case.body.transmission(place, added_mass) for place in places)
+    return max(case.body.transmission(held.place, added_mass) for held in case.judged_places)
 
 
 def accuracy_budget(
@@ -171,14 +176,19 @@ def ovality_residual(lobes: float) -> float:
     "U·(1/M + a_w²/J_c) − V·(1/M + a_w·a_r/J_c), V = U·(plane ratio)",
     "m",
     shown="um",
+    where=(
+        "For a body in space the inertances A_pq of wheel and race take these places: the louder axis counts, as the "
+        "forward whirl that moves the wheel as much."
+    ),
     assumed="as for the plane ratio",
     source="derived",
 )
 def plane_residual(case: Case, imbalance: float, added_mass: float) -> float:
     body, ratio = case.body, plane_ratio(case, added_mass)
-    by_imbalance = body.inertance(body.wheel, body.wheel, added_mass)
-    by_balls = ratio * body.inertance(body.wheel, case.race_place, added_mass)
-    return abs(imbalance * (by_imbalance - by_balls))
+    by_imbalance = body.body.acceleration(body.wheel, body.wheel, added=added_mass)
+    by_balls = body.body.acceleration(body.wheel, case.race_place, added=added_mass)
+    rest = max(abs(wheel - ratio * race) for wheel, race in zip(by_imbalance[:2], by_balls[:2], strict=True))
+    return imbalance * rest / body.transmission(body.wheel, added_mass)
 
 
 @formula(

@@ -1,14 +1,17 @@
-"""A machine file in SI, and the effective mass at places along the spindle axis.
+"""A machine file in SI, with its rigid body: given, estimated, or a point mass.
 
-The machine is a rigid body. Elsewhere sizing asks the tables only which of several ways people have chosen.
+Elsewhere sizing asks the tables only which of several ways people have chosen.
 """
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final, Literal
 
 from abu_calc.formulas.balls import INERTIA_FACTORS
+from abu_calc.formulas.body_estimate import BodyEstimate, PlacedBody, estimated_body
+from abu_calc.formulas.rigid_body import Inertia, RigidBody, Vector
 from abu_calc.formulas.suspension import Hands, Springs, SuspensionReaction
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import Autobalancer, Grinding, MachineFile, Motor
@@ -17,50 +20,58 @@ from abu_calc.standards.vibration import hand
 
 @dataclass(frozen=True)
 class RigidMachine:
-    """Machine and wheel without the autobalancer; places [m] from the centre of mass, toward the wheel positive.
+    """Machine and wheel without the autobalancer, as a rigid body; places [m] are vectors from the centre of mass.
 
-    A point mass is the body whose `inverse_inertia` [1/(kg m²)] is zero: every place then moves alike.
+    The mass of the autobalancer is `added` to the body's; centre of mass and inertia are meant with it. `in_space`: the
+    body is known in space, so that levels are limited in the wheel plane and handles have their own beside it; else
+    it moves along its spindle, or is a point mass. `estimate`: its inertia is estimated, with a band.
     """
 
-    mass: float
-    inverse_inertia: float
-    wheel: float
+    body: RigidBody
+    wheel: Vector = (0.0, 0.0, 0.0)
+    in_space: bool = False
+    estimate: BodyEstimate | None = None
+
+    @property
+    def mass(self) -> float:
+        """Mass without the autobalancer [kg]."""
+        return self.body.mass
 
     @property
     def is_rigid(self) -> bool:
-        """True if transverse inertia and the place of the wheel are known."""
-        return self.inverse_inertia > 0
+        """True if the inertia is known or estimated."""
+        return self.body.inertia is not None
 
-    @formula(
-        "Acceleration at one place per force at another",
-        "I_a = 1/M + a_p·a_q/J_c",
-        "1/kg",
-        where="M includes the autobalancer.",
-        assumed="frequencies well above those of the suspension",
-        source="Newton–Euler of a free rigid body in the plane",
-    )
-    def inertance(self, at: float, force_at: float, added: float = 0.0) -> float:
-        """
-        >>> round(1 / RigidMachine(6.4, 1 / 0.10, 0.2).inertance(0.2, 0.2), 1)
+    def inertance(self, at: Vector, force_at: Vector, added: float = 0.0) -> float:
+        """Forward whirl at a place per rotating force at another, ½·g_pq [1/kg]; on the spindle 1/M + a_p·a_q/J_c.
+
+        >>> plane = RigidMachine(RigidBody(6.4, Inertia(0.1, 0.1, 0.1)), (0.0, 0.0, 0.2))
+        >>> round(1 / plane.inertance(plane.wheel, plane.wheel), 1)
         1.8
         """
-        return 1 / (self.mass + added) + at * force_at * self.inverse_inertia
+        return self.body.forward(at, force_at, added).real / 2
 
-    @formula(
-        "Effective mass at a place, at the wheel unless another place is named",
-        "1/m_eff = 1/M + a_p²/J_c",
-        "kg",
-        assumed="as for the inertance",
-        source="the inertance with force and motion at one place",
-    )
-    def effective_mass(self, added: float = 0.0, at: float | None = None) -> float:
+    def effective_mass(self, added: float = 0.0, at: Vector | None = None) -> float:
+        """Effective mass m_F that balls feel [kg] at a place of the spindle, at the wheel unless another is named."""
         place = self.wheel if at is None else at
         return 1 / self.inertance(place, place, added)
 
-    def transmission(self, at: float, added: float = 0.0) -> float:
-        """Motion at a place per motion at the wheel, both caused by a force at the wheel [1]."""
-        return abs(self.inertance(at, self.wheel, added)) / self.inertance(self.wheel, self.wheel, added)
+    def axes(self, at: Vector, added: float = 0.0, force_at: Vector | None = None) -> Vector:
+        """Motion along x, y and z at a place per rotating force, at the wheel unless another place is named [1/kg]."""
+        x, y, z = map(abs, self.body.acceleration(at, self.wheel if force_at is None else force_at, added=added))
+        return x, y, z
 
+    def loudest_axis(self, at: Vector, added: float = 0.0) -> float:
+        """The largest of `axes` by a force at the wheel; in the wheel plane that of x and y."""
+        return max(self.axes(at, added)[: 2 if at == self.wheel else 3])
+
+    def transmission(self, at: Vector, added: float = 0.0) -> float:
+        """Motion of a place's loudest axis per forward whirl of the wheel, both caused by a force at the wheel [1]."""
+        return self.loudest_axis(at, added) / self.inertance(self.wheel, self.wheel, added)
+
+
+WHEEL_PLANE: Final = "wheel plane"
+"""Name of the place at which levels are given without handles."""
 
 EQUAL_SPEEDS: Final = 1e-3
 """Relative difference of two speeds that counts as none: 0.01 dB of a level, 0.2 % of a stress."""
@@ -82,7 +93,7 @@ class HandlePlace:
     """Place at which levels are wanted: a name and a place [m] from the centre of mass."""
 
     name: str
-    place: float
+    place: Vector
 
 
 @dataclass(frozen=True)
@@ -114,9 +125,32 @@ class Case:
     """Speed [rad/s] at which the motor's torque equals what the settled machine takes; None: no motor is given."""
 
     @property
-    def race_place(self) -> float:
-        """Place of the race plane from the centre of mass [m]."""
-        return self.body.wheel + self.race_offset
+    def race_place(self) -> Vector:
+        """Place of the race's centre from the centre of mass [m]."""
+        x, y, z = self.body.wheel
+        return x, y, z + self.race_offset
+
+    @property
+    def places(self) -> tuple[HandlePlace, ...]:
+        """The handles, or the wheel plane if the file names none."""
+        return self.handles or (HandlePlace(WHEEL_PLANE, self.body.wheel),)
+
+    @property
+    def judged_places(self) -> tuple[HandlePlace, ...]:
+        """Places whose level is limited: the wheel plane of a body in space, else `places`."""
+        return (HandlePlace(WHEEL_PLANE, self.body.wheel),) if self.body.in_space else self.places
+
+    def with_body(self, placed: PlacedBody) -> "Case":
+        """The same machine with another body; handles keep their distance from the wheel, springs their frequency."""
+        moved = tuple(new - old for new, old in zip(placed.wheel, self.body.wheel, strict=True))
+        handles = tuple(
+            HandlePlace(
+                handle.name, (handle.place[0] + moved[0], handle.place[1] + moved[1], handle.place[2] + moved[2])
+            )
+            for handle in self.handles
+        )
+        body = RigidMachine(placed.body, placed.wheel, self.body.in_space)
+        return replace(self, body=body, handles=handles, suspension=_suspension(self.table, body.effective_mass()))
 
 
 def read_case(machine: MachineFile) -> Case:
@@ -148,7 +182,7 @@ def read_case(machine: MachineFile) -> Case:
         speed_range=_judged_range(working_speeds(machine), idle),
         runout=to_si(machine.wheel.runout, "mm"),
         contact=_contact(machine.grinding),
-        handles=tuple(HandlePlace(h.name, to_si(h.from_center_of_mass_mm, "mm")) for h in top.handle),
+        handles=tuple(HandlePlace(handle.name, _in_metres(handle.position)) for handle in top.handle),
         race_eccentricity=eccentricity,
         drag=abu.rolling_drag_per_s,
         friction_arm=to_si(abu.rolling_friction_mm, "mm"),
@@ -182,6 +216,7 @@ def _idle_speed(motor: Motor | None, suspension: SuspensionReaction, displacemen
     from abu_calc.formulas.motor import idle_speed
 
     def reaction(speed: float) -> complex:
+        """Reaction of both axes [N/m] at a speed [rad/s]."""
         return suspension.reaction(0, speed) + suspension.reaction(1, speed)
 
     return idle_speed(motor.stall_torque_N_m, to_si(motor.no_load_speed_rpm, "rpm"), displacement, reaction)
@@ -190,9 +225,36 @@ def _idle_speed(motor: Motor | None, suspension: SuspensionReaction, displacemen
 def _body(machine: MachineFile) -> RigidMachine:
     top = machine.machine
     mass = top.mass_kg + machine.wheel.mass_kg
-    if top.transverse_inertia_kg_m2 is None or top.center_of_mass_to_wheel_mm is None:
-        return RigidMachine(mass, 0.0, 0.0)
-    return RigidMachine(mass, 1 / top.transverse_inertia_kg_m2, to_si(top.center_of_mass_to_wheel_mm, "mm"))
+    if top.transverse_inertia_kg_m2 is not None and top.center_of_mass_to_wheel_mm is not None:
+        J = top.transverse_inertia_kg_m2
+        return RigidMachine(RigidBody(mass, Inertia(J, J, J)), (0.0, 0.0, to_si(top.center_of_mass_to_wheel_mm, "mm")))
+    given = top.center_of_mass_from_wheel_mm
+    wheel = None if given is None else _in_metres(given, -1.0)
+    if top.inertia_kg_m2 is not None and wheel is not None:
+        return RigidMachine(_given_body(machine, mass, *top.inertia_kg_m2), wheel, in_space=True)
+    if not top.estimates:
+        return RigidMachine(RigidBody(mass))
+    lengths = {name: to_si(value, "mm") for name, value in (("L", top.length_mm), ("H", top.height_mm)) if value}
+    radius = to_si(machine.wheel.diameter_mm, "mm") / 2
+    polar = top.rotor_polar_inertia_kg_m2
+    estimate = estimated_body(
+        top.layout, mass, lengths, machine.wheel.mass_kg * radius**2 / 2 if polar is None else polar, wheel
+    )
+    return RigidMachine(estimate.nominal.body, estimate.nominal.wheel, in_space=True, estimate=estimate)
+
+
+def _given_body(machine: MachineFile, mass: float, xx: float, yy: float, zz: float) -> RigidBody:
+    top = machine.machine
+    try:
+        inertia = Inertia(xx, yy, zz, top.inertia_xz_kg_m2 or 0.0).checked()
+    except InputError as error:
+        raise error.at(Place(key="machine.inertia_kg_m2")) from None
+    return RigidBody(mass, inertia, top.rotor_polar_inertia_kg_m2 or 0.0)
+
+
+def _in_metres(position_mm: Sequence[float], sign: float = 1.0) -> Vector:
+    x, y, z = (sign * to_si(value, "mm") if value else 0.0 for value in position_mm)
+    return x, y, z
 
 
 def _suspension(machine: MachineFile, mass: float) -> SuspensionReaction:

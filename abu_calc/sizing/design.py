@@ -13,10 +13,12 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.drawing_requirements import DrawingRequirement
+from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.operating_speed import FrequencyRegion, frequency_region
+from abu_calc.sizing.places import VibrationLevels
 from abu_calc.sizing.track import Track, track
-from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, VibrationLevels, WorstResidual, worst_residuals
+from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, WorstResidual, worst_residuals
 
 if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
@@ -40,6 +42,8 @@ class Design:
     drawing: tuple[DrawingRequirement, ...]
     checks: tuple[Check, ...]
     warnings: tuple[str, ...]
+    bands: BodyBands | None
+    """Bands of an estimated body; None: nothing is estimated, or the design was built as one machine."""
 
     @property
     def autobalancer(self) -> Candidate:
@@ -71,7 +75,7 @@ def built(design: Design, machine: MachineFile) -> Design:
     return replace(
         design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),
         track=track(case, made, frequency.natural_frequencies), runner_up_tracks=(), worst=(), speed_levels=None,
-        loaded=None, swing_arm=None, drawing=(), checks=(), warnings=(),
+        loaded=None, swing_arm=None, drawing=(), checks=(), warnings=(), bands=None,
     )  # fmt: skip
 
 

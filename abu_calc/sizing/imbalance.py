@@ -2,6 +2,7 @@
 
 import math
 
+from abu_calc.formulas.rigid_body import Vector
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
@@ -61,9 +62,9 @@ def _measured(case: Case) -> Imbalance:
     background = case.background_level
     if background is not None:
         velocity = _without_background(velocity, background)
-    place = next((h.place for h in case.handles if h.name == shown.at), case.body.wheel)
-    inertance = case.body.inertance(place, case.body.wheel)
-    if abs(inertance) < NODE_SHARE / case.body.mass:
+    place = next((handle.place for handle in case.handles if handle.name == shown.at), case.body.wheel)
+    inertance = motion_shown(case, place, shown)
+    if inertance < NODE_SHARE / case.body.mass:
         raise InputError(
             "the handle is near a node: it hardly moves, whatever the imbalance",
             place=Place(key="wheel.measured_at"),
@@ -72,6 +73,16 @@ def _measured(case: Case) -> Imbalance:
     resonance = resonance_factor(case.suspension, case.speed, case.body.effective_mass())
     value = imbalance_from_level(velocity, case.speed, inertance, resonance)
     return Imbalance(value, f"measured {in_words(shown)} idle, without autobalancer")
+
+
+def motion_shown(case: Case, place: Vector, shown: Shown) -> float:
+    """Motion of the axis that an instrument shows per imbalance at the wheel [1/kg].
+
+    Three axes: the vector total over √2, as `velocity_shown` has it; else the loudest axis.
+    """
+    if shown.axes == 3 and case.body.in_space:
+        return math.hypot(*case.body.axes(place)) / math.sqrt(2)
+    return case.body.loudest_axis(place)
 
 
 def measured_velocity(shown: Shown, speed: float, table: str) -> float:

@@ -6,7 +6,7 @@ holds the axis farthest off, and all parts are in line.
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -20,9 +20,16 @@ from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.actions import Followed, followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
+from abu_calc.sizing.budget import (
+    ResidualBudget,
+    accuracy_budget,
+    displacement_level,
+    judged_speeds,
+    loudest_transmission,
+)
 from abu_calc.sizing.capacity import steady_contact
-from abu_calc.sizing.case import EQUAL_SPEEDS, Case
+from abu_calc.sizing.case import EQUAL_SPEEDS, WHEEL_PLANE, Case
+from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels, in_space
 
 _friction = lru_cache(maxsize=64)(worst_friction)
 """Worst friction, cached: races that differ only in their eccentricity have the same."""
@@ -30,12 +37,16 @@ _friction = lru_cache(maxsize=64)(worst_friction)
 
 @dataclass(frozen=True)
 class WorstResidual:
-    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad]."""
+    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad].
+
+    `at_race`: the residual without what a race off the wheel's plane leaves at the wheel.
+    """
 
     speed: float
     rolling_friction: float
     angles: tuple[float, ...]
     residual: float
+    at_race: float
 
 
 def worst_residuals(case: Case, imbalance: float, candidate: Candidate) -> tuple[WorstResidual, ...]:
@@ -52,36 +63,13 @@ def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> 
     band = case.friction_arm * balls.pitch_radius / balls.radius
     held = _friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)
     friction = max(held.displacement, usual.rolling_friction)
-    parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.plane_offset
-    return WorstResidual(speed, friction, held.angles, math.fsum(parts) + usual.capacity_shortfall)
+    parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.capacity_shortfall
+    at_race = math.fsum(parts)
+    return WorstResidual(speed, friction, held.angles, at_race + usual.plane_offset, at_race)
 
 
 CURVE_STEPS = 6
 """Steps of the speed range in the curve of level against speed."""
-
-
-@dataclass(frozen=True)
-class Levels:
-    """Levels [dB] without and with the autobalancer; `after` is null where balls cannot balance, each under load where
-    it is not known.
-    """
-
-    before: float | None
-    after: float | None
-
-    @property
-    def reduction(self) -> float | None:
-        """before − after [dB]."""
-        return None if self.before is None or self.after is None else self.before - self.after
-
-
-@dataclass(frozen=True)
-class LevelPlace:
-    """A handle, or the wheel plane; `effective_mass` [kg] is imbalance at the wheel over the motion it makes here."""
-
-    name: str
-    effective_mass: float | None
-    levels: Levels
 
 
 @dataclass(frozen=True)
@@ -90,18 +78,6 @@ class LevelAtSpeed:
 
     speed: float
     level_after: float
-
-
-@dataclass(frozen=True)
-class VibrationLevels:
-    """Levels at the rated speed where the machine is held (the wheel plane when no handle is given).
-
-    `worst` is the loudest place; `lowered`: whether the wheel itself moves less with the autobalancer.
-    """
-
-    places: tuple[LevelPlace, ...]
-    worst: Levels
-    lowered: bool
 
 
 @dataclass(frozen=True)
@@ -132,9 +108,11 @@ class SpeedLevels:
 def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> VibrationLevels:
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
-    return handle_levels(
-        case, before, _residual(case, imbalance, candidate, case.speed) if possible else None, candidate.mass
-    )
+    budget = _budget(case, imbalance, candidate, case.speed) if possible else None
+    levels = handle_levels(case, before, budget.residual if budget else None, candidate.mass)
+    if not (case.body.in_space and case.handles):
+        return levels
+    return replace(levels, places=in_space(case, imbalance, candidate, budget.at_race if budget else None))
 
 
 def idle_speed_levels(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Levels | None:
@@ -171,9 +149,13 @@ def _after(level: LevelAtSpeed) -> float:
 
 
 def _residual(case: Case, imbalance: float, candidate: Candidate, speed: float) -> float:
+    return _budget(case, imbalance, candidate, speed).residual
+
+
+def _budget(case: Case, imbalance: float, candidate: Candidate, speed: float) -> ResidualBudget:
     return accuracy_budget(
         case, imbalance, candidate.requirement, candidate.balls, candidate.budget.resting_angles, speed
-    ).residual
+    )
 
 
 @dataclass(frozen=True)
@@ -233,37 +215,6 @@ def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possibl
     return LevelsUnderLoad(valid, levels.worst, parts_before, parts_after)
 
 
-def handle_levels(case: Case, before: float | None, after: float | None, added_mass: float) -> VibrationLevels:
-    """Levels at every handle of displacements at the wheel [m] at the rated speed, None: not known."""
-    handles = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    places = []
-    for name, place in handles:
-        bare = None if before is None else _level(case, before * case.body.transmission(place))
-        fitted = None if after is None else _level(case, after * case.body.transmission(place, added_mass))
-        inertance = abs(case.body.inertance(place, case.body.wheel, added_mass))
-        places.append(LevelPlace(name, 1 / inertance if inertance else None, Levels(bare, fitted)))
-    worst = Levels(_loudest(each.levels.before for each in places), _loudest(each.levels.after for each in places))
-    return VibrationLevels(tuple(places), worst, before is not None and after is not None and after < before)
-
-
-def _loudest(levels: Iterable[float | None]) -> float | None:
-    return max((level for level in levels if level is not None), default=None)
-
-
-def level_at_loudest(case: Case, candidate: Candidate, displacement: float) -> float:
-    """The level [dB] at the loudest handle of a displacement 0–peak [m] of the race, idle.
-
-    What rests at a wheel off the race's plane is added as squares.
-    """
-    places = [handle.place for handle in case.handles] or [case.body.wheel]
-    at_wheel = math.hypot(displacement, candidate.budget.plane_offset)
-    return max(_level(case, at_wheel * case.body.transmission(place, candidate.mass)) for place in places)
-
-
-def _level(case: Case, displacement: float) -> float:
-    return displacement_level(displacement, case.speed, case.background_level)
-
-
 SHARES = (0.5, 0.25)
 """Shares of the race's eccentricity and of the friction's lever arm that are tried."""
 EXPECTED, FRICTION = "the expected level", "the worst friction case"
@@ -279,8 +230,12 @@ def vibration_checks(
     candidate: Candidate,
     idle: VibrationLevels,
     levels: SpeedLevels | None,
+    band: tuple[float, float] | None = None,
 ) -> tuple[Check, ...]:
-    """The idle level against the limit over the speed range, and that the autobalancer lowers it."""
+    """The idle level against the limit over the speed range, and that the autobalancer lowers it.
+
+    `band`: of the highest level [dB], if the inertia is estimated.
+    """
     limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None or levels is None:
         reason = "The level is not known: the balls cannot balance at these speeds"
@@ -288,7 +243,7 @@ def vibration_checks(
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     message = "The idle level with the autobalancer must be below the level without it"
     return (
-        _level_check(case, candidate, levels, loudest_place(idle)),
+        _level_check(case, candidate, levels, loudest_place(idle), band),
         coded("ABU402", verdict(idle.lowered), message, after, before, "dB",
               None if idle.lowered else _lower(case, candidate, after)),
     )  # fmt: skip
@@ -296,8 +251,7 @@ def vibration_checks(
 
 def loudest_place(vibration: VibrationLevels) -> str:
     """The loudest place in words: a handle, or the wheel plane if the file defines no handle."""
-    name = max(vibration.places, key=lambda place: place.levels.after or -math.inf).name
-    return "Wheel plane" if name == "wheel plane" else f'Handle "{name}"'
+    return "Wheel plane" if vibration.judged == WHEEL_PLANE else f'Handle "{vibration.judged}"'
 
 
 def decibels(level: float, limit: float) -> str:
@@ -312,7 +266,9 @@ def decibels(level: float, limit: float) -> str:
     )
 
 
-def _level_check(case: Case, candidate: Candidate, levels: SpeedLevels, place: str) -> Check:
+def _level_check(
+    case: Case, candidate: Candidate, levels: SpeedLevels, place: str, band: tuple[float, float] | None
+) -> Check:
     """Fails on the level as expected where it is highest, warns on that of the worst friction case.
 
     Gravity shakes balls free of the worst friction case only while the spindle is horizontal. A hand-held machine is
@@ -328,8 +284,14 @@ def _level_check(case: Case, candidate: Candidate, levels: SpeedLevels, place: s
     )
     if not safe and shaken_free(case, candidate, arranged.speed):
         message += f". {SHAKEN}"
-    action = None if kept and safe else _truer_race(case, candidate, levels, worst=kept)
-    return coded("ABU401", verdict(kept, safe), message, highest.level_after, limit, "dB", action)
+    action: Action | None = None if kept and safe else _truer_race(case, candidate, levels, worst=kept)
+    within = band is None or band[1] <= limit
+    if band is not None:
+        low, high = (decibels(level, limit) for level in band)
+        message += f". The estimated inertia leaves {low.removesuffix(' dB')} … {high} as expected"
+    if kept and safe and not within:
+        action = Action("Measure the inertia: the band of the estimate crosses the limit.")
+    return coded("ABU401", verdict(kept, safe and within), message, highest.level_after, limit, "dB", action)
 
 
 def shaken_free(case: Case, candidate: Candidate, speed: float) -> bool:
@@ -350,7 +312,7 @@ def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst:
             "quieter machine, or change limits.vibration_level_db."
         )
     before, least = (levels.arranged if worst else levels.highest).level_after, math.inf
-    for entries in _truer(case):
+    for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
         level = math.inf if after is None else level_of(after, worst=worst)
         least = min(least, level)
@@ -377,7 +339,7 @@ def _lower(case: Case, candidate: Candidate, level: float) -> Action:
     """A truer race with which the autobalancer lowers the idle level; else that none is needed."""
     if candidate.budget.capacity_shortfall:
         return Action("See the action of ABU201.")
-    for entries in _truer(case):
+    for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
         idle = None if after is None else idle_vibration(*after, possible=True)
         if after is not None and idle is not None and idle.lowered and idle.worst.after is not None:
@@ -392,7 +354,7 @@ def _left(candidate: Candidate) -> str:
     return f"{capacity}a race nearer to the wheel's plane, " if candidate.budget.plane_offset else capacity
 
 
-def _truer(case: Case) -> Iterator[dict[str, object]]:
+def truer_races(case: Case) -> Iterator[dict[str, object]]:
     """Entries of a race that is less eccentric, or has less friction, or both."""
     abu = case.autobalancer
     for share in SHARES:

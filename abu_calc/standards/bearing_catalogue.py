@@ -10,8 +10,9 @@ from typing import Final, Literal, NamedTuple
 
 from abu_calc.foundation.errors import InputError, RangeError
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.standards.catalogue import CatalogueBearing, Kind, catalogue, catalogue_bearing
 from abu_calc.standards.tables import csv_rows, unknown
-from abu_calc.standards.tolerance_classes import BearingType, Kind, Seat
+from abu_calc.standards.tolerance_classes import BearingType, Seat
 
 # Angular contact bearings and tapered bearings of GOST share these numbers, with A too (30° of some makers).
 _TWO_MEANINGS = re.compile(r"(7[23]\d\d)A?")
@@ -20,6 +21,9 @@ _LATIN = str.maketrans("АВС", "ABC")
 
 Series = Literal["light", "medium", "heavy"]
 _BY_DIAMETER: Final[dict[str, Series]] = {"3": "medium", "4": "heavy"}
+_ROLLERS: Final = frozenset({"cylindrical", "tapered", "spherical"})
+_THIN: Final = frozenset({"16", "68", "69"})
+_NU: Final = re.compile(r"(NUP|NU|NJ|N)(10|22|23|2|3|4)(\d\d)(?!\d)")
 
 
 class Dimensions(NamedTuple):
@@ -36,13 +40,16 @@ class Dimensions(NamedTuple):
 
     @property
     def deep_groove(self) -> bool:
-        """True if the bearing is a deep groove ball bearing: series 60 … 64."""
-        return self.designation.startswith("6")
+        """True if the bearing is a deep groove ball bearing."""
+        return self.kind == "ball"
 
     @property
     def kind(self) -> Kind:
-        """Kind of bearing."""
-        return "tapered" if self.type == "tapered" else "ball" if self.deep_groove else "angular-contact"
+        """Kind of bearing; of one that is not in the makers' catalogue by its letters."""
+        row = catalogue_bearing(self.designation)
+        if row is not None:
+            return row.kind
+        return "tapered" if self.type == "tapered" else "ball" if self.designation[:1] == "6" else "angular-contact"
 
     @property
     def series(self) -> Series:
@@ -53,17 +60,21 @@ class Dimensions(NamedTuple):
         >>> bearing("6305").series, bearing("7516").series, bearing("635").series
         ('medium', 'light', 'medium')
         """
-        number = self.designation.rstrip("ABC")
-        return _BY_DIAMETER.get(number[2] if self.type == "tapered" else number[1], "light")
+        number = self.designation.strip("ABCJKNPUX")
+        if self.kind in ("needle", "drawn-cup") or "/" in number or number[:2] in _THIN or len(number) < 3:
+            return "light"
+        return _BY_DIAMETER.get(number[-3] if self.kind in _ROLLERS or len(number) > 4 else number[1], "light")
 
 
 def bearing(designation: str) -> Dimensions:
     """The dimensions of a bearing by its basic ISO or GOST designation (6203 = 203, 32216 = 7516 = 7516A).
 
-    Range: series 60, 62, 63, 64, 72 (with B, AC or C), 302, 303, 322 up to bore 100 mm and small sizes of 60, 62;
-    else InputError. 72xx and 73xx, bare or with A, are refused: an angular contact bearing or GOST's tapered one.
+    Range: the two tables, else InputError: 60, 62, 63, 64, 72 (with B, AC or C), 302, 303, 322 up to bore 100 mm by
+    both names, and those of the makers' catalogue: 618, 619, 160, 60 … 63 up to 200 mm, 70 and 719 (C, AC), 73B, NU,
+    NJ, NUP, N, 213, 222, 223, 230, further tapered ones, NA, HK, BK, and ball bearings with bores from 1 mm.
+    72xx and 73xx, bare or with A, are refused: an angular contact bearing or GOST's tapered one.
     GOST's older 7506 … 7510 and 7519, wider than 7506A … 7510A and 7519A, are not known.
-    Source: ISO 15:2017, ISO 355:2019; GOST 8338, GOST 831, GOST 27365-87 (names).
+    Source: ISO 15:2017, ISO 355:2019; GOST 8338, GOST 831, GOST 27365-87 (names); the makers' catalogues.
 
     >>> found = bearing("7516")
     >>> found.designation, found.bore, found.outer, found.inner_width
@@ -79,22 +90,41 @@ def bearing(designation: str) -> Dimensions:
             remedy="Give the one that is meant, or bore_mm, outer_mm, width_mm and chamfer_mm.",
         )
     known = _known()
-    if name not in known:
+    if name in known:
+        return _dimensions(known[name])
+    row = catalogue_bearing(name)
+    if row is None:
         remedy = "Give the basic designation without suffixes, or bore_mm, outer_mm, width_mm and chamfer_mm."
-        raise unknown("bearing designation", designation, known, remedy)
-    return _dimensions(known[name])
+        raise unknown("bearing designation", designation, known_names(), remedy)
+    return _of_row(row)
 
 
-def of_size(bore: float, outer: float, width: float) -> Dimensions | None:
+def of_size(bore: float, outer: float, width: float, kind: Kind | None = None) -> Dimensions | None:
     """The first tabulated bearing of this bore, outside diameter and inner ring width [m], radial ones first.
 
-    Source: ISO 15:2017, ISO 355:2019.
+    `kind`: of this type alone. Source: ISO 15:2017, ISO 355:2019, the makers' catalogues.
 
     >>> of_size(0.080, 0.140, 0.033).designation, of_size(0.017, 0.040, 0.012).designation
     ('32216', '6203')
+    >>> of_size(0.050, 0.090, 0.020, "cylindrical").designation
+    'NU210'
     """
-    wanted = [round(from_si(size, "mm"), 6) for size in (bore, outer, width)]
-    return next((_dimensions(row) for row in csv_rows("bearings") if [*map(float, row[3:6])] == wanted), None)
+    wanted = tuple(round(from_si(size, "mm"), 6) for size in (bore, outer, width))
+    names = _by_size().get(wanted, ())
+    return next((found for found in map(bearing, names) if kind in (None, found.kind)), None)
+
+
+@cache
+def _by_size() -> dict[tuple[float, ...], tuple[str, ...]]:
+    """Designations by bore, outside diameter and inner ring width [mm]."""
+    names: dict[tuple[float, ...], list[str]] = {}
+    for row in csv_rows("bearings"):
+        names.setdefault(tuple(map(float, row[3:6])), []).append(row[0])
+    for name, entry in catalogue().items():
+        size = tuple(round(from_si(length, "mm"), 6) for length in (entry.bore, entry.outer, entry.inner_width))
+        if name not in names.setdefault(size, []):
+            names[size].append(name)
+    return {size: tuple(found) for size, found in names.items()}
 
 
 def next_size(designation: str, seat: Seat) -> Dimensions | None:
@@ -117,8 +147,8 @@ def next_size(designation: str, seat: Seat) -> Dimensions | None:
 
 
 def known_names() -> frozenset[str]:
-    """All names of the table, ISO's and GOST's."""
-    return frozenset(_known())
+    """All names of both tables, ISO's and GOST's."""
+    return frozenset(_known()) | frozenset(catalogue())
 
 
 @cache
@@ -133,8 +163,13 @@ def _dimensions(row: tuple[str, ...]) -> Dimensions:
     return Dimensions(iso, bearing_type, *(to_si(float(size), "mm") for size in sizes))
 
 
-Group = Literal["C2", "CN", "C3", "C4"]
-GROUPS: Final[tuple[Group, ...]] = ("C2", "CN", "C3", "C4")
+def _of_row(row: CatalogueBearing) -> Dimensions:
+    rings: BearingType = "tapered" if row.kind == "tapered" else "radial"
+    return Dimensions(row.designation, rings, *row[2:8])
+
+
+Group = Literal["C2", "CN", "C3", "C4", "C5"]
+GROUPS: Final[tuple[Group, ...]] = ("C2", "CN", "C3", "C4", "C5")
 """Clearance groups, from tight to loose."""
 
 
@@ -148,8 +183,8 @@ class ClearanceLimits(NamedTuple):
 def radial_clearance(group: str, bore: float) -> ClearanceLimits:
     """Radial internal clearance of a group for a bore [m], by the row of the table.
 
-    Range: deep groove ball bearings with cylindrical bore, over 2.5 up to 200 mm (RangeError); C2, CN, C3, C4
-    (InputError). Source: ISO 5753-1:2009; over 100 mm not held against a second print.
+    Range: deep groove ball bearings with cylindrical bore, over 2.5 up to 200 mm (RangeError); C2, CN, C3, C4,
+    C5 (InputError). Source: ISO 5753-1:2009; over 100 mm not held against a second print.
 
     >>> radial_clearance("CN", 0.017)
     ClearanceLimits(smallest=3e-06, largest=1.8e-05)
@@ -183,16 +218,21 @@ _TOKENS: Final = (
     (r"P([024-6])", "class"),
     (r"C[2-5]|CN", "group"),
     (r"2RS[HLR]?[12]?|2R[ZUK]|2Z[ER]?|ZZ[E]?|2NSE?|LLU|LLB|LLH|DDU?|VV|RS[HLR]?[12]?|RZ|Z", "closure"),
-    (r"E?TN[0-9]?H?|TVH|MA|M|JN|J2|J|Q|NR|N|W64|VT[0-9]+[A-Z]?|MT[0-9]+|GJN|WT|S[01]|E|P|Y", "other"),
+    (r"E(?=C[ABC])", "other"),
+    (r"EC[JMP]?[ALM]?|CC|W33|E[TW]|TVP[0-9]?|XL|QCL7C|C[ABC]|G[ABC]", "roller or pair"),
+    (r"E?TN[0-9]?H?|TVH|MA|M|JN|J2|J|Q|NR|N|W64|VT[0-9]+[A-Z]?|MT[0-9]+|GJN|WT|S[01]|E|P|X|R|Y", "other"),
 )
+PAIRS: Final = ("CA", "CB", "CC", "GA", "GB", "GC")
+"""Groups of axial clearance, then of preload, of universally matchable angular contact bearings."""
 _SEPARATORS: Final = " -/.,"
 # Shields and seals of GOST names: 60203, 80203 shields, 160203, 180203 seals.
 _GOST_CLOSED: Final = re.compile(r"(60|80|160|180)(\d{3})$")
-_ROLLERS: Final = re.compile(r"(NUP|NU|NJ|NF|N)(\d)(\d\d)")
+_LIKE_BALL: Final = re.compile(r"(NUP|NU|NJ|NF|N)(\d)(\d\d)")
 _TYPES: Final = (
-    (re.compile(r"(NUP|NU|NJ|NF|NN|N)\s*\d{3,4}"), "cylindrical roller bearings", "cylindrical"),
-    (re.compile(r"2[0-4][0-9]\d{2}"), "spherical roller bearings", "spherical"),
-    (re.compile(r"(N[AK]|HK|RNA)\s*\d+"), "needle roller bearings", "cylindrical"),
+    (re.compile(r"(NUP|NU|NJ|NF|NN|N)\s*\d{3,4}"), "cylindrical roller bearings of this number", "cylindrical"),
+    (re.compile(r"2[0-4][0-9]\d{2}"), "spherical roller bearings of this number", "spherical"),
+    (re.compile(r"(N[AK]|RNA)\s*\d+"), "needle roller bearings of this number", "needle"),
+    (re.compile(r"[HB]K\s*\d+"), "drawn-cup needle roller bearings of this number", "drawn-cup"),
 )
 
 
@@ -219,12 +259,14 @@ def read_designation(text: str) -> Designation:
         name = closed[2].lstrip("0")
     if name in known_names():
         return Designation(bearing(name), None, None)
-    _refuse_other_types(name, text)
+    if (row := _NU.match(name)) and catalogue_bearing(row[0]):
+        return Designation(bearing(row[0]), *_suffixes(name[row.end() :], text, row[0]))
     for written in (name, spaced):
         basic = max((prefix for prefix in known_names() if written.startswith(prefix)), key=len, default=None)
         if basic is not None and not written[len(basic)].isdigit():
             group, accuracy = _suffixes(written[len(basic) :], text, basic)
             return Designation(bearing(basic), group, accuracy)
+    _refuse_other_types(name, text)
     return Designation(bearing(text), None, None)  # refused there, with the nearest known
 
 
@@ -244,7 +286,7 @@ def _suffixes(rest: str, text: str, basic: str) -> tuple[str | None, str | None]
             accuracy, group = match[1], f"C{match[2]}"
         elif what == "class":
             accuracy = match[0].removeprefix("P")
-        elif what == "group":
+        elif what == "group" or (what == "roller or pair" and match[0] in PAIRS and basic[0] == "7"):
             group = match[0]
     return group, accuracy
 
@@ -255,14 +297,14 @@ def _refuse_other_types(name: str, text: str) -> None:
             raise InputError(
                 f"{what} are not in the table of bearings",
                 found=text,
-                allowed="deep groove and angular contact ball bearings (60 … 64, 72), tapered ones (302, 303, 322)",
+                allowed="ball bearings, NU, 222, 223, 302, 303, 322, NA, HK and the like up to usual sizes",
                 remedy=f'Give bore_mm, outer_mm, width_mm and bearing_type = "{kind}"{_like(name)}.',
             )
 
 
 def _like(name: str) -> str:
     """The sizes of the ball bearing of the same dimension series (ISO 15): NU 208 is as wide as 6208."""
-    rollers = _ROLLERS.match(name)
+    rollers = _LIKE_BALL.match(name)
     size = f"6{rollers[2]}{rollers[3]}" if rollers else ""
     if size not in known_names() or not rollers or rollers[2] not in "0234":
         return ""

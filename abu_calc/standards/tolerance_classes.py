@@ -1,6 +1,6 @@
 """Limits of size (ISO 286-2 for shafts and housings, ISO 492 for bearing rings) and makers' tolerance classes.
 
-A bearing maker's catalogue recommends the classes of shafts and housings; it also gives basic load ratings.
+A bearing maker's catalogue recommends the classes of shafts and housings.
 """
 
 from functools import cache, lru_cache
@@ -9,6 +9,7 @@ from typing import Final, Literal, NamedTuple
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.foundation.validity import Range
+from abu_calc.standards.catalogue import KINDS, Kind
 from abu_calc.standards.tables import csv_rows, unknown
 
 Seat = Literal["shaft", "housing"]
@@ -17,7 +18,7 @@ BearingType = Literal["radial", "tapered"]
 _Row = tuple[float, float, float, float]
 
 _FILES = {"shaft": "iso286_shafts", "housing": "iso286_holes"}
-_SIZES = Range("size", 3.0, 500.0, "mm", remedy="The tables hold ISO 286-2 from 3 to 500 mm.")
+_SIZES = Range("size", 0.6, 500.0, "mm", remedy="The tables hold ISO 286-2 from 0.6 to 500 mm.")
 
 
 class DeviationLimits(NamedTuple):
@@ -51,7 +52,7 @@ def tolerance_classes(seat: Seat) -> tuple[str, ...]:
 def part_limits(seat: Seat, tolerance_class: str, size: float) -> DeviationLimits:
     """Limit deviations of a shaft or housing of nominal size [m], by the row of the standard's table.
 
-    Range: 3 … 500 mm (RangeError); a tabulated class (InputError). Source: ISO 286-2:2010.
+    Range: 0.6 … 500 mm (RangeError); a tabulated class (InputError). Source: ISO 286-2:2010.
 
     >>> part_limits("shaft", "k6", 0.080)
     DeviationLimits(lower=2e-06, upper=2.1e-05)
@@ -68,7 +69,7 @@ def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size:
 
     Range: the rows of the table, which are fewer for the finer classes (RangeError); a tabulated class (InputError): 0
     (Normal), 6, 5, 4, 2, for tapered bearings also 6X. Tapered 6 is GOST's class, not ISO's.
-    Source: ISO 492:2014, GOST 520-2011.
+    Source: ISO 492:2014, GOST 520-2011. The edition of 2023 could not be read; no row is verified against it.
 
     >>> ring_limits("radial", "outer", "0", 0.140)
     DeviationLimits(lower=-1.8e-05, upper=0.0)
@@ -115,8 +116,6 @@ def _look_up(rows: list[_Row], size: float, what: str, remedy: str) -> Deviation
     )
 
 
-Kind = Literal["ball", "angular-contact", "cylindrical", "tapered", "spherical"]
-KINDS: Final[tuple[Kind, ...]] = ("ball", "angular-contact", "cylindrical", "tapered", "spherical")
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
 
 SOURCE: Final = "SKF General Catalogue 2006"
@@ -125,13 +124,8 @@ NORMAL_RATIO: Final = 0.08
 
 _FINE: Final = frozenset({"5", "4", "2"})
 _FOR_SPLIT: Final = ("G", "H", "JS", "J")
-
-
-class Ratings(NamedTuple):
-    """Basic dynamic and static load rating [N]."""
-
-    dynamic: float
-    static: float
+_ANY: Final = tuple(kind for kind in KINDS if kind != "drawn-cup")
+"""Types that the rows for any type mean: a drawn-cup bearing has no inner ring."""
 
 
 class MakerFits(NamedTuple):
@@ -150,48 +144,57 @@ class _MakerRow(NamedTuple):
     found: MakerFits
 
 
-def load_ratings(designation: str) -> Ratings | None:
-    """Ratings of a bearing by its ISO designation; None where they are not known.
-
-    Source: SKF General Catalogue, 2006. Other makers' differ by some per cent.
-
-    >>> load_ratings("6203")
-    Ratings(dynamic=9950.0, static=4750.0)
-    """
-    return _ratings().get(designation)
-
-
 def maker_fits(
-    seat: Seat, kind: Kind, load: RingLoad, ratio: float, diameter: float, bearing_class: str, split: bool = False
+    seat: Seat,
+    kind: Kind,
+    load: RingLoad,
+    ratio: float,
+    diameter: float,
+    bearing_class: str,
+    split: bool = False,
+    thin: bool = False,
 ) -> MakerFits | None:
     """The classes of a seat by type, kind of load, load ratio P/C and diameter [m]; None where the table has none.
 
     A shaft under an indeterminate load is as under a rotating one. `bearing_class`: 5, 4 and 2 have rows of their own.
-    `split`: classes tighter than J pinch the ring of a split housing and are left out.
-    Source: SKF General Catalogue, 2006; range: solid steel shafts and cast iron or steel housings up to 500 mm.
+    `split`: classes tighter than J pinch the ring of a split housing and are left out. `thin`: a thin-walled or
+    light-alloy housing takes the tighter class that the row names for it.
+    Source: SKF General Catalogue, 2006 (drawn-cup bearings: NTN); range: P up to C/2, solid steel shafts and cast iron
+    or steel housings up to 500 mm.
 
     >>> maker_fits("shaft", "ball", "rotating", 0.08, 0.025, "0").classes
     ('k5',)
+    >>> maker_fits("housing", "ball", "rotating", 0.08, 0.052, "0", thin=True).classes[0]
+    'P7'
     """
     size = round(from_si(diameter, "mm"), 6)
-    ball: Kind = "ball" if kind == "angular-contact" else kind
     asked: RingLoad = "rotating" if seat == "shaft" and load == "indeterminate" else load
-    accuracy = "fine" if bearing_class in _FINE else "normal"
-    for row in _maker_rows().get((seat, accuracy, ball, asked), ()):
-        if row.over < size <= row.to_mm and (row.above < ratio <= row.to or ratio <= row.above == 0):
-            return _for_split(row.found) if split else row.found
+    accuracy = "fine" if bearing_class in _FINE and kind != "drawn-cup" else "normal"
+    for like in _same_rows(kind):
+        for row in _maker_rows().get((seat, accuracy, like, asked), ()):
+            if row.over < size <= row.to_mm and (row.above < ratio <= row.to or ratio <= row.above == 0):
+                fits = _for_thin(row.found) if thin and (load != "stationary" or kind == "drawn-cup") else row.found
+                return _for_split(fits) if split else fits
     return None
+
+
+def _same_rows(kind: Kind) -> tuple[Kind, ...]:
+    """The type, then the one whose rows hold for it, too."""
+    if kind == "angular-contact":
+        return kind, "ball"
+    return (kind, "cylindrical") if kind == "needle" else (kind,)
+
+
+def _for_thin(fits: MakerFits) -> MakerFits:
+    """The tighter classes first: the letters of holes ascend as they get tighter."""
+    tighter = tuple(name for name in fits.special if name[0] > fits.classes[0][0])
+    rest = tuple(name for name in fits.special if name not in tighter)
+    return MakerFits((*tighter, *fits.classes), rest, fits.note)
 
 
 def _for_split(fits: MakerFits) -> MakerFits | None:
     kept = [name for name in (*fits.classes, *fits.special) if name.rstrip("0123456789") in _FOR_SPLIT]
     return MakerFits(tuple(kept), (), fits.note) if kept else None
-
-
-@cache
-def _ratings() -> dict[str, Ratings]:
-    rows = csv_rows("load_ratings")
-    return {name: Ratings(to_si(float(C), "kN"), to_si(float(C0), "kN")) for name, C, C0 in rows}
 
 
 @cache
@@ -202,6 +205,6 @@ def _maker_rows() -> dict[tuple[str, str, str, str], list[_MakerRow]]:
         at_hand, _, special = classes.partition("|")
         names = tuple(at_hand.split("/")), tuple(filter(None, special.split("/")))
         row = _MakerRow(above, to, over, to_mm, MakerFits(*names, note))
-        for bearing_kind in KINDS if kind == "any" else (kind,):
+        for bearing_kind in _ANY if kind == "any" else (kind,):
             rows_by_key.setdefault((seat, accuracy, bearing_kind, load), []).append(row)
     return rows_by_key

@@ -40,11 +40,16 @@ class Octave:
 
 @dataclass(frozen=True)
 class ThirdOctave:
-    """A third octave about its `centre` [rad/s] and its factor W_h; `nominal`: the centre as printed [Hz]."""
+    """A third octave from `low` up to, not including, `high` about its `centre` [rad/s], and its factor W_h.
+
+    `nominal`: the centre as printed [Hz].
+    """
 
     nominal: float
     centre: float
     weight: float
+    low: float
+    high: float
 
 
 @cache
@@ -92,9 +97,20 @@ def corrected_limit() -> Limit:
 
 @cache
 def third_octaves() -> tuple[ThirdOctave, ...]:
-    """The third octaves 6.3 … 1250 Hz with W_h, centres 10^(n/10) Hz. Source: ISO 5349-1:2001, table A.2."""
-    rows = toml_table("hand_arm_weighting")["bands"]
-    return tuple(ThirdOctave(nominal, to_si(10 ** (n / 10), "hz"), weight) for nominal, n, weight in rows)
+    """The third octaves 6.3 … 1250 Hz with W_h: three to each octave.
+
+    Sources: IEC 61260-1:2014 (centres 10^(n/10) Hz, edges a factor 10^(1/20) away), ISO 5349-1:2001, table A.2 (W_h).
+
+    >>> band = third_octaves()[12]
+    >>> band.nominal, round(from_si(band.low, "hz"), 2), round(from_si(band.high, "hz"), 2)
+    (100, 89.13, 112.2)
+    """
+    half = toml_table("octave_bands")["ratio"] ** (1 / 6)
+    bands = []
+    for nominal, n, weight in toml_table("hand_arm_weighting")["bands"]:
+        centre = to_si(10 ** (n / 10), "hz")
+        bands.append(ThirdOctave(nominal, centre, weight, centre / half, centre * half))
+    return tuple(bands)
 
 
 @formula(

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from abu_calc.formulas.balls import capacity, half_angle
+from abu_calc.formulas.rigid_body import Inertia, RigidBody
 from abu_calc.formulas.suspension import Hands, dynamic_stiffness, natural_frequency
 from abu_calc.sizing.case import RigidMachine
 from abu_calc.sizing.housing import groove_radius
@@ -14,7 +15,7 @@ from abu_calc.standards.balls import vickers
 from abu_calc.standards.vibration import hand
 
 OMEGA = 5800 * math.pi / 30
-RIGID = RigidMachine(6.4, 1 / 0.10, 0.20)
+RIGID = RigidMachine(RigidBody(6.4, Inertia(0.10, 0.10, 0.10)), (0.0, 0.0, 0.20))
 
 
 def test_effective_mass_of_the_rigid_body() -> None:
@@ -22,8 +23,8 @@ def test_effective_mass_of_the_rigid_body() -> None:
 
 
 def test_body_gives_these_inertances() -> None:
-    assert RIGID.inertance(0.1, 0.2) == pytest.approx(1 / 6.4 + 0.2)
-    assert RIGID.inertance(-0.2, 0.2) == pytest.approx(1 / 6.4 - 0.4)
+    assert RIGID.inertance((0, 0, 0.1), RIGID.wheel) == pytest.approx(1 / 6.4 + 0.2)
+    assert RIGID.inertance((0, 0, -0.2), RIGID.wheel) == pytest.approx(1 / 6.4 - 0.4)
 
 
 def test_forces_and_stresses_of_the_straight_grinder() -> None:

@@ -14,7 +14,7 @@ from types import SimpleNamespace
 import pytest
 
 from abu_calc.cli import app
-from abu_calc.features.sweep.sample_run import Overtime, limited
+from abu_calc.features.sweep.time_limit import Overtime, limited
 from abu_calc.foundation import interruption
 from abu_calc.foundation.interruption import EndedBySignal, heed_signals, leave_signals, raise_pending, status_of
 from tests.cli.runner import abu

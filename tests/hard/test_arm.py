@@ -9,6 +9,7 @@ import pytest
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.dynamics.supports.swing_arm import cutting_arm
+from abu_calc.formulas.swing_arm import Arm
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation.simulate import simulate
 from tests.cli.runner import abu
@@ -66,7 +67,7 @@ def test_the_damping_that_parametric_resonance_needs(share: float) -> None:
 
 def pushed_away() -> Scene:
     """f = 0.45, R/l = 0.33 at 0.144 rad: g = −0.022, a joint of c_n/60 is too soft by a quarter."""
-    arm = cutting_arm(0.35, 0.62, 1e5 / 60, 40.0, 1e5, 0.45, 0.144, 0.0, 0.0, 0.33 * 0.35)
+    arm = cutting_arm(Arm(0.35, 0.62, 1e5 / 60, 40.0, 1e5, 0.45, 0.33 * 0.35, 0.144))
     assert -600 < arm.stiffness < -500
     return scene_of(arm, 300.0, 1e-5, (), 1.4)
 

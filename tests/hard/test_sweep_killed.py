@@ -17,7 +17,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep.batches import ENDED, Row, given, in_batches
-from abu_calc.features.sweep.sample_run import limited
+from abu_calc.features.sweep.time_limit import limited
 
 RUNS = 60
 SWEEP = [sys.executable, "-m", "abu_calc", "sweep", "avtovaz-707-222", "--tolerances", "--runs", str(RUNS), "--quiet"]

@@ -32,6 +32,7 @@ FEATURES = (
     "effects",
     "simulate",
     "levels",
+    "declare",
     "balancing",
     "compare",
     "factory",

@@ -173,6 +173,17 @@ FULL: dict[str, dict[str, str]] = {
         "seat_friction": "0.12",
         "asked_interference_um": "[10.0, 28.0]",
     },
+    "[[measured]]": {
+        "place": '"front"',
+        "axis": '"y"',
+        "state": '"idle"',
+        "octave_hz": "125.0",
+        "level_db": "[102.0, 103.0]",
+        "level_without_db": "[108.0, 111.0]",
+        "lowered_db": "[6.0, 10.0]",
+        "source": '"own measurement"',
+        "remark": '"Two sensors."',
+    },
     "[limits]": {"vibration_level_db": "109.0", "settling_time_s": "1.0"},
 }
 

@@ -183,14 +183,14 @@ def test_a_voltage_is_turned_into_motion_by_its_own_sensitivity(tmp_path: Path) 
     assert found.quantity == "acceleration" and found.axes_by_handle == {"front": (0, 1, 2), "rear": (3, 4, 5)}
     tops = [float(np.abs(values).max()) for values in found.samples]
     assert tops == pytest.approx([0.3, 0.3, 0.9, 1.2, 1.5, 0.18 * 9.80665], rel=1e-6)
-    assert sum("sensitivity" in remark for remark in found.told) == 6
+    assert "Sensitivity 10 mV per m/s²: front_ax_mV, front_az_mV, rear_ax_mV, rear_ay_mV." in found.told
     velocity = read_recording(written(tmp_path, table("t_s,x [V]")), sensitivity="20 mV/(mm/s)")
     assert velocity.quantity == "velocity" and largest(velocity) == pytest.approx(0.150, rel=1e-6)
 
 
 @pytest.mark.parametrize(("head", "asked", "key", "word"), [
-    ("t_s,ax_mV", {}, "ax_mV", "no sensitivity"), ("t_s,a [V]", {}, "a [V]", "no sensitivity"),
-    ("t_s,ax_mV", {"sensitivity": "ay_mV=10"}, "ax_mV", "no sensitivity"),
+    ("t_s,ax_mV", {}, "ax_mV", "without the sensitivity"), ("t_s,a [V]", {}, "a [V]", "without the sensitivity"),
+    ("t_s,ax_mV", {"sensitivity": "ay_mV=10"}, "ax_mV", "without the sensitivity"),
     ("t_s,ax_mV", {"sensitivity": [10.0, "ay_mV=10"]}, "sensitivity", "without use"),
     ("t_s,ax_m_per_s2", {"sensitivity": 10.0}, "sensitivity", "without use"),
     ("t_s,ax_m_per_s2", {"sensitivity": "1=10"}, "ax_m_per_s2", "not in V or mV"),

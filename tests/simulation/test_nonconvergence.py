@@ -9,7 +9,7 @@ from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.simulation.nonconvergence import MOVED, _moved, unreached
+from abu_calc.simulation.nonconvergence import MOVED, FinestRuns, _moved, unreached
 from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.simulate import simulate
 from tests.dynamics.scenes import dimensionless
@@ -28,7 +28,7 @@ def reason(scene, accuracy, apart, changes=({}, {})):
     choice = choose(equations, "scipy", TOLERANCE)
     response = evaluate(scene, choice.integrate(equations, TOLERANCE, needed_times(scene), MOST))
     runs = tuple(replace(response, **change) for change in changes)
-    return str(unreached(scene, accuracy, apart, runs, choice, TOLERANCE, MOST))
+    return str(unreached(scene, accuracy, FinestRuns(*runs, apart, choice, TOLERANCE), MOST))
 
 
 def test_chaos_is_called_so():

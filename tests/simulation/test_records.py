@@ -8,7 +8,6 @@ import pytest
 import abu_calc
 from abu_calc.cli import command as scene_options
 from abu_calc.dynamics.effects.registry import REGISTRY
-from abu_calc.features.accuracy import price_list as measuring
 from abu_calc.features.accuracy import study as accuracy_module
 from abu_calc.features.effects.study import known_effects
 from abu_calc.features.stability import command as cli_stability
@@ -65,15 +64,15 @@ def test_stability_and_effects_return_what_their_commands_print(file: Path) -> N
 def test_accuracy_returns_what_the_command_prints(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One measurement for both, a short one: what is quickest is the clock's."""
     file.write_text(SCENE.replace("700.0", "20.0"), encoding="utf-8")
-    monkeypatch.setattr(measuring, "TOLERANCES", (1e-4,))
-    monkeypatch.setattr(measuring, "REPEATS", 1)
-    once, found = accuracy_module.measured, []
+    monkeypatch.setattr(accuracy_module, "TOLERANCES", (1e-4,))
+    monkeypatch.setattr(accuracy_module, "REPEATS", 1)
+    once, found = accuracy_module.price_list, []
 
     def measured(*given):
         found.extend([] if found else [once(*given)])
         return found[0]
 
-    monkeypatch.setattr(accuracy_module, "measured", measured)
+    monkeypatch.setattr(accuracy_module, "price_list", measured)
     result = abu_calc.accuracy(abu_calc.read_scene(file), quantity="level", accuracy=0.02, budget_s=60)
     same(result, "accuracy", str(file), "--quantity", "level", "--accuracy", "0.02", "--budget", "60")
     assert result.points and result.chosen is not None

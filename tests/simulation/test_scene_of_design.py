@@ -13,7 +13,7 @@ from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.scipy_solvers import integrate
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.supports.receptance import receptance
+from abu_calc.dynamics.supports.steady_motion import receptance
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.formulas.suspension import dynamic_stiffness

@@ -10,7 +10,7 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
 from abu_calc.dynamics.supports.planar import PlanarSupport
-from abu_calc.dynamics.supports.receptance import receptance, unbalanced_amplitude
+from abu_calc.dynamics.supports.steady_motion import receptance, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation import simulate as simulate_module

@@ -17,14 +17,14 @@ V = 5e-8 * 10 ** (111 / 20)
 
 
 def weight(w: float) -> float:
-    """|W_h| by the equations of ISO 5349-1, annex A, written as a product of magnitudes."""
+    """|W_h| by the equations of ISO 5349-1, annex A, as a product of magnitudes; Q of the band limits is 1/√2."""
     f = w / (2 * math.pi)
 
     def second(corner: float, q: float) -> float:
         return math.hypot(1 - (f / corner) ** 2, f / corner / q)
 
-    low = (f / 6.31) ** 2 / second(6.31, 0.71)
-    high = 1 / second(1258.9, 0.71)
+    low = (f / 6.31) ** 2 / second(6.31, 0.5**0.5)
+    high = 1 / second(1258.9, 0.5**0.5)
     return low * high * math.hypot(1, f / 15.915) / second(15.915, 0.64)
 
 

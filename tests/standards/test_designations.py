@@ -16,6 +16,10 @@ from abu_calc.standards.bearing_catalogue import read_designation
         ("6203.2ZR.C4", "6203", "C4", None), ("608-2RSH", "608", None, None), ("180203", "6203", None, None),
         ("80203", "6203", None, None), ("203", "6203", None, None), ("7206 BEP", "7206B", None, None),
         ("32216 J2/Q", "32216", None, None), ("6205 llu", "6205", None, None), ("6203 CN", "6203", "CN", None),
+        ("NU 208 ECP", "NU208", None, None), ("NJ2310/C3", "NJ2310", "C3", None), ("22216 E", "22216", None, None),
+        ("22220 CC/W33 C3", "22220", "C3", None), ("HK 1010", "HK1010", None, None), ("6312 C5", "6312", "C5", None),
+        ("7208 BECBP", "7208B", "CB", None), ("7210 BEGAP", "7210B", "GA", None), ("7005C/P4", "7005C", None, "4"),
+        ("32008 X/Q", "32008", None, None), ("61805-2Z", "61805", None, None), ("NA4905", "NA4905", None, None),
     ],
 )  # fmt: skip
 def test_suffixes_are_read(text, name, group, accuracy):
@@ -26,8 +30,9 @@ def test_suffixes_are_read(text, name, group, accuracy):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("NU 208", "cylindrical roller bearings.*40 × 80 × 18 mm, as 6208"), ("NJ2310", "cylindrical roller"),
-        ("22216", "spherical roller bearings"), ("6203-FOO", "suffix FOO"), ("62033", "unknown bearing designation"),
+        ("NN 3008", "cylindrical roller bearings"), ("NU 4908", "cylindrical roller"),
+        ("24140", "spherical roller bearings"), ("HK9999", "drawn-cup"),
+        ("6203-FOO", "suffix FOO"), ("62033", "unknown bearing designation"),
         ("7216", "two meanings"), ("6203 C3 QQQ8", "suffix 8"), ("", "unknown bearing designation"),
         ("6203-P7", "suffix P7|suffix 7"),
     ],

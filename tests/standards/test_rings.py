@@ -101,8 +101,8 @@ def test_tapered_bearings_share_rows(name, ring):
 
 @pytest.mark.parametrize(
     ("kind", "ring", "name", "size"),
-    [("radial", "inner", "0", 2.5), ("radial", "inner", "0", 500.001), ("radial", "inner", "2", 250.001),
-     ("radial", "outer", "0", 6), ("radial", "outer", "4", 400.001), ("tapered", "inner", "4", 10),
+    [("radial", "inner", "0", 0.6), ("radial", "inner", "0", 500.001), ("radial", "inner", "2", 250.001),
+     ("radial", "outer", "0", 2.5), ("radial", "outer", "4", 400.001), ("tapered", "inner", "4", 10),
      ("tapered", "inner", "4", 315.001), ("tapered", "outer", "2", 18), ("tapered", "outer", "0", float("nan"))],
 )  # fmt: skip
 def test_rings_outside_the_table_are_refused(kind, ring, name, size):

@@ -250,6 +250,7 @@ def whirl(scene: Scene, theta: Array, rate: Array) -> tuple[Complex, Complex]:
     answer, slope = support.answer(W)
 
     def by(unbalances: Complex, answers: Complex) -> Complex:
+        """Answer of the support to unbalances in both planes, as a phasor."""
         forces = (unbalances[:, None] * TURNED[:, None]).reshape(4, -1)[: answers.shape[1]]
         return np.asarray(answers @ forces, dtype=complex)
 

@@ -24,7 +24,7 @@ from abu_calc.dynamics.effect import ACROSS_RATE, Effect, EffectInfluence, Kind,
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.scene_context import Circumstances, Holding
-from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.stick_slip import CROSSES, HOLD, SLOW, Rolling, decided, forces
 from abu_calc.dynamics.trajectory import Samples, at_samples, merged
 from abu_calc.formulas.friction_band import friction_band
@@ -156,6 +156,7 @@ class DryRollingFrictionEffect(Effect):
         sigma = np.sign(y[first : first + p.balls])
 
         def outward(t: Any, y: Any, direction: Any) -> Any:
+            """Normal force on each ball over m R_p Ω²; negative where the race does not hold it."""
             mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
             acting = equations.in_mode((*modes[:index], mode, *modes[index + 1 :]))
             _, _, solved = equations.accelerations(np, t, y, acting)

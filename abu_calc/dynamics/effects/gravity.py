@@ -18,7 +18,7 @@ from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.scene_context import Circumstances
-from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass

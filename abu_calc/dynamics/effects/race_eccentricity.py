@@ -16,7 +16,7 @@ from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.scene_context import Circumstances
-from abu_calc.dynamics.supports.receptance import weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import weighing_amplitude
 from abu_calc.foundation.frozen import dataclass
 
 

@@ -39,7 +39,7 @@ from abu_calc.dynamics.motion import Across, AnyArray, Axial, Levers, Loads, Mot
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene_context import Circumstances
-from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weighing_amplitude
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range

@@ -72,6 +72,7 @@ def _with_rotor(frame: Frame, inertia: float) -> Frame:
         raise InputError("the rotor has more inertia than the arm that carries it", found=f"{inertia:g} kg m²")
 
     def longer(rows: AnyArray | None) -> AnyArray | None:
+        """The rows, and one of zeros."""
         return None if rows is None else np.concatenate([rows, np.zeros((1, *rows.shape[1:]))])
 
     return replace(
@@ -214,6 +215,7 @@ def jacobians(equations: Equations, times: Array, states: Array, modes: tuple[An
     moved = states.T[:, :, None] + 1j * STEP * np.eye(size)[:, None, :]
 
     def rates(t: Any, y: Any) -> Any:
+        """y' in these modes."""
         return equations.rhs(np, t, y, acting)
 
     every = np.repeat(times, size), moved.reshape(size, -1)

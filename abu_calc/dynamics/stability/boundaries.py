@@ -153,6 +153,7 @@ def crossings_of(
     motion: LinearMotion = two_modes(least_stable) or least_stable
 
     def growing(speed: float) -> int:
+        """Number of disturbances that grow by more than a margin at a speed [rad/s]."""
         return motion.growing(speed, MARGIN * speed)
 
     exact = solvable(motion)
@@ -297,6 +298,7 @@ def _excess_of_scene(
     if moves:
 
         def excess(speed: float) -> float:
+            """The same about the rest that belongs to this speed."""
             there = judged(at_speed(scene, speed), half_angle, arrangement)[1]
             return excess_of(there, speed) if there else 1.0
 
@@ -340,6 +342,7 @@ def limits_of(
     """The same of motions about a still axis that must all be stable."""
 
     def excess(speed: float) -> float:
+        """The largest growth rate per radian beyond the margin, at a speed [rad/s]."""
         return excess_of(motions, speed)
 
     if all(solvable(motion) for motion in motions):

@@ -178,6 +178,7 @@ class BalancedMotion:
         parts, orders = np.concatenate([terms.real, -terms.imag[1:]]), np.arange(len(terms))
 
         def matrices(phases: Array) -> Array:
+            """A of z' = A z [1/rad] at phases of the turn [rad], stacked."""
             turned = phases[:, None] * orders
             waves = np.concatenate([np.cos(turned), np.sin(turned[:, 1:])], axis=1)
             return np.asarray(np.einsum("tk,kij->tij", waves, parts), dtype=float)

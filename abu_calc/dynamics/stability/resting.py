@@ -18,7 +18,7 @@ from abu_calc.dynamics.equations.assemble import assemble, jacobian
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.stability.linearised import QUARTER
 from abu_calc.dynamics.support import Support
-from abu_calc.dynamics.supports.receptance import receptance
+from abu_calc.dynamics.supports.steady_motion import receptance
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.roots import root
@@ -227,9 +227,11 @@ def _polygon(sides: list[float]) -> list[float] | None:
     others = sides[:top] + sides[top + 1 :]
 
     def inside(x: float) -> float:
+        """Σ asin(aᵢx) − π: zero if the polygon holds the centre of its circle of diameter 1/x."""
         return sum(math.asin(side * x) for side in sides) - math.pi
 
     def outside(x: float) -> float:
+        """Σ asin(aᵢx) − asin x over the other sides: zero if the centre lies beyond the longest side."""
         return sum(math.asin(side * x) for side in others) - math.asin(x)
 
     if inside(1.0) >= 0:

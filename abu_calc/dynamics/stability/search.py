@@ -193,6 +193,7 @@ class Search:
         scene = at_speed(self.listed[0].scene, speed)
 
         def growth(angles: Array) -> float:
+            """Growth rate [1/s] of balls at these angles [rad]."""
             return decided(replace(self.listed[0], scene=scene, angles=tuple(angles.tolist())), speed)[1]
 
         listed = [np.array(motion.angles) for motion in self.listed]

@@ -126,6 +126,7 @@ class TwoModes:
         orders = 2j * np.arange(len(terms))
 
         def matrices(phases: Array) -> Array:
+            """A of z' = A z [1/rad] at phases of the turn [rad], stacked."""
             return np.asarray(np.einsum("tk,kij->tij", np.exp(phases[:, None] * orders), terms).real / x, dtype=float)
 
         # Seen from the rotor, half a turn later all is the same.

@@ -178,7 +178,7 @@ class SwingArmSupport(Support):
     def standing_arm(self, balls: Balls) -> Arm:
         """Arm with its whole stiffness, that of the workpiece included, as the pivot's."""
         arm = self.holding(balls)
-        return Arm(arm.length, arm.inertia, arm.stiffness, arm.damping, *(0.0,) * 6)
+        return Arm(arm.length, arm.inertia, arm.stiffness, arm.damping)
 
     def not_averaged(self, position: Sequence[float], velocity: Sequence[float]) -> str | None:
         """About any other place its motion is not the small one."""
@@ -227,30 +227,18 @@ class SwingArmSupport(Support):
         }
 
 
-def idle_arm(length: float, inertia: float, joint_stiffness: float, joint_damping: float) -> SwingArmSupport:
+def idle_arm(arm: Arm) -> SwingArmSupport:
     """J_O φ'' + h_sh l² φ' + c_sh l² φ = what rotor and balls do; the arm rests at φ = 0.
 
-    Length l [m], J_O [kg m²] without balls, stiffness [N/m] and damping [N·s/m] of the joint reduced to l. Source:
-    Kovalenko 2010, (2). Raises RangeError.
+    J_O [kg m²] is that of the arm without balls. Source: Kovalenko 2010, (2). Raises RangeError.
 
-    >>> idle_arm(0.35, 0.62, 2000.0, 40.0).torque
+    >>> idle_arm(Arm(0.35, 0.62, 2000.0, 40.0)).torque
     0.0
     """
-    return SwingArmSupport(length, inertia, joint_stiffness, joint_damping)
+    return SwingArmSupport(arm.length, arm.inertia, arm.joint_stiffness, arm.joint_damping)
 
 
-def cutting_arm(
-    length: float,
-    inertia: float,
-    joint_stiffness: float,
-    joint_damping: float,
-    contact_stiffness: float,
-    cutting_coefficient: float,
-    contact_angle: float,
-    touch_angle: float,
-    pressing_moment: float,
-    wheel_radius: float,
-) -> SwingArmSupport:
+def cutting_arm(arm: Arm) -> SwingArmSupport:
     """The arm while the disk cuts, pressed to the work by N = c_n l (φ − φ₀) sin Z, dragged by T = f N.
 
         c^(p) = c_sh + c_n g(Z),    torque = M_p + c_n l² g(Z) φ₀,    g(Z) = sin Z (sin Z + f (R/l − cos Z))
@@ -260,18 +248,18 @@ def cutting_arm(
     contact point that never parts. φ is the arm's own angle: it rests at its `resting_position`. Raises RangeError.
     Source: Kovalenko 2010, (3). Printed: the text measures Z to the tangent; (3) holds for the normal.
 
-    >>> arm = cutting_arm(0.35, 0.62, 2000.0, 40.0, 1e6, 0.0, math.pi / 2, 0.02, 20.0, 0.115)
+    >>> arm = cutting_arm(Arm(0.35, 0.62, 2000.0, 40.0, 1e6, 0.0, 0.115, math.pi / 2, 0.02, 20.0))
     >>> arm.stiffness, round(arm.torque, 9)
     (1002000.0, 2470.0)
     """
-    CONTACT_STIFFNESS.check(contact_stiffness)
-    ratio = WHEEL_RADIUS.check(wheel_radius) / ARM_LENGTH.check(length)
-    gain = contact_gain(CONTACT_ANGLE.check(contact_angle), FRICTION.check(cutting_coefficient), ratio)
-    felt = contact_stiffness * gain
+    CONTACT_STIFFNESS.check(arm.contact_stiffness)
+    ratio = WHEEL_RADIUS.check(arm.disk_radius) / ARM_LENGTH.check(arm.length)
+    gain = contact_gain(CONTACT_ANGLE.check(arm.contact_angle), FRICTION.check(arm.friction), ratio)
+    felt = arm.contact_stiffness * gain
     return SwingArmSupport(
-        length=length,
-        inertia=inertia,
-        stiffness=joint_stiffness + felt,
-        damping=joint_damping,
-        torque=pressing_moment + felt * length**2 * touch_angle,
+        length=arm.length,
+        inertia=arm.inertia,
+        stiffness=arm.joint_stiffness + felt,
+        damping=arm.joint_damping,
+        torque=arm.pressing_moment + felt * arm.length**2 * arm.touch_angle,
     )

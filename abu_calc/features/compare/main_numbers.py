@@ -83,6 +83,7 @@ def _settling(result: CompareResult, designs: Designs) -> list[_Line]:
         return []
 
     def line(label: str, values: Sequence[float | None]) -> _Line:
+        """A line of times [s]; “–” for a design without simulated start cases."""
         return _Line(label, tuple(_time(value) if simulated[k] else "–" for k, value in enumerate(values)))
 
     given = [_slowest_as_given(designs, k) for k in machines]

@@ -116,6 +116,7 @@ def _checks(result: CompareResult) -> tuple[ComparisonTable, int]:
                           for row in result.differences if row.part == "check")  # fmt: skip
 
     def rank(name: str) -> tuple[bool, int]:
+        """Checks whose grades differ first, then the worst grade first."""
         grades = [check and check.status for check in checks_named(result, name)]
         return len(set(grades)) == 1, min((RANK.index(grade) for grade in grades if grade in RANK), default=len(RANK))
 

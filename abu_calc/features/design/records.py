@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.features.design.region import TrueRegion
 from abu_calc.features.design.section import section
-from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
+from abu_calc.features.grinding.lower_bound import LevelBound
+from abu_calc.features.grinding.outcomes import LoadedStarts
+from abu_calc.formulas.body_estimate import estimate_source
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
-from abu_calc.simulation.vibration_records import HandleLevels
+from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import WHEEL_PLANE
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import (
     BORE,
@@ -27,10 +30,11 @@ from abu_calc.sizing.drawing_requirements import (
     ROUGHNESS,
     bore_limits,
 )
+from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
-from abu_calc.sizing.vibration import VibrationLevels as Levelled
 
 if TYPE_CHECKING:
     from abu_calc.features.design.section import TurnedPart
@@ -167,6 +171,53 @@ def _um(length: float) -> float | None:
 
 
 @record
+class BodyRecord(Record):
+    """The body that levels and sizing take.
+
+    `kind`: a point mass, a rigid body along its spindle, or one in space. `estimated`: its inertia is estimated, and
+    the bands [low, high] are those that 95 % of such machines lie in. Inertia is null for a point mass.
+    """
+
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"estimate", "effective_mass_band_kg", "imbalance_band_g_mm", "rotor_polar_inertia_kg_m2"}
+    )
+
+    kind: Annotated[str, Quantity("body")]
+    estimated: Annotated[bool, Quantity("inertia estimated")]
+    center_of_mass_from_wheel_mm: Annotated[
+        tuple[float, float, float] | None, Quantity("wheel to centre of mass", "x, y, z")
+    ]
+    inertia_kg_m2: Annotated[tuple[float, float, float] | None, Quantity("inertia", "J_x, J_y, J_z", 3)]
+    inertia_xz_kg_m2: Annotated[float | None, Quantity("product of inertia", "J_xz", 3)]
+    rotor_polar_inertia_kg_m2: Annotated[float | None, Quantity("polar inertia of the rotor", "J_p", 3)]
+    effective_mass_band_kg: Annotated[tuple[float, float] | None, Quantity("band of the effective mass", "", 3)]
+    imbalance_band_g_mm: Annotated[tuple[float, float] | None, Quantity("band of the imbalance", "", 3)]
+    estimate: Annotated[str | None, Quantity("estimate by")]
+
+    @classmethod
+    def of(cls, design: Design) -> Self:
+        """Record of a design."""
+        body, bands = design.case.body, design.bands
+        inertia, (x, y, z) = body.body.inertia, body.wheel
+        return cls(
+            kind="point mass" if inertia is None else "in space" if body.in_space else "along the spindle",
+            estimated=body.estimate is not None,
+            center_of_mass_from_wheel_mm=None if inertia is None else position_mm((-x, -y, -z)),
+            inertia_kg_m2=None if inertia is None else (inertia.xx, inertia.yy, inertia.zz),
+            inertia_xz_kg_m2=None if inertia is None else inertia.xz,
+            rotor_polar_inertia_kg_m2=body.body.rotor_polar_inertia or None,
+            effective_mass_band_kg=None if bands is None else bands.effective_mass,
+            imbalance_band_g_mm=None if bands is None else _g_mm(bands.imbalance),
+            estimate=None if body.estimate is None else estimate_source(),
+        )
+
+
+def _g_mm(band: tuple[float, float]) -> tuple[float, float]:
+    low, high = (from_si(value, "g_mm") for value in band)
+    return low, high
+
+
+@record
 class SpeedLevel(Record):
     """Level with the autobalancer at one speed, at the loudest place."""
 
@@ -200,7 +251,9 @@ class IdleSpeedLevels(Record):
 
 @record
 class Vibration(Record):
-    """Levels at the loudest place, at the rated speed, and at each; None after: balls cannot balance.
+    """Levels at the loudest limited place, `place`, at the rated speed, and at each; None after: balls cannot balance.
+
+    A body in space has its level limited in the wheel plane, its handles by their weighted acceleration.
 
     `at_idle_speed`: at the idle speed of a motor, where that is another. `by_speed`: over the speed range;
     `worst_arrangement`: the highest of the range where friction holds the balls at their worst; none under load. Under
@@ -212,6 +265,7 @@ class Vibration(Record):
     optional: ClassVar[frozenset[str]] = frozenset(
         {
             "at_idle_speed",
+            "highest_level_band_db",
             "by_speed",
             "worst_arrangement",
             "parts",
@@ -227,6 +281,10 @@ class Vibration(Record):
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     handles: tuple[HandleLevels, ...]
+    place: Annotated[str, Quantity("place of the level")] = WHEEL_PLANE
+    highest_level_band_db: Annotated[
+        tuple[float, float] | None, Quantity("band of the expected level, by the estimated inertia", "L")
+    ] = None
     at_idle_speed: IdleSpeedLevels | None = None
     by_speed: tuple[SpeedLevel, ...] | None = None
     worst_arrangement: SpeedLevel | None = None
@@ -238,14 +296,26 @@ class Vibration(Record):
     bound: LevelBound | None = None
 
     @classmethod
-    def of(cls, vibration: Levelled, levels: SpeedLevels | None = None, speed: float | None = None) -> Self:
+    def of(
+        cls,
+        vibration: Levelled,
+        levels: SpeedLevels | None = None,
+        speed: float | None = None,
+        bands: BodyBands | None = None,
+    ) -> Self:
         """Record in the words of the interface; `speed` [rad/s]: the rated one, for instrument readings."""
         worst = vibration.worst
+        place_bands = (None,) * len(vibration.places) if bands is None else bands.places
         return cls(
             level_before_db=worst.before,
             level_after_db=worst.after,
             reduction_db=worst.reduction,
-            handles=tuple(HandleLevels.of(place, speed) for place in vibration.places),
+            handles=tuple(
+                HandleLevels.of(place, speed, band=band)
+                for place, band in zip(vibration.places, place_bands, strict=True)
+            ),
+            place=vibration.judged,
+            highest_level_band_db=None if bands is None else bands.level,
             by_speed=None if levels is None else tuple(map(SpeedLevel.read, levels.by_speed)),
             worst_arrangement=None if levels is None else SpeedLevel.read(levels.arranged),
         )

@@ -15,15 +15,26 @@ from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, 
 from abu_calc.reporting.parts import RANK, WORD, file_of, paste_lines, unlike, value_and_limit
 from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by, verdict_line
 from abu_calc.reporting.text import height
+from abu_calc.simulation.vibration_records import HandleLevels
+from abu_calc.sizing.case import WHEEL_PLANE
 
-INERTIA: Final = "machine.transverse_inertia_kg_m2"
-"""Key without which the machine is a point mass; the warning that names it is the first note."""
+INERTIA: Final = "modelled as a point mass"
+"""Words of the warning that a machine has no inertia; it is the first note."""
 
 MOST_KEPT: Final = 14
 """Most lines that the tables leave to the actions."""
 
 LEAST_NOTES: Final = 3
 """Room in lines that is not worth a heading and a note."""
+
+MOST_HANDLES: Final = 2
+"""Handles on the screen: those with the highest weighted acceleration."""
+
+LEAST_SHOWN: Final = 0.005
+"""Weighted acceleration [m/s²] that two decimals still show."""
+
+LONGEST_NAME: Final = 10
+"""Letters of a handle's name in the table."""
 
 TENTH: Final = 0.05
 """Difference of two levels [dB] that are printed alike, or nearly."""
@@ -131,10 +142,67 @@ def numbers_that_matter(result: SizeResult) -> list[Block]:
     checks = {check.code: check for check in result.checks}
     levels, settling = _levels(result, checks, numbers), _settling(result, checks, numbers)
     place = _place(result.vibration)
-    tables = [_table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels)]
+    tables = [_table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels), *handle_tables(result, numbers)]
     if settling:
         tables.append(_table("Settling time, s", "time", settling))
     return [block for table in tables for block in (BLANK, table)]
+
+
+def handle_tables(result: SizeResult, numbers: Mapping[str, int], most: int = MOST_HANDLES) -> list[Grid]:
+    """Idle levels and weighted accelerations of the handles, axis by axis; nothing if all places move alike.
+
+    `most`: how many handles are shown, those with the highest vector total.
+    """
+    handles = [] if result.body.kind == "point mass" else result.vibration.handles
+    if [handle.name for handle in handles] == [WHEEL_PLANE]:
+        return []
+    shown = sorted(handles, key=_total, reverse=True)[:most]
+    check = next((check for check in result.checks if check.code == "ABU404"), None)
+    rows = [row for handle in handles if handle in shown for row in _handle_rows(handle, check, numbers)]
+    more = f", {len(handles) - len(shown)} more" if len(handles) > len(shown) else ""
+    head: tuple[str, ...] = (f"Handles, idle{more}", "x, dB", "a_h", "y, dB", "a_h", "z, dB", "a_h", "a_hv, m/s²")
+    count = len(head)
+    if check is not None:
+        head = (*head, "limit", "")
+    return [Grid(head, tuple(row[: len(head)] for row in rows), frozenset(range(1, count + 1)))] if rows else []
+
+
+def _total(handle: HandleLevels) -> float:
+    after = handle.a_hv_after_m_per_s2
+    return (handle.a_hv_before_m_per_s2 or 0.0) if after is None else after
+
+
+def _handle_rows(handle: HandleLevels, check: Check | None, numbers: Mapping[str, int]) -> list[tuple[str, ...]]:
+    """Rows of one handle: without the autobalancer, with it, and the band that an estimated inertia leaves."""
+    axes = handle.axes or ()
+    without = [(axis.level_before_db, axis.a_h_before_m_per_s2) for axis in axes]
+    fitted = [(axis.level_after_db, axis.a_h_after_m_per_s2) for axis in axes]
+
+    def cells(values: Sequence[tuple[float | None, float | None]]) -> tuple[str, ...]:
+        return tuple(cell for level, weighted in values for cell in (_tenth(level), _acceleration(weighted)))
+
+    name = handle.name if len(handle.name) <= LONGEST_NAME else f"{handle.name[: LONGEST_NAME - 1]}…"
+    rows: list[tuple[str, ...]] = [(f"{name}, without", *cells(without), _acceleration(handle.a_hv_before_m_per_s2))]
+    if handle.level_after_db is not None:
+        after = handle.a_hv_after_m_per_s2
+        decides = check is not None and after == check.value
+        rows.append(("  with", *cells(fitted), _acceleration(after), *_graded(after, check, numbers, decides=decides)))
+    if handle.a_hv_after_band_m_per_s2 is not None:
+        low, high = map(_acceleration, handle.a_hv_after_band_m_per_s2)
+        rows.append(("    95 % band", *[""] * 6, f"{low}…{high}"))
+    return [row + ("",) * (10 - len(row)) for row in rows]
+
+
+def _tenth(level: float | None) -> str:
+    """A level; a dash where it is not known, or an axis is at rest."""
+    return f"{level:.1f}" if level else "–"
+
+
+def _acceleration(value: float | None) -> str:
+    """A weighted acceleration; a dash where it is not known, or too small to show."""
+    if value is None or value < LEAST_SHOWN:
+        return "–"
+    return number(value, 3) if value >= 1 else f"{value:.2f}"
 
 
 def _table(title: str, column: str, cases: Sequence[Case]) -> Grid:
@@ -144,7 +212,7 @@ def _table(title: str, column: str, cases: Sequence[Case]) -> Grid:
 def marked(blocks: Sequence[Block]) -> frozenset[int]:
     """Numbers of the actions to which the tables point: their cases stand there with number and limit."""
     cells = [row[-1] for block in blocks if isinstance(block, Grid) for row in block.rows]
-    return frozenset(int(cell.split()[-1]) for cell in cells if cell[-1:].isdigit())
+    return frozenset(int(cell.split()[-1]) for cell in cells if cell.startswith(("WARN ", "FAIL ")))
 
 
 def _graded(value: float | None, check: Check | None, numbers: Mapping[str, int], *, decides: bool) -> tuple[str, str]:
@@ -383,10 +451,7 @@ def balls(autobalancer: AutobalancerRecord) -> str:
 
 def _place(vibration: Vibration) -> str:
     """Place of the level; of several places the loudest."""
-    after = vibration.level_after_db
-    known = [hand.name for hand in vibration.handles if (hand.level_before_db if after is None else hand.level_after_db)
-             == (vibration.level_before_db if after is None else after)]  # fmt: skip
-    return known[0] if known else "loudest place"
+    return vibration.place
 
 
 def _db(level: float | None) -> str:

@@ -23,7 +23,7 @@ from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import level_at_loudest
+from abu_calc.sizing.places import level_at_loudest
 
 MOST: Final = 12
 MOST_WORK, MOST_PLAIN = 400_000, 60_000

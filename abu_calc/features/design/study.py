@@ -3,6 +3,8 @@
 `SizeModel` holds the SI numbers behind a sized design, for those who check it by hand.
 """
 
+import math
+import statistics
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
@@ -11,6 +13,7 @@ from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
+    BodyRecord,
     DrawingLine,
     Frequency,
     IdleSpeedLevels,
@@ -21,9 +24,9 @@ from abu_calc.features.design.region import true_region
 from abu_calc.features.design.start_search import with_searched
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
 from abu_calc.features.design.verification import Proven, proven
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, LowerBound, lower_bound, with_starts
+from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
-from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
 from abu_calc.features.grinding.work import Work, loaded_levels, work_of
 from abu_calc.features.seats.records import SeatResult, seat_results
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
@@ -118,6 +121,7 @@ class SizeResult(Result):
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
     effective_mass_kg: Annotated[float, Quantity("effective mass at the wheel", "m_eff")]
+    body: BodyRecord
     frequency: Frequency
     idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
@@ -170,6 +174,7 @@ def size(
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
         work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads)
+        seats = _with_lives(seats, design, tried.ensemble, tables)
         region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress)
     stays = _on_work(design, runs, accuracy, progress)
@@ -198,6 +203,7 @@ def size(
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
         effective_mass_kg=need.effective_mass,
+        body=BodyRecord.of(design),
         frequency=Frequency.of(design, region),
         idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
         imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
@@ -212,7 +218,8 @@ def size(
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=replace(
-            Vibration.of(design.idle, design.speed_levels, design.case.speed), at_idle_speed=IdleSpeedLevels.of(design)
+            Vibration.of(design.idle, design.speed_levels, design.case.speed, design.bands),
+            at_idle_speed=IdleSpeedLevels.of(design),
         ),
         vibration_loaded=None
         if loaded is None
@@ -259,6 +266,30 @@ def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
     from abu_calc.features.seats.seats import seat_bearings
 
     return seat_bearings(tables.bearing)
+
+
+def _with_lives(
+    seats: "tuple[BearingSeats, ...]", design: Design, ensemble: Ensemble | None, tables: MachineFile
+) -> "tuple[BearingSeats, ...]":
+    """Bearings with their lives under the loads of the simulation, without and with the autobalancer.
+
+    The rotating force is the imbalance, or the median residual displacement of the start cases that balance times the
+    effective mass; the constant one is the press force with its friction, of machines that grind.
+    """
+    if not seats:
+        return ()
+    from abu_calc.features.seats.life_in_use import UseLoads, lives_in_use
+
+    outcomes = () if ensemble is None else ensemble.given
+    residuals = [outcome.residual for outcome in outcomes if outcome.balanced]
+    speed, grinding = design.case.speed, tables.grinding
+    constant = 0.0
+    if grinding is not None:
+        constant = grinding.press_force_N * math.hypot(1.0, grinding.cutting_coefficient)
+    residual = statistics.median(residuals) * design.autobalancer.requirement.effective_mass if residuals else None
+    loads = UseLoads(design.imbalance.value * speed**2, None if residual is None else residual * speed**2, constant)
+    lives = lives_in_use([bearing.bearing for bearing in seats], loads, speed)
+    return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
 
 
 def _checks(tried: Proven, seat_checks: Sequence[Check], arm: "ArmJudgement | None") -> Iterator[Check]:

@@ -4,7 +4,15 @@ from collections.abc import Iterator, Sequence
 
 from abu_calc.features.design.figures import IDLE_START, idle_case, size_charts, start_case
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
-from abu_calc.features.design.screen import about, balls, gap_table, numbers_that_matter, section_picture
+from abu_calc.features.design.screen import (
+    MOST_HANDLES,
+    about,
+    balls,
+    gap_table,
+    handle_tables,
+    numbers_that_matter,
+    section_picture,
+)
 from abu_calc.features.design.starts import SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.grinding.view import start_blocks
@@ -162,6 +170,7 @@ def _need(result: SizeResult) -> list[Block]:
     return [
         Heading("Frequencies and capacity"),
         facts(result, "system_mass_kg", "effective_mass_kg"),
+        facts(result.body),
         facts(result.frequency, "speed_hz", "natural_frequencies_hz", "region", "finite_mass_gap"),
         facts(result, "idle_speed_rpm"),
         Paragraph(_stability(result.frequency)),
@@ -220,6 +229,8 @@ def _vibration(result: SizeResult) -> list[Block]:
         header, *rows = (row[:4] + row[5:] for row in (header, *rows))
     table = Grid(header, tuple(rows), frozenset(range(2, len(header))))
     blocks: list[Block] = [Heading("Vibration level", "vibration-level"), table]
+    if len(result.vibration.handles) > MOST_HANDLES:
+        blocks += handle_tables(result, {}, len(result.vibration.handles))
     if result.vibration.at_idle_speed:
         blocks.append(facts(result.vibration.at_idle_speed))
     if loaded:

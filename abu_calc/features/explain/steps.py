@@ -51,8 +51,15 @@ STEPS: Final[Mapping[str, Step]] = {
     "mass": Step(
         "Mass that moves",
         (
-            "sizing.case:RigidMachine.inertance",
-            "sizing.case:RigidMachine.effective_mass",
+            "formulas.rigid_body:RigidBody.inertance",
+            "formulas.rigid_body:RigidBody.forward",
+            "formulas.rigid_body:RigidBody.effective_mass",
+            "formulas.body_estimate:estimated_body",
+            "formulas.body_estimate:BodyEstimate.band",
+            "formulas.body_motion:BodyMotion.receptance",
+            "formulas.body_motion:BodyMotion.ball_resultant",
+            "formulas.body_motion:weighted_acceleration",
+            "formulas.body_motion:vector_total",
             "formulas.suspension:Hands",
         ),
     ),
@@ -116,6 +123,16 @@ STEPS: Final[Mapping[str, Step]] = {
     "levels": Step(
         "Levels as instruments show them, weighted acceleration, exposure",
         ("sizing.instruments:readings", "standards.vibration:hand_arm_response", "standards.vibration:daily_exposure"),
+    ),
+    "declare": Step(
+        "Declared vibration value (`abu declare`)",
+        (
+            "formulas.type_test:acceleration_per_displacement",
+            "formulas.type_test:friction_displacement",
+            "formulas.type_test:break_even",
+            "standards.type_test:reproducibility",
+            "standards.type_test:declared_uncertainty",
+        ),
     ),
     "grinding": Step(
         "Machine at its workpiece",

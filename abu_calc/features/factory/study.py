@@ -1,92 +1,80 @@
-"""The factory's machines: measured levels beside predicted ones, by one set of assumptions.
+"""Measured levels of machines with autobalancers beside predicted ones, by one set of assumptions."""
 
-`factory_rows` gives the maker's measurements of machines with autobalancers.
-"""
-
+import math
+from collections.abc import Sequence
 from statistics import fmean
 from typing import Annotated, ClassVar
 
 from abu_calc.features.design.study import SizeResult, size
+from abu_calc.features.factory.at_handles import AtHandles, at_handles
+from abu_calc.features.factory.measurements import (
+    MeasuredMachine,
+    SoftRace,
+    Span,
+    factory_machines,
+    factory_source,
+    machines_of,
+    soft_race,
+)
+from abu_calc.features.factory.value_sources import ValueSource, degrees_of_freedom, value_sources
 from abu_calc.features.levels.study import levels
 from abu_calc.foundation.checks import Status
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import level_from_velocity, to_si, velocity_from_level
+from abu_calc.foundation.units import from_si, level_from_velocity, to_si, velocity_from_level
+from abu_calc.inputs.measured import MeasuredOctave
 from abu_calc.inputs.read_machine import Machine, read
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
-from abu_calc.standards.tables import toml_table
 from abu_calc.standards.vibration import octave
-
-Span = tuple[float, float]
-
-
-@dataclass(frozen=True)
-class FactoryRow:
-    """One measurement: levels [dB], lowest and highest, in an octave [Hz]; None: not published.
-
-    `machine`: the preset, `short`: its name in a table; `state`: idle, loaded or not said; `word`: on how it differs
-    from what the model predicts.
-    """
-
-    machine: str
-    short: str
-    state: str
-    octave: float
-    without: Span | None
-    fitted: Span | None
-    lowered: Span | None
-    word: str
-    peak: str | None = None
-
-
-def factory_rows() -> tuple[FactoryRow, ...]:
-    """All measurements published with numbers, and the peaks named without. Source: Kladiev 1996."""
-    return tuple(
-        FactoryRow(
-            row["machine"], row["short"], row["state"], float(row["octave"]), _span(row, "without"),
-            _span(row, "with"), _span(row, "lowered"), row["word"], row.get("peak"),
-        )
-        for row in toml_table("factory_machines")["row"]
-    )  # fmt: skip
-
-
-def factory_source() -> tuple[str, str]:
-    """The source, and what it says of backgrounds."""
-    table = toml_table("factory_machines")
-    return table["source"], table["background"]
-
-
-def _span(row: dict[str, list[float]], key: str) -> Span | None:
-    if key not in row:
-        return None
-    low, high = row[key]
-    return float(low), float(high)
 
 
 @record
 class FactoryLevel(Record):
     """One measurement of a machine in an octave, and the prediction; null: not published, or nothing in the model."""
 
-    machine: Annotated[str, Quantity("machine", "", 4, "the preset")]
+    machine: Annotated[str, Quantity("machine", "", 4, "the preset or the file")]
     short: Annotated[str, Quantity("name")]
+    place: Annotated[str, Quantity("place")]
+    axis: Annotated[str, Quantity("axis", "", 4, "x along the work, y normal to it, z along the spindle")]
     state: Annotated[str, Quantity("state", "", 4, "idle, loaded, or not said")]
     octave_hz: Annotated[float, Quantity("octave")]
+    source: Annotated[str, Quantity("source")]
     without_measured_db: Annotated[Span | None, Quantity("without, measured", "L")]
     without_predicted_db: Annotated[
         float | None, Quantity("without, predicted", "L", 4, "idle: as taken from the file")
     ]
     with_measured_db: Annotated[Span | None, Quantity("with, measured", "L")]
-    with_predicted_db: Annotated[float | None, Quantity("with, predicted", "L", 4, "idle: median of the start cases")]
+    with_predicted_db: Annotated[
+        float | None, Quantity("with, predicted", "L", 4, "idle: median of the start cases at the given drag rate")
+    ]
     with_predicted_worst_db: Annotated[float | None, Quantity("with, the worst start", "L")]
+    with_median_db: Annotated[
+        float | None,
+        Quantity("with, median", "L", 4, "idle: median of all start cases, hot and cold oil included; plane model"),
+    ]
     lowered_measured_db: Annotated[Span | None, Quantity("lowered, measured", "ΔL")]
     lowered_predicted_db: Annotated[float | None, Quantity("lowered, predicted", "ΔL", 3)]
+    lowered_median_db: Annotated[float | None, Quantity("lowered, median of all start cases", "ΔL", 3)]
+    miss_db: Annotated[
+        float | None,
+        Quantity("miss", "", 2, "median of all start cases outside the published range: level, else what is lowered"),
+    ]
     outside_db: Annotated[
         float | None,
-        Quantity("outside what was measured", "", 2, "with it, else what it lowers"),
+        Quantity("miss at the given drag rate", "", 2, "median of those start cases outside the published range"),
     ]
     difference_db: Annotated[float | None, Quantity("measured − predicted", "ΔL", 3, "mean of the range in velocity")]
+    at_handles_db: Annotated[
+        Span | None,
+        Quantity("at the handles", "L", 3, "rigid body, along the sensor's axis: band of the estimate; or lowered by"),
+    ]
+    at_handles_miss_db: Annotated[float | None, Quantity("miss at the handles", "", 2)]
+    not_comparable: Annotated[str | None, Quantity("why the handles are not comparable")]
+    degrees_of_freedom_spent: Annotated[
+        int | None, Quantity("degrees of freedom spent", "", 4, "values of the file fitted to published results")
+    ]
     louder_octave_hz: Annotated[
         float | None, Quantity("louder octave of the model", "", 4, "pressed before the balls have settled")
     ]
@@ -96,12 +84,39 @@ class FactoryLevel(Record):
 
 
 @record
+class FittedValues(Record):
+    """Values of one machine file that were chosen to reach a published result."""
+
+    machine: Annotated[str, Quantity("machine")]
+    short: Annotated[str, Quantity("name")]
+    published: Annotated[int, Quantity("published values")]
+    assumed: Annotated[int, Quantity("assumed values")]
+    fitted: tuple[ValueSource, ...]
+    not_said: Annotated[int, Quantity("values without an origin")]
+
+
+@record
+class SoftRaceLevel(Record):
+    """Levels by a friction arm of a soft race, computed with an assumed machine and its design."""
+
+    short: Annotated[str, Quantity("machines")]
+    assumed_machine: Annotated[str, Quantity("assumed machine")]
+    published: Annotated[str, Quantity("published")]
+    rolling_friction_mm: Annotated[float, Quantity("friction arm", "k_r", 3)]
+    level_without_db: Annotated[float | None, Quantity("without", "L")]
+    with_median_db: Annotated[float | None, Quantity("with, median of all start cases", "L")]
+    with_worst_db: Annotated[float | None, Quantity("with, loudest start case", "L")]
+
+
+@record
 class FactoryResult(Result):
     """All of them in one table."""
 
     command: ClassVar[str] = "factory"
 
     rows: tuple[FactoryLevel, ...]
+    fitted: tuple[FittedValues, ...]
+    soft_races: tuple[SoftRaceLevel, ...]
     source: Annotated[str, Quantity("source")]
     background: Annotated[str, Quantity("background")]
 
@@ -113,38 +128,82 @@ class FactoryResult(Result):
 
 @dataclass(frozen=True)
 class _Predicted:
-    """Levels [dB] in one state and octave."""
+    """Levels [dB] in one state and octave: `fitted` at the given drag rate, `median` of all start cases."""
 
     without: float | None = None
     fitted: float | None = None
+    median: float | None = None
     worst: float | None = None
     louder: tuple[float, float] | None = None
     """Another octave [Hz] that is the loudest when pressed before the balls have settled, and its level."""
 
+    def lowered(self, level: float | None) -> float | None:
+        """Level without − this level [dB]."""
+        return None if self.without is None or level is None else self.without - level
+
 
 @checked
-def factory(progress: Progress = silent) -> FactoryResult:
-    """Size every machine that a factory measured, from its preset, and set the predictions beside the measurements.
+def factory(machines: Sequence[Machine] = (), progress: Progress = silent) -> FactoryResult:
+    """Size every machine that was measured, and set the predictions beside the measurements.
 
-    Presets hold published figures, and assumed ones where none were published. Some assumed figures were chosen by
-    published results: the comments of the presets say which.
+    `machines`: files with tables [[measured]]; without them the presets of the machines that a factory measured.
+    Presets hold published figures, assumed ones, and some that were fitted to published results: `fitted` lists these.
+    Raises InputError for a file without measurements.
     """
-    rows, sized = [], dict[str, SizeResult]()
-    for row in factory_rows():
-        machine = read(row.machine)
-        if row.machine not in sized:
-            progress(row.short)
-            sized[row.machine] = size(machine, progress=within(progress, row.short))
-        rows.append(_row(row, _predicted(row, machine, sized[row.machine], progress)))
-    source, background = factory_source()
+    own = not machines
+    measured = factory_machines() if own else machines_of(machines)
+    rows, sources = list[FactoryLevel](), list[FittedValues]()
+    for machine in measured:
+        progress(machine.short)
+        design = size(machine.machine, progress=within(progress, machine.short))
+        origins = value_sources(machine.machine.document.text)
+        sources.append(_fitted(machine, origins))
+        handles = machine.geometry and at_handles(machine.machine.whole(), design, machine.geometry)
+        rows += [_row(machine, row, design, handles or None, degrees_of_freedom(origins), progress)
+                 for row in machine.measured]  # fmt: skip
+    source, background = factory_source() if own else ("; ".join(dict.fromkeys(row.source for row in rows)), "")
     return FactoryResult(
-        title="Machines that a factory measured", provenance=Provenance.today(), rows=tuple(rows), source=source,
-        background=background,
+        title="Machines that a factory measured" if own else "Measured machines", provenance=Provenance.today(),
+        rows=tuple(rows), fitted=tuple(sources), soft_races=_soft_races(soft_race(), progress) if own else (),
+        source=source, background=background,
     )  # fmt: skip
 
 
-def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: Progress) -> _Predicted:
-    """Idle the median of the start cases, in the octave of the spindle; at work in the plane the simulated octaves.
+def _fitted(machine: MeasuredMachine, origins: Sequence[ValueSource]) -> FittedValues:
+    count = {status: sum(origin.status == status for origin in origins) for status in ("published", "assumed", None)}
+    return FittedValues(
+        machine=machine.name, short=machine.short, published=count["published"], assumed=count["assumed"],
+        fitted=tuple(origin for origin in origins if origin.status == "fitted"), not_said=count[None],
+    )  # fmt: skip
+
+
+def _soft_races(soft: SoftRace, progress: Progress) -> tuple[SoftRaceLevel, ...]:
+    """The assumed machine with its design kept and its race softer: the smallest and the largest friction arm."""
+    progress(soft.short)
+    machine = read(soft.machine)
+    made = size(machine, progress=within(progress, soft.short)).autobalancer
+    kept = {f"autobalancer.{key}": getattr(made, key) for key in ("ball_count", "ball_diameter_mm", "race_radius_mm")}
+    rows = []
+    for friction in (from_si(arm, "mm") for arm in soft.friction):
+        softer = machine.changed({**kept, "autobalancer.rolling_friction_mm": friction})
+        design = size(softer, progress=within(progress, soft.short))
+        many = design.ensemble
+        rows.append(
+            SoftRaceLevel(
+                short=soft.short,
+                assumed_machine=soft.machine,
+                published=soft.published,
+                rolling_friction_mm=friction,
+                level_without_db=design.vibration.level_before_db,
+                with_median_db=None if many is None else many.level_db.typical,
+                with_worst_db=None if many is None else many.level_db.worst,
+            )
+        )
+    return tuple(rows)
+
+
+def _predicted(machine: Machine, design: SizeResult, row: MeasuredOctave, progress: Progress) -> _Predicted:
+    """Idle the medians of the start cases, in the octave of the spindle; at work in the plane the simulated octaves.
 
     Pressed to the work when the balls have settled, as one works; `louder`: pressed before.
     """
@@ -153,16 +212,21 @@ def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: 
     if row.state == "loaded" and table.grinding is not None and table.grinding.contact != "face":
         usual, hard = (_octaves(machine, start, progress) for start in ("settled", "bunched"))
         loudest, loaded = max(hard, key=hard.__getitem__), design.vibration_loaded
-        louder = None if loudest == row.octave else (loudest, hard[loudest])
-        before = None if loaded is None or own != row.octave else loaded.level_before_db
-        return _Predicted(before, usual.get(row.octave), louder=louder)
-    if own != row.octave:
+        louder = None if loudest == row.octave_hz else (loudest, hard[loudest])
+        before = None if loaded is None or own != row.octave_hz else loaded.level_before_db
+        level = usual.get(row.octave_hz)
+        return _Predicted(before, level, level, louder=louder)
+    if own != row.octave_hz:
         return _Predicted()
     many = design.ensemble
     if many is None:
-        return _Predicted(design.vibration.level_before_db, design.vibration.level_after_db)
+        after = design.vibration.level_after_db
+        return _Predicted(design.vibration.level_before_db, after, after)
     known_levels = [level for level in (many.level_db.worst, design.vibration.level_after_db) if level is not None]
-    return _Predicted(design.vibration.level_before_db, many.predicted_level_db, max(known_levels, default=None))
+    return _Predicted(
+        design.vibration.level_before_db, many.predicted_level_db, many.level_db.typical,
+        max(known_levels, default=None),
+    )  # fmt: skip
 
 
 def _octaves(machine: Machine, start: str, progress: Progress) -> dict[float, float]:
@@ -171,49 +235,82 @@ def _octaves(machine: Machine, start: str, progress: Progress) -> dict[float, fl
     return {band.nominal_hz: band.level_db for band in spectrum.octaves if band.level_db is not None}
 
 
-def _row(row: FactoryRow, forecast: _Predicted) -> FactoryLevel:
-    both = forecast.without is not None and forecast.fitted is not None
-    measured = row.lowered
-    if measured is None and row.without is not None and row.fitted is not None:
-        measured = max(0.0, row.without[0] - row.fitted[1]), row.without[1] - row.fitted[0]
+def _row(
+    machine: MeasuredMachine, row: MeasuredOctave, design: SizeResult, handles: AtHandles | None, spent: int | None,
+    progress: Progress,
+) -> FactoryLevel:  # fmt: skip
+    forecast = _predicted(machine.machine, design, row, progress)
+    spans = dict(row.spans)
+    without, fitted, lowered = (spans.get(key) for key in ("level_without_db", "level_db", "lowered_db"))
+    if lowered is None and without is not None and fitted is not None:
+        lowered = max(0.0, without[0] - fitted[1]), without[1] - fitted[0]
+    there, reason = _there(row, forecast, design, handles, is_level=fitted is not None)
+    compared = fitted if fitted is not None else lowered
     return FactoryLevel(
-        machine=row.machine,
-        short=row.short,
+        machine=machine.name,
+        short=machine.short,
+        place=row.place,
+        axis=row.axis,
         state=row.state,
-        octave_hz=row.octave,
-        without_measured_db=row.without,
+        octave_hz=row.octave_hz,
+        source=row.source,
+        without_measured_db=without,
         without_predicted_db=forecast.without,
-        with_measured_db=row.fitted,
+        with_measured_db=fitted,
         with_predicted_db=forecast.fitted,
         with_predicted_worst_db=forecast.worst,
-        lowered_measured_db=measured,
-        lowered_predicted_db=(forecast.without or 0.0) - (forecast.fitted or 0.0) if both else None,
-        outside_db=_outside(row, forecast),
-        difference_db=_difference(row, forecast),
+        with_median_db=forecast.median,
+        lowered_measured_db=lowered,
+        lowered_predicted_db=forecast.lowered(forecast.fitted),
+        lowered_median_db=forecast.lowered(forecast.median),
+        miss_db=_miss(fitted, lowered, forecast.median, forecast.lowered(forecast.median)),
+        outside_db=_miss(fitted, lowered, forecast.fitted, forecast.lowered(forecast.fitted)),
+        difference_db=_difference(fitted, forecast),
+        at_handles_db=there,
+        at_handles_miss_db=None if there is None or compared is None else _gap(compared, there),
+        not_comparable=reason,
+        degrees_of_freedom_spent=spent,
         louder_octave_hz=None if forecast.louder is None else forecast.louder[0],
         louder_octave_db=None if forecast.louder is None else forecast.louder[1],
-        named=row.peak,
-        word=row.word,
+        named=None if spans else "peak",
+        word=row.remark or "",
     )
 
 
-def _outside(row: FactoryRow, forecast: _Predicted) -> float | None:
-    """Distance of the prediction from the measured span [dB]; None if they do not concern the same."""
-    if forecast.fitted is None:
-        return None
-    if row.fitted is not None:
-        return _gap(row.fitted, forecast.fitted)
-    if row.lowered is None or forecast.without is None:
-        return None
-    return _gap(row.lowered, forecast.without - forecast.fitted)
+def _there(
+    row: MeasuredOctave, forecast: _Predicted, design: SizeResult, handles: AtHandles | None, *, is_level: bool
+) -> tuple[Span | None, str | None]:
+    """Level at the handles along the sensor's axis, or how much it is lowered there [dB]; None with the reason."""
+    base = forecast.median if is_level else forecast.lowered(forecast.median)
+    if base is None:
+        return None, "the model has no motion in this octave"
+    if handles is not None:
+        low, high = handles.carried[row.axis] if is_level else handles.lowered
+        return (base + low, base + high), None
+    masses = {place.name: place.effective_mass_kg for place in design.vibration.handles}
+    felt = masses.get(row.place)
+    if row.axis == "z":
+        return None, "the plane model has no motion along the spindle"
+    if felt is None:
+        return None, "the file has no handle of this name"
+    shift = 20 * math.log10(min(mass for mass in masses.values() if mass is not None) / felt) if is_level else 0.0
+    return (base + shift, base + shift), None
 
 
-def _difference(row: FactoryRow, forecast: _Predicted) -> float | None:
+def _miss(fitted: Span | None, lowered: Span | None, level: float | None, less: float | None) -> float | None:
+    """Distance of a prediction from the published range [dB]; None if they do not concern the same."""
+    if fitted is not None:
+        return None if level is None else _gap(fitted, (level, level))
+    return None if lowered is None or less is None else _gap(lowered, (less, less))
+
+
+def _difference(fitted: Span | None, forecast: _Predicted) -> float | None:
     """Measured − predicted [dB] with the autobalancer, the mean of the span in velocity as in [measured_after]."""
-    if row.fitted is None or forecast.fitted is None:
+    if fitted is None or forecast.fitted is None:
         return None
-    return level_from_velocity(fmean(map(velocity_from_level, row.fitted))) - forecast.fitted
+    return level_from_velocity(fmean(map(velocity_from_level, fitted))) - forecast.fitted
 
 
-def _gap(measured: Span, predicted: float) -> float:
-    return max(0.0, measured[0] - predicted, predicted - measured[1])
+def _gap(measured: Span, predicted: Span) -> float:
+    """Distance between two ranges [dB]; zero if they overlap."""
+    return max(0.0, measured[0] - predicted[1], predicted[0] - measured[1])

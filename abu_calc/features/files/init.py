@@ -1,4 +1,4 @@
-"""`abu init [--preset NAME|--scene|--readings] FILE`: write a commented file to start from."""
+"""`abu init [--preset NAME|--scene|--readings|--recordings] FILE`: write a commented file to start from."""
 
 from pathlib import Path
 from typing import Annotated
@@ -18,6 +18,9 @@ def init(
     preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset.")] = None,
     scene: Annotated[bool, typer.Option("--scene", help="Write a scene file for `abu simulate`.")] = False,
     readings: Annotated[bool, typer.Option("--readings", help="Write a file of readings for `abu balance`.")] = False,
+    recordings: Annotated[
+        bool, typer.Option("--recordings", help="Write a list of recordings for `abu declare --recordings`.")
+    ] = False,
 ) -> Outcome:
     """Write a complete file with a comment at every key, to edit.
 
@@ -29,7 +32,7 @@ def init(
     from abu_calc.reporting.write import Target, check_target
 
     check_target(file, force=how.force, suffixes=(".toml",))
-    asked = [name for name, wanted in (("scene", scene), ("readings", readings)) if wanted]
+    asked = [name for name, wanted in (("scene", scene), ("readings", readings), ("recordings", recordings)) if wanted]
     if len(asked) + (preset is not None) > 1:
         options = [f"--{name}" for name in asked] + (["--preset"] if preset is not None else [])
         raise InputError(

@@ -1,4 +1,4 @@
-"""`abu schema [machine|scene|readings|result]`: JSON Schema of files, for editors, or results, for programs."""
+"""`abu schema [machine|scene|readings|recordings|result]`: JSON Schema of files, for editors, or of results."""
 
 from typing import Annotated, Any
 
@@ -8,14 +8,15 @@ from abu_calc.cli.command import add_command
 from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.outcome import Outcome, to_json
 
-KINDS = ("machine", "scene", "readings", "result")
+KINDS = ("machine", "scene", "readings", "recordings", "result")
 
 
 def schema(
     kind: Annotated[
         str,
         typer.Argument(
-            metavar="machine|scene|readings|result", help="Kind of file, or result for the output of --json."
+            metavar="machine|scene|readings|recordings|result",
+            help="Kind of file, or result for the output of --json.",
         ),
     ] = "machine",
 ) -> Outcome:

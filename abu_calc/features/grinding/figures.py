@@ -84,8 +84,8 @@ def _hodograph(result: GrindingResult) -> Iterator[Figure]:
         "Amplitude of the axis along the work and away from it against the angle from imbalance to runout: how much "
         "depends on where the high spot is."
     )
-    yield from _plotted("hodograph", "angles", "Axis against the angle of the runout", caption,
-                        "runout from the imbalance [°]", "amplitude [µm]", courses)  # fmt: skip
+    chart = _lines("Axis against the angle of the runout", "runout from the imbalance [°]", "amplitude [µm]", courses)
+    yield from _figure("hodograph", "angles", chart, caption)
 
 
 def _response(result: GrindingResult) -> Iterator[Figure]:
@@ -100,7 +100,8 @@ def _response(result: GrindingResult) -> Iterator[Figure]:
         "Amplitude of the axis over the speeds, wheel on the work; a line breaks off where balls come to no rest."
         f"{resonance}"
     )
-    yield from _plotted("response", "speeds", "Axis over the speeds", caption, "speed [rpm]", "amplitude [µm]", courses)
+    chart = _lines("Axis over the speeds", "speed [rpm]", "amplitude [µm]", courses)
+    yield from _figure("response", "speeds", chart, caption)
 
 
 def _force(result: GrindingResult) -> Iterator[Figure]:
@@ -114,8 +115,8 @@ def _force(result: GrindingResult) -> Iterator[Figure]:
     )
     mean = result.reaction.mean_N
     limit = (mean, f"mean force {number(mean, 3)} N")
-    yield from _plotted("force", "speeds", "Variable force over the speeds", caption, "speed [rpm]", "force [N]",
-                        courses, limit)  # fmt: skip
+    chart = _lines("Variable force over the speeds", "speed [rpm]", "force [N]", courses, limit)
+    yield from _figure("force", "speeds", chart, caption)
 
 
 def _profile(result: GrindingResult) -> Iterator[Figure]:
@@ -141,8 +142,9 @@ def _profile(result: GrindingResult) -> Iterator[Figure]:
         "Force on each point of the wheel, from its imbalance; lines as if wheel and work never parted: at the dashed "
         f"line they do. Where it presses harder, it wears faster.{as_simulated}"
     )
-    yield from _plotted("reaction", "force", "Force round the wheel", caption, "point of the wheel [°]", "force [N]",
-                        courses, (0.0, "wheel and work part"), points)  # fmt: skip
+    limit = (0.0, "wheel and work part")
+    chart = _lines("Force round the wheel", "point of the wheel [°]", "force [N]", courses, limit, points)
+    yield from _figure("reaction", "force", chart, caption)
 
 
 def _wear(result: GrindingResult) -> Iterator[Figure]:
@@ -153,6 +155,7 @@ def _wear(result: GrindingResult) -> Iterator[Figure]:
     timed = all(stage.time_min is not None for _, wear in wears for stage in wear.stages)
 
     def against(wear: WearCourse, name: str, scale: float) -> Course:
+        """One quantity of the wear over time, or over depth where time is not known."""
         return [(stage.time_min if timed and stage.time_min is not None else stage.depth_um,
                  scale * getattr(stage, name)) for stage in wear.stages]  # fmt: skip
 
@@ -166,23 +169,29 @@ def _wear(result: GrindingResult) -> Iterator[Figure]:
             f"{title}, {' and '.join(side for side, *_ in courses)} autobalancer (Archard): where it falls, wear "
             "centres the wheel. Lines end where what the table names comes first."
         )
-        yield from _plotted(name, "wear", title, caption, across, unit, courses)
+        yield from _figure(name, "wear", _lines(title, across, unit, courses), caption)
 
 
-def _plotted(
-    name: str, section: str, title: str, caption: str, across: str, up: str, courses: Iterable[tuple[str, int, Course]],
+def _figure(name: str, section: str, chart: Plot | None, caption: str) -> Iterator[Figure]:
+    """The figure of a chart; none without one."""
+    if chart is not None:
+        yield Figure(name, section, chart, caption)
+
+
+def _lines(
+    title: str, across: str, up: str, courses: Iterable[tuple[str, int, Course]],
     limit: tuple[float, str] | None = None, points: Iterable[MarkedPoint] = (),
-) -> Iterator[Figure]:  # fmt: skip
-    """Lines over one another, broken where a value is not known; nothing where none is."""
+) -> Plot | None:  # fmt: skip
+    """Lines over one another, broken where a value is not known; None where none is."""
     lines = [line for course in courses for line in _unbroken(*course)]
     data, marks = [point for line in lines for point in line.points], list(points)
     if not data:
-        return
+        return None
     xs, ys = [x for x, _ in data], [*(y for _, y in data), *(mark.y for mark in marks), *([limit[0]] if limit else [])]
     horizontal = Axis(across, min(xs), max(xs)) if max(xs) > min(xs) else Axis.around(across, xs)
     text = "; ".join(f"{line.name}: {_extremes(line)}" for line in lines)
     vertical = Axis.around(up, [0.0, *ys], zero=min(ys) >= 0)
-    yield Figure(name, section, Plot(title, text, horizontal, vertical, lines, marks, limit), caption)
+    return Plot(title, text, horizontal, vertical, lines, marks, limit)
 
 
 def _unbroken(name: str, series: int, course: Course) -> Iterator[Curve]:

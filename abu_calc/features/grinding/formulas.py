@@ -16,6 +16,7 @@ from typing import Final
 
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
 
 
 @formula(
@@ -229,6 +230,21 @@ MOST: Final = 100_000
 """Points that are looked at."""
 
 
+@dataclass(frozen=True)
+class BallArrangement:
+    """Equal balls of one race at rest in it."""
+
+    count: int
+    mass: float
+    """Mass of a ball [kg]."""
+    doubled: float
+    """|Σe^{2iθ}| of their angles."""
+    inertia_factor: float
+    """J: a ball that rolls counts as J times its mass."""
+    drag: float
+    """Viscous drag rate h₀ [1/s]."""
+
+
 @formula(
     "Characteristic equation of balls of finite mass under load",
     "Λ² + n(P_λ + P̄_λ)Λ + (n² − |Σe^{2iθ}|²)·P_λ·P̄_λ = 0, Λ = J λ² + h₀ λ",
@@ -243,19 +259,17 @@ MOST: Final = 100_000
     source="derived; exact at idle on equal axes",
     published="Kladiev 1996, (7), requires only Ω > ω",
 )
-def characteristic(
-    whirl: Callable[[complex], complex], ball_mass: float, speed: float, count: int, doubled: float,
-    inertia_factor: float, drag: float, s: complex,
-) -> complex:  # fmt: skip
-    """`whirl`: G by the complex speed; `doubled`: |Σe^{2iΘ}|."""
+def characteristic(whirl: Callable[[complex], complex], balls: BallArrangement, speed: float, s: complex) -> complex:
+    """`whirl`: G [m/(kg m)] by the complex speed; speed [rad/s], λ = s [1/s]. The value is in 1/s⁴."""
 
     def pull(root: complex) -> complex:
+        """P_λ [1/s²]."""
         at = speed - 1j * root
-        return -ball_mass / 2 * at**2 * whirl(at)
+        return -balls.mass / 2 * at**2 * whirl(at)
 
     p, q = pull(s), pull(s.conjugate()).conjugate()
-    inertia = inertia_factor * s**2 + drag * s
-    return inertia**2 + count * (p + q) * inertia + (count**2 - doubled**2) * p * q
+    inertia = balls.inertia_factor * s**2 + balls.drag * s
+    return inertia**2 + balls.count * (p + q) * inertia + (balls.count**2 - balls.doubled**2) * p * q
 
 
 def growing_roots(value: Callable[[complex], complex], speed: float) -> int:

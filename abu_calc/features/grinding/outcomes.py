@@ -1,7 +1,4 @@
-"""Motions that the start cases of grinding end with, sorted into groups, and levels that are lower bounds.
-
-A level under load is a lower bound if the model lacks the excitation that sets the level on the shop floor.
-"""
+"""Motions that the start cases of grinding end with, sorted into groups; the last classes are those of results."""
 
 import cmath
 import math
@@ -9,7 +6,7 @@ import statistics
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Final, Literal
+from typing import Annotated, Final, Literal, Self
 
 from abu_calc.features.grinding.start_cases import (
     FEW,
@@ -20,13 +17,10 @@ from abu_calc.features.grinding.start_cases import (
     Pressed,
     loaded_ensemble,
 )
-from abu_calc.features.grinding.steady_contact import contact_presses
 from abu_calc.features.grinding.work import LOUDER, Work, below
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import velocity_from_level
-from abu_calc.sizing.case import Case
-from abu_calc.sizing.instruments import readings
-from abu_calc.sizing.vibration import handle_levels
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.sizing.places import handle_levels
 
 State = Literal["balanced", "held by friction", "not balanced", "swinging", "stalled", "bouncing"]
 
@@ -239,82 +233,45 @@ def loudest_start(work: Work, accuracy: float) -> float | None:
     return worst
 
 
-LEAST: Final = 1.0
-"""Frequency-weighted vibration total a_hv [m/s²] below which the level of a grinder at its work is a lower bound.
+@record
+class LoadedOutcomeGroup(Record):
+    """Start cases of one way of pressing that end with the same motion under load.
 
-Typical declared values of grinders are 3 to 8 m/s² (INRS, Proceedings 2023, 86(1), 13): 1 m/s² is a third of the
-lowest. The lowest level known here of a grinder with an autobalancer at its work, 102 to 103 dB idle and 2 dB more
-under load at 5800 rpm (Kladiev 1996), is 1.1 to 1.3 m/s². The number is reasoned, no standard has it.
-"""
-
-ALWAYS: Final = ("wheel waviness", "forces of chip formation")
-"""No scene of grinding has these."""
-
-
-@dataclass(frozen=True)
-class LowerBound:
-    """Excitation that sets a level under load in the model, and what the model lacks; `total` a_hv [m/s²] of the level.
-
-    `total` None: the speed is beyond the range of W_h.
+    `share`: of the start cases of that way of pressing, those without an answer included. Levels: the median, the
+    lowest and the highest of the group.
     """
 
-    lower_bound: bool
-    total: float | None
-    set_by: tuple[str, ...]
-    lacks: tuple[str, ...]
-
-    @property
-    def sentence(self) -> str:
-        """One sentence for the screen; empty if the level is no lower bound."""
-        if not self.lower_bound:
-            return ""
-        shown = "" if self.total is None else f" (a_hv {self.total:.2g} m/s²)"
-        return (
-            f"The level under load{shown} is a lower bound. The model sets it by {_listed(self.set_by)}. It lacks "
-            f"{_listed(self.lacks)}."
-        )
-
-
-def lower_bound(level: float | None, case: Case) -> LowerBound | None:
-    """Lower bound that a level under load [dB] at the loudest handle may be; None if the level is not known.
-
-    It is one if its weighted total is below `LEAST`; or if a contact presses in the plane of the wheel and the file
-    gives a wheel without runout: then nothing but the imbalance that the balls remove drives the machine. What the
-    model lacks adds to the levels with and without the autobalancer alike, as squares, so that their order stays.
-    """
-    if level is None:
-        return None
-    total = readings(velocity_from_level(level), case.speed).total
-    presses = contact_presses(case)
-    true = presses and not case.runout
-    return LowerBound(
-        lower_bound=true or (total is not None and total < LEAST),
-        total=total,
-        set_by=_set_by(case, presses),
-        lacks=(
-            *(("the wheel's runout (the file gives 0 mm)",) if true else ()),
-            *(() if presses else ("the force of the contact",)),
-            *ALWAYS,
-            *(() if case.background_level is not None else ("vibration of motor and gear",)),
-        ),
-    )
+    pressed: Annotated[
+        str, Quantity("pressed", "", 4, "settled: after the balls settled at idle, as one works; or at once")
+    ]
+    state: Annotated[
+        str,
+        Quantity("motion", "", 4, "balanced, held by friction, not balanced, swinging, stalled or bouncing"),
+    ]
+    count: Annotated[int, Quantity("start cases")]
+    total: Annotated[int, Quantity("start cases of that way of pressing")]
+    share: Annotated[float, Quantity("share", "", 3, "", percent=True)]
+    level_db: Annotated[float, Quantity("level, median", "L")]
+    lowest_db: Annotated[float, Quantity("lowest level", "L")]
+    highest_db: Annotated[float, Quantity("highest level", "L")]
+    apart: Annotated[float, Quantity("share of the time without contact, at most", "", 3, "", percent=True)]
+    steady: Annotated[bool, Quantity("levels no longer change")]
+    loudest_start: Annotated[str, Quantity("loudest start case")]
 
 
-def _set_by(case: Case, presses: bool) -> tuple[str, ...]:
-    """The excitations of this machine that the model has, once per turn all of them."""
-    parts = (
-        ("the imbalance that the balls leave", True),
-        ("the wheel's runout", presses and case.runout > 0),
-        ("race eccentricity", case.race_eccentricity > 0),
-        ("dry friction of the balls", case.friction_arm > 0),
-        ("the background level of the file", case.background_level is not None),
-    )
-    return tuple(name for name, there in parts if there)
+@record
+class LoadedStarts(Record):
+    """The start cases of grinding: how many there are, how many gave no answer, the highest level, and the outcomes."""
 
+    count: Annotated[int, Quantity("start cases")]
+    without_answer: Annotated[int, Quantity("without an answer")]
+    worst_db: Annotated[float | None, Quantity("highest level", "L")]
+    outcomes: tuple[LoadedOutcomeGroup, ...]
 
-def _listed(names: tuple[str, ...]) -> str:
-    """
-    >>> _listed(("a", "b", "c")), _listed(("a",))
-    ('a, b and c', 'a')
-    """
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    @classmethod
+    def of(cls, loads: GrindingOutcomes | None) -> Self | None:
+        """None for a machine whose contact does not press in the plane of the wheel."""
+        if loads is None:
+            return None
+        outcomes = tuple(map(LoadedOutcomeGroup.read, loads.groups))
+        return cls.read(loads, count=loads.ensemble.count, without_answer=len(loads.lost), outcomes=outcomes)

@@ -265,6 +265,7 @@ class ProfilePoint(Record):
         angles = [2 * math.pi * step / 24 for step in range(24)]
 
         def steady(state: SteadyWork, angle: float) -> float | None:
+            """Force [N] at a place of the wheel [rad]: N₀ + Re(N e^{−iα})."""
             return None if state.pressure is None else press + (state.pressure * cmath.exp(-1j * angle)).real
 
         return tuple(

@@ -20,14 +20,15 @@ from abu_calc.features.grinding.steady_contact import contact_presses
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
-from abu_calc.foundation.progress import Progress, Stage, silent
+from abu_calc.foundation.progress import Progress, counted, silent
+from abu_calc.simulation.balance import SLIPPING
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble import ALWAYS, first_tolerance, start_once
 from abu_calc.simulation.ensemble_results import Lost, StartOutcome
-from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION, SLIPPING
+from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION
 from abu_calc.simulation.start_cases import Member, grinding_scene_of_member, members
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import handle_levels
+from abu_calc.sizing.places import handle_levels
 
 Pressed = Literal["settled", "at once"]
 
@@ -152,10 +153,8 @@ def loaded_ensemble(
     lost = [start for start in settled if isinstance(start, LoadedLost)]
     tasks = [(design, start, accuracy) for start in starts]
 
-    def told(done: int) -> None:
-        progress(Stage(f"grinding: {done} of {len(tasks)} starts", done / len(tasks)))
-
-    outcomes = list(side_by_side(loaded_start, tasks, workers, told))
+    watched = counted(progress, "grinding: {} of {} starts", len(tasks))
+    outcomes = list(side_by_side(loaded_start, tasks, workers, watched))
     longer = MOST_LONGER if most is None else FEW_LONGER
     outcomes = _longer(design, outcomes, accuracy, progress, workers, longer)
     lost += [outcome for outcome in outcomes if isinstance(outcome, LoadedLost)]
@@ -271,10 +270,8 @@ def _longer(
     ][:most]  # fmt: skip
     tasks = [(design, outcomes[k].start, accuracy, LONGEST) for k in doubtful]
 
-    def told(done: int) -> None:
-        progress(Stage(f"grinding, longer: {done} of {len(tasks)} starts", done / len(tasks)))
-
-    longer = dict(zip(doubtful, side_by_side(loaded_start, tasks, workers, told), strict=True))
+    watched = counted(progress, "grinding, longer: {} of {} starts", len(tasks))
+    longer = dict(zip(doubtful, side_by_side(loaded_start, tasks, workers, watched), strict=True))
     return [
         later if isinstance(later := longer.get(k), LoadedOutcome) else outcome for k, outcome in enumerate(outcomes)
     ]

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal
 
-from abu_calc.features.grinding.formulas import characteristic, growing_roots, loaded_stiffness
+from abu_calc.features.grinding.formulas import BallArrangement, characteristic, growing_roots, loaded_stiffness
 from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.foundation.frozen import dataclass
@@ -150,6 +150,7 @@ def with_balls(
     doubled = abs(sum(cmath.exp(2j * angle) for angle in angles))
 
     def stiffness(line: float) -> tuple[complex, complex]:
+        """Both eigenvalues [1/s²] of balls whose |Σe^{2iΘ}| this is."""
         return loaded_stiffness(whirl, autobalancer.ball_mass, contact.speed, autobalancer.ball_count, line)
 
     if judged and places == "balanced" and leaving(design.case, contact, autobalancer, doubled):
@@ -168,15 +169,12 @@ def leaving(case: Case, contact: SteadyContact, candidate: Candidate, doubled: f
     mass = case.body.effective_mass(candidate.mass)
 
     def whirl(speed: complex) -> complex:
+        """G [m/(kg m)] at a complex speed [rad/s]."""
         dx, dy = (case.suspension.reaction(axis, speed) - mass * speed**2 for axis in (0, 1))
         return contact.whirl_at(speed, (dx, dy))
 
-    def value(s: complex) -> complex:
-        return characteristic(
-            whirl, candidate.ball_mass, contact.speed, candidate.ball_count, doubled, case.inertia_factor, case.drag, s
-        )
-
-    return growing_roots(value, contact.speed)
+    balls = BallArrangement(candidate.ball_count, candidate.ball_mass, doubled, case.inertia_factor, case.drag)
+    return growing_roots(lambda s: characteristic(whirl, balls, contact.speed, s), contact.speed)
 
 
 def _side_by_side(whirl: complex, needed: complex, capacity: float) -> complex | None:

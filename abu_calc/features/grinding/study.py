@@ -14,7 +14,8 @@ from abu_calc.features.grinding import work as analysis
 from abu_calc.features.grinding.checks import agreement, flutter_limits, work_checks
 from abu_calc.features.grinding.curves import shaken
 from abu_calc.features.grinding.formulas import published_resultant, stiffness_regions
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, loudest_start, lower_bound, with_starts
+from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, loudest_start, with_starts
 from abu_calc.features.grinding.records import (
     AxisMotion,
     Comparison,
@@ -29,7 +30,6 @@ from abu_calc.features.grinding.records import (
     TriedRemedy,
 )
 from abu_calc.features.grinding.start_cases import loaded_ensemble
-from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
 from abu_calc.features.grinding.steady_contact import (
     SteadyWork,
     bare,

@@ -195,6 +195,7 @@ def needed_exponent(without: NDArray[np.float64], fitted: NDArray[np.float64], r
     """
 
     def times(exponent: float) -> float:
+        """Ratio of the means of force^p, without over with; forces over the largest, so that none overflows."""
         largest = max(float(without.max()), float(fitted.max()))
         low, high = (float(np.mean((force / largest) ** exponent)) for force in (fitted, without))
         return high / low if low > 0 else math.inf

@@ -29,7 +29,8 @@ from abu_calc.simulation.scene_of_design import grinding_without, scene_of_desig
 from abu_calc.sizing import size
 from abu_calc.sizing.budget import accuracy_budget
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import Levels, LevelsUnderLoad, VibrationLevels, handle_levels
+from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels
+from abu_calc.sizing.vibration import LevelsUnderLoad
 
 EXCEEDED: Final = math.sqrt(2)
 """Ratio of run to closed form above which the run is trusted instead: 3 dB."""

@@ -108,15 +108,16 @@ def held_loads(design: Design) -> tuple[HeldLoad, ...] | None:
     handles = case.handles
     if len(handles) == 1:
         return (HeldLoad(handles[0].name, case.body.mass * GRAVITY, (case.body.mass + added) * GRAVITY),)
-    known = case.table.machine.spindle_axis == "horizontal" and case.body.is_rigid
-    if len(handles) != 2 or not known or handles[0].place == handles[1].place:
+    known = case.table.machine.spindle_axis == "horizontal" and case.body.is_rigid and not case.body.in_space
+    if len(handles) != 2 or not known or handles[0].place[2] == handles[1].place[2]:
         return None
     first, second = handles
-    span = first.place - second.place
+    at, other = first.place[2], second.place[2]
+    span = at - other
 
     def share(mass: float) -> tuple[float, float]:
-        weight, moment = (case.body.mass + mass) * GRAVITY, mass * GRAVITY * case.race_place
-        at_first = (moment - weight * second.place) / span
+        weight, moment = (case.body.mass + mass) * GRAVITY, mass * GRAVITY * case.race_place[2]
+        at_first = (moment - weight * other) / span
         return at_first, weight - at_first
 
     bare, fitted = share(0.0), share(added)

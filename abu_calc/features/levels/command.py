@@ -50,6 +50,36 @@ def levels(
             "--from", metavar="S", help="Leave this many first seconds out of the means.", rich_help_panel=RECORDING
         ),
     ] = None,
+    sensitivity: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--sensitivity",
+            metavar="[CHANNEL=]VALUE",
+            help='Sensitivity of a sensor recorded in V or mV: mV per m/s², or with its unit: "100 mV/g". Repeatable.',
+            rich_help_panel=RECORDING,
+        ),
+    ] = None,
+    full_scale_mv: Annotated[
+        float | None,
+        typer.Option(
+            "--full-scale-mV",
+            metavar="MV",
+            help="Voltage at full scale of a WAV file, with --sensitivity.",
+            rich_help_panel=RECORDING,
+        ),
+    ] = None,
+    handle: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--handle",
+            metavar="NAME=1,2,3",
+            help="Columns or channels at a handle. Repeatable.",
+            rich_help_panel=RECORDING,
+        ),
+    ] = None,
+    third_octaves: Annotated[
+        bool, typer.Option("--third-octaves", help="Calculate third octaves beside octaves.")
+    ] = False,
     minutes: Annotated[
         float | None, typer.Option("--minutes", metavar="MIN", help="Minutes of work a day, for A(8).")
     ] = None,
@@ -72,12 +102,22 @@ def levels(
     from abu_calc.inputs.recording_files import is_recording, read_recording
     from abu_calc.inputs.scene import read_any
 
-    picked = tuple(part.strip() for part in (channels or "").split(",") if part.strip())
+    picked, handles = _channels(channels), _handles(handle)
     if is_recording(source):
         if set_:
             raise InputError("for machines and scenes only", place=Place(key="--set"), remedy="Leave it out.")
-        given = read_recording(source, quantity, scale, picked)
-        result = study(given, scene, start=start, minutes=minutes, from_s=from_s, duration_s=duration_s)
+        given = read_recording(
+            source, quantity, scale, picked, sensitivity=sensitivity, handles=handles, full_scale_mV=full_scale_mv
+        )
+        result = study(
+            given,
+            scene,
+            start=start,
+            minutes=minutes,
+            from_s=from_s,
+            duration_s=duration_s,
+            third_octaves=third_octaves,
+        )
     else:
         with progress(how) as tell:
             result = study(
@@ -86,6 +126,10 @@ def levels(
                 quantity=quantity,
                 scale=scale,
                 channels=picked,
+                sensitivity=sensitivity,
+                handles=handles,
+                full_scale_mV=full_scale_mv,
+                third_octaves=third_octaves,
                 minutes=minutes,
                 from_s=from_s,
                 start=start,
@@ -94,6 +138,28 @@ def levels(
                 progress=tell,
             )
     return Outcome.of(result, lambda: levels_blocks(result), lambda: levels_screen(result))
+
+
+def _channels(text: str | None) -> tuple[str, ...]:
+    return tuple(part.strip() for part in (text or "").split(",") if part.strip())
+
+
+def _handles(given: list[str] | None) -> dict[str, tuple[str, ...]] | None:
+    """Channels by handle, of texts such as "front=1,2,3"; None without any."""
+    from abu_calc.foundation.errors import InputError, Place
+
+    handles: dict[str, tuple[str, ...]] = {}
+    for text in given or ():
+        name, equals, channels = text.partition("=")
+        if not equals or name.strip() in handles:
+            raise InputError(
+                "the same handle twice" if equals else "a handle needs a name and its channels",
+                place=Place(key="--handle"),
+                found=text,
+                remedy="--handle front=1,2,3 --handle rear=4,5,6",
+            )
+        handles[name.strip()] = _channels(channels)
+    return handles or None
 
 
 def register(app: typer.Typer) -> None:

@@ -22,14 +22,16 @@ from abu_calc.features.levels.octaves import (
     hand_arm_filter,
     octave_filter,
     place_filter,
+    third_octave_filter,
     weighted_rms,
     why_not,
 )
+from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
 from abu_calc.simulation.simulate import Simulation
 from abu_calc.sizing.design import Design
-from abu_calc.standards.vibration import Octave, hand_arm_response, octaves
+from abu_calc.standards.vibration import Octave, ThirdOctave, hand_arm_response, octaves, third_octaves
 
 ENDS: Final = 0.1
 """Share of a record at either end over which its mean rises and falls: parts of periods count for less."""
@@ -45,9 +47,19 @@ class Band:
 
 
 @dataclass(frozen=True)
+class ThirdBand:
+    """Rms velocity [m/s] in a third octave; None with the reason why it is not known."""
+
+    third: ThirdOctave
+    velocity: float | None
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
 class AxisLevels:
     """One axis of a place, rms: velocity of the whole motion [m/s], by octaves; displacement [m], acceleration [m/s²]
     and weighted acceleration a_h [m/s²] within 6 to 1260 Hz, as instruments take them; None with the reason.
+    `thirds`: velocity by third octaves, if they are asked for.
     """
 
     name: str
@@ -57,6 +69,7 @@ class AxisLevels:
     acceleration: float | None
     weighted: float | None
     reason: str | None = None
+    thirds: tuple[ThirdBand, ...] = ()
 
     @property
     def corrected(self) -> float | None:
@@ -101,6 +114,10 @@ class PlaceLevels:
         """An octave on the axis where it is loudest."""
         return max((axis.bands[index] for axis in self.axes), key=lambda band: band.velocity or -1.0)
 
+    def loudest_third(self, index: int) -> ThirdBand:
+        """A third octave on the axis where it is loudest."""
+        return max((axis.thirds[index] for axis in self.axes), key=lambda band: band.velocity or -1.0)
+
 
 def largest(values: Iterable[float | None]) -> float | None:
     """Largest of the known values; None if there is none."""
@@ -112,8 +129,8 @@ def level(velocity: float | None) -> float | None:
     return level_from_velocity(velocity) if velocity else None
 
 
-def axis_levels(name: str, signal: Signal) -> AxisLevels:
-    """Levels of a signal along one axis.
+def axis_levels(name: str, signal: Signal, *, thirds: bool = False) -> AxisLevels:
+    """Levels of a signal along one axis, and by third octaves if they are asked for.
 
     The whole velocity is the rms about the mean from the signal's start on; for accelerations it is that of
     the octaves.
@@ -122,7 +139,14 @@ def axis_levels(name: str, signal: Signal) -> AxisLevels:
     wide = place_filter(), acceleration_filter(), hand_arm_filter()
     reason = why_not(signal, wide[0])
     place, acceleration, weighted = (band_rms(signal, weighting) if reason is None else None for weighting in wide)
-    return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason)
+    narrow = tuple(_third(signal, third) for third in third_octaves()) if thirds else ()
+    return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason, narrow)
+
+
+def _third(signal: Signal, third: ThirdOctave) -> ThirdBand:
+    band = third_octave_filter(third)
+    reason = why_not(signal, band)
+    return ThirdBand(third, band_rms(signal, band) if reason is None else None, reason)
 
 
 def _band(signal: Signal, octave: Octave) -> Band:
@@ -171,24 +195,26 @@ def with_tone(place: PlaceLevels, velocity: float, weight: float, frequency: flo
         "weighted": weight * velocity * frequency,
     }
 
-    def added(value: float, part: str | Octave) -> float:
-        if isinstance(part, Octave):
+    def added(value: float, part: str | Octave | ThirdOctave) -> float:
+        if not isinstance(part, str):
             return math.hypot(value, velocity if part.low <= frequency < part.high else 0.0)
         return math.hypot(value, parts[part])
 
     return PlaceLevels(place.name, tuple(_each(axis, added) for axis in place.axes))
 
 
-def _each(axis: AxisLevels, change: Callable[[float, str | Octave], float]) -> AxisLevels:
+def _each(axis: AxisLevels, change: Callable[[float, str | Octave | ThirdOctave], float]) -> AxisLevels:
     """An axis with all that is known of it changed."""
 
-    def changed(value: float | None, part: str | Octave) -> float | None:
+    def changed(value: float | None, part: str | Octave | ThirdOctave) -> float | None:
         return None if value is None else change(value, part)
 
     bands = tuple(replace(band, velocity=changed(band.velocity, band.octave)) for band in axis.bands)
+    thirds = tuple(replace(band, velocity=changed(band.velocity, band.third)) for band in axis.thirds)
     return replace(
         axis,
         bands=bands,
+        thirds=thirds,
         velocity=changed(axis.velocity, "velocity"),
         displacement=changed(axis.displacement, "displacement"),
         acceleration=changed(axis.acceleration, "acceleration"),
@@ -221,12 +247,14 @@ def _slowest_period() -> float:
     return 2 * math.pi / octaves()[0].centre
 
 
-def axis_place_levels(run: Simulation, times: Array, name: str) -> PlaceLevels:
+def axis_place_levels(run: Simulation, times: Array, name: str, *, thirds: bool = False) -> PlaceLevels:
     """Levels of the axis along x and y, from the states of a run sampled at these times."""
     velocities = run.scene.axis_velocity(run.trajectory.at(times))
     rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * run.scene.duration - float(times[0])
     signals = [Signal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
-    return PlaceLevels(name, tuple(map(axis_levels, "xy", signals)))
+    return PlaceLevels(
+        name, tuple(axis_levels(x, signal, thirds=thirds) for x, signal in zip("xy", signals, strict=True))
+    )
 
 
 def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]:
@@ -235,17 +263,26 @@ def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]
     Balls in another plane than the imbalance leave a tone of the spindle. It is added as energy, as in
     sizing. The background is left out, since its octaves are not known.
     """
-    case = design.case
-    held = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    return tuple(moved_at(design, at_race, name, place) for name, place in held)
+    return tuple(moved_at(design, at_race, held.name, held.place) for held in design.case.places)
 
 
-def moved_at(design: Design, at_race: PlaceLevels, name: str, place: float) -> PlaceLevels:
-    """Levels at one place [m] from the centre of mass, computed like `held_levels`."""
+def moved_at(design: Design, at_race: PlaceLevels, name: str, place: Vector) -> PlaceLevels:
+    """Levels at one place [m] from the centre of mass, computed like `held_levels`.
+
+    Its z axis, if it moves, has the spectrum of the race's x axis.
+    """
     case, added = design.case, design.autobalancer.mass
     body, race = case.body, case.race_place
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
-    moved = carried(at_race, name, abs(body.inertance(place, race, added)) / body.inertance(race, race, added))
-    rest = imbalance * body.inertance(place, body.wheel, added) - balls * body.inertance(place, race, added)
-    tone = abs(rest) * case.speed / math.sqrt(2)
-    return with_tone(moved, tone, abs(hand_arm_response(1j * case.speed)), case.speed) if tone else moved
+    by_race = body.body.acceleration(place, race, added=added)
+    by_wheel = body.body.acceleration(place, body.wheel, added=added)
+    sources = (*at_race.axes, at_race.axes[0])
+    axes = list[AxisLevels]()
+    for axis, source, at, wheel in zip("xyz", sources, by_race, by_wheel, strict=True):
+        share, rest = abs(at) / body.inertance(race, race, added), abs(imbalance * wheel - balls * at)
+        if axis == "z" and not share:
+            continue
+        moved = carried(PlaceLevels(name, (replace(source, name=axis),)), name, share)
+        tone = rest * case.speed / math.sqrt(2)
+        axes += (with_tone(moved, tone, abs(hand_arm_response(1j * case.speed)), case.speed) if tone else moved).axes
+    return PlaceLevels(name, tuple(axes))

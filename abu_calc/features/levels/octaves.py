@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.standards.vibration import Octave, band_limits, hand_arm_response, high_pass, octaves
+from abu_calc.standards.vibration import Octave, ThirdOctave, band_limits, hand_arm_response, high_pass, octaves
 
 Array = NDArray[np.float64]
 
@@ -25,6 +25,10 @@ It is within 0.01 dB over three quarters of an octave, and 78 dB down in the mid
 """
 SETTLED: Final = 28.0
 """Periods of a band's centre until its filter has settled to 0.01 dB."""
+THIRD_ORDER: Final = 6
+"""Order of the Butterworth band pass of a third octave: within 0.15 dB over three quarters of it, class 1."""
+THIRD_SETTLED: Final = 43.0
+"""Periods of a third octave's centre likewise: half the order, a third of the width."""
 FADED: Final = 0.3
 """Share of that time over which the record is faded in: a jump at its start would ring longer."""
 RAMP: Final = 4.0
@@ -32,7 +36,7 @@ RAMP: Final = 4.0
 WIDE_PERIOD: Final = 1 / 50
 """Period [s] that times of the filters over all octaves are counted in."""
 LEAST: Final = SETTLED + 2 * RAMP
-"""Periods of a band's centre that a record must last."""
+"""Periods of an octave's centre that a record must last."""
 SHARE_OF_NYQUIST: Final = 0.9
 """Share of half the sampling rate up to which a record is trusted."""
 BLOCK: Final = 2**18
@@ -41,12 +45,21 @@ BLOCK: Final = 2**18
 
 @dataclass(frozen=True)
 class Filter:
-    """A band: `period` [s] that its times are counted in, its edges [rad/s], its response to iω [rad/s]."""
+    """A band: `period` [s] that its times are counted in, its edges [rad/s], its response to iω [rad/s].
+
+    `settled`: periods until it has settled.
+    """
 
     period: float
     low: float
     high: float
     response: Callable[[NDArray[np.complex128]], NDArray[np.complex128]]
+    settled: float = SETTLED
+
+    @property
+    def least(self) -> float:
+        """Periods that a record must last."""
+        return self.settled + 2 * RAMP
 
 
 @dataclass(frozen=True)
@@ -71,14 +84,23 @@ class Signal:
 
 def octave_filter(band: Octave) -> Filter:
     """Butterworth, −3 dB at the edges of the band. Class 1 of IEC 61260-1:2014 with room to spare."""
+    return _band_pass(band, ORDER, SETTLED)
+
+
+def third_octave_filter(band: ThirdOctave) -> Filter:
+    """Butterworth, −3 dB at the edges of the band. Class 1 of IEC 61260-1:2014 with room to spare."""
+    return _band_pass(band, THIRD_ORDER, THIRD_SETTLED)
+
+
+def _band_pass(band: Octave | ThirdOctave, order: int, settled: float) -> Filter:
     from scipy.signal import butter, freqs_zpk
 
-    zeros, poles, gain = butter(ORDER, [band.low, band.high], "bandpass", analog=True, output="zpk")
+    zeros, poles, gain = butter(order, [band.low, band.high], "bandpass", analog=True, output="zpk")
 
     def response(s: NDArray[np.complex128]) -> NDArray[np.complex128]:
         return np.asarray(freqs_zpk(zeros, poles, [gain], worN=s.imag)[1], dtype=np.complex128)
 
-    return Filter(2 * math.pi / band.centre, band.low, band.high, response)
+    return Filter(2 * math.pi / band.centre, band.low, band.high, response, settled)
 
 
 def hand_arm_filter() -> Filter:
@@ -112,8 +134,8 @@ def why_not(signal: Signal, band: Filter) -> str | None:
     if band.high > SHARE_OF_NYQUIST * math.pi * signal.rate:
         needed = f"{2 / SHARE_OF_NYQUIST:.2g} times its upper edge"
         return f"sampled too slowly, at {signal.rate:.5g} Hz: {needed} are needed"
-    if signal.duration < LEAST * band.period * (1 - 1e-9):
-        needed = f"{LEAST:g} of its periods"
+    if signal.duration < band.least * band.period * (1 - 1e-9):
+        needed = f"{band.least:g} of its periods"
         return f"the record is too short, {signal.duration:.3g} s: {needed} are needed"
     if not signal.whole and signal.duration - signal.start < 2 * RAMP * band.period:
         needed = f"{2 * RAMP:g} of its periods"
@@ -129,7 +151,7 @@ def band_rms(signal: Signal, band: Filter) -> float:
     in the inner three quarters of a band; what jumps counts as it does in an instrument.
     """
     count = len(signal.samples)
-    settled = SETTLED * band.period
+    settled = band.settled * band.period
     start = min(signal.start, signal.duration - 2 * RAMP * band.period) if signal.whole else signal.start
     first = math.ceil(max(start, settled) * signal.rate)
     weights_of = _ramps(first, count, RAMP * band.period * signal.rate)
@@ -163,13 +185,13 @@ def _filtered(signal: Signal, band: Filter, first: int) -> Iterator[tuple[Array,
     """Indices and filtered values from `first` on, block by block; each is led in by twice the time to settle."""
     from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
-    lead = math.ceil(2 * SETTLED * band.period * signal.rate)
+    lead = math.ceil(2 * band.settled * band.period * signal.rate)
     mean, count = float(np.mean(signal.samples)), len(signal.samples)
     responses: dict[int, NDArray[np.complex128]] = {}
     for begin in range(first, count, max(BLOCK, 4 * lead)):
         end, early = min(begin + max(BLOCK, 4 * lead), count), max(begin - lead, 0)
         part = np.asarray(signal.samples[early:end], dtype=float) - mean
-        faded = min(math.ceil(FADED * SETTLED * band.period * signal.rate), len(part))
+        faded = min(math.ceil(FADED * band.settled * band.period * signal.rate), len(part))
         part[:faded] *= np.sin(math.pi / 2 * np.arange(faded) / faded) ** 2
         # It goes on behind its end and fades, so that no jump rings; then room for what rings on.
         behind = min(math.ceil(RAMP * band.period * signal.rate), len(part) - 1)

@@ -1,7 +1,7 @@
 """Octave levels, weighted acceleration and daily exposure, of a recorded signal or of a simulated motion."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final, Self
@@ -13,11 +13,13 @@ from abu_calc.features.levels.levels import (
     AxisLevels,
     Band,
     PlaceLevels,
+    ThirdBand,
     axis_levels,
     axis_place_levels,
     duration_for,
     halves_differ,
     held_levels,
+    largest,
     level,
     moved_at,
     times_for,
@@ -74,13 +76,45 @@ class OctaveLevel(Record):
 
 
 @record
+class ThirdOctaveLevel(Record):
+    """One third octave, on the axis where it is loudest; no level if the record does not give it."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
+
+    nominal_hz: Annotated[float, Quantity("third octave", "", 4)]
+    low_hz: Annotated[float, Quantity("from", "", 5)]
+    high_hz: Annotated[float, Quantity("to", "", 5)]
+    level_db: Annotated[float | None, Quantity("level", "L")]
+    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    why_not: Annotated[str | None, Quantity("why it is not known")]
+
+    @classmethod
+    def of(cls, band: ThirdBand) -> Self:
+        """Record in user units."""
+        third, velocity = band.third, band.velocity
+        return cls(
+            nominal_hz=float(third.nominal),
+            low_hz=from_si(third.low, "hz"),
+            high_hz=from_si(third.high, "hz"),
+            level_db=level(velocity),
+            velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
+            why_not=band.reason,
+        )
+
+
+@record
 class AxisLevel(Record):
     """One axis of a place."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"third_octave_levels_db"})
 
     name: Annotated[str, Quantity("axis")]
     level_db: Annotated[float | None, Quantity("level", "L")]
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octave_levels_db: Annotated[tuple[float | None, ...], Quantity("octaves 8 … 1000 Hz", "L")]
+    third_octave_levels_db: Annotated[
+        tuple[float | None, ...] | None, Quantity("third octaves 6.3 … 1250 Hz", "L", 4, "with --third-octaves")
+    ]
     displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3)]
     acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted")]
     weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_h", 3)]
@@ -93,6 +127,7 @@ class AxisLevel(Record):
             level_db=level(axis.velocity),
             velocity_rms_mm_per_s=None if axis.velocity is None else from_si(axis.velocity, "mm_per_s"),
             octave_levels_db=tuple(level(band.velocity) for band in axis.bands),
+            third_octave_levels_db=tuple(level(band.velocity) for band in axis.thirds) if axis.thirds else None,
             displacement_rms_um=None if axis.displacement is None else from_si(axis.displacement, "um"),
             acceleration_m_per_s2=axis.acceleration,
             weighted_acceleration_m_per_s2=axis.weighted,
@@ -104,13 +139,14 @@ class PlaceLevel(Record):
     """One place: its loudest axis, by octaves, corrected; the vector total of its weighted accelerations."""
 
     optional: ClassVar[frozenset[str]] = frozenset(
-        {"level_before_db", "static_load_without_N", "static_load_N", "daily_exposure_m_per_s2"}
+        {"level_before_db", "static_load_without_N", "static_load_N", "daily_exposure_m_per_s2", "third_octaves"}
     )
 
     name: Annotated[str, Quantity("place")]
     level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octaves: tuple[OctaveLevel, ...]
+    third_octaves: tuple[ThirdOctaveLevel, ...] | None
     corrected_level_db: Annotated[
         float | None, Quantity("weighted overall level", "L", 4, "of the octaves that are known")
     ]
@@ -136,12 +172,13 @@ class PlaceLevel(Record):
         `loads` [N]: without and with the autobalancer.
         """
         velocity, moved, total = place.velocity, place.louder("displacement"), place.total
-        count = len(place.axes[0].bands)
+        count, thirds = len(place.axes[0].bands), len(place.axes[0].thirds)
         return cls(
             name=place.name,
             level_db=level(velocity),
             velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
             octaves=tuple(OctaveLevel.of(place.loudest(index)) for index in range(count)),
+            third_octaves=tuple(ThirdOctaveLevel.of(place.loudest_third(index)) for index in range(thirds)) or None,
             corrected_level_db=level(place.corrected),
             displacement_rms_um=None if moved is None else from_si(moved, "um"),
             acceleration_m_per_s2=place.louder("acceleration"),
@@ -199,6 +236,10 @@ def levels(
     quantity: str | None = None,
     scale: float | None = None,
     channels: Sequence[str] = (),
+    sensitivity: float | str | Sequence[float | str] | Mapping[str, float | str] | None = None,
+    handles: Mapping[str, Sequence[str]] | None = None,
+    full_scale_mV: float | None = None,
+    third_octaves: bool = False,
     minutes: float | None = None,
     from_s: float | None = None,
     start: str | None = None,
@@ -208,7 +249,8 @@ def levels(
 ) -> LevelsResult:
     """Levels of a recorded signal (a CSV or WAV file), or of a machine or scene that is simulated.
 
-    `quantity`, `scale`, `channels`: how a file is to be taken, see `read_recording`; `from_s`: where its means begin.
+    `quantity`, `scale`, `channels`, `sensitivity`, `handles`, `full_scale_mV`: how a file is to be taken, see
+    `read_recording`; `from_s`: where its means begin. `third_octaves`: levels by them beside octaves.
     `scene`: of a machine, idle or grinding, from the `start` of its balls (bunched); `minutes`: of work a day, for
     A(8). Raises InputError with file, line and column, NotTrustworthyError where a simulation does not reach the
     accuracy.
@@ -217,14 +259,23 @@ def levels(
         MINUTES.check(minutes)
     if isinstance(source, (str, Path)):
         file = str(source)
-        source = read_recording(file, quantity, scale, channels) if is_recording(file) else read_any(file)
+        if is_recording(file):
+            source = read_recording(
+                file, quantity, scale, channels, sensitivity=sensitivity, handles=handles, full_scale_mV=full_scale_mV
+            )
+            quantity = scale = sensitivity = handles = full_scale_mV = None
+            channels = ()
+        else:
+            source = read_any(file)
     if isinstance(source, Recording):
         _only_for("a machine", scene=scene, start=start, duration_s=duration_s)
-        return _of_recording(source, minutes, from_s)
-    _only_for("a recorded file", quantity=quantity, scale=scale, channels=channels or None, from_s=from_s)
+        return _of_recording(source, minutes, from_s, thirds=third_octaves)
+    how_read = {"sensitivity": sensitivity, "handles": handles, "full_scale_mV": full_scale_mV, "from_s": from_s}
+    _only_for("a recorded file", quantity=quantity, scale=scale, channels=channels or None, **how_read)
     one_of("scene", scene, SCENES)
     ACCURACY.check(accuracy)
-    return _of_motion(subject_of(source, scene, start, command="levels"), minutes, accuracy, duration_s, progress)
+    subject = subject_of(source, scene, start, command="levels")
+    return _of_motion(subject, minutes, accuracy, duration_s, progress, thirds=third_octaves)
 
 
 def _only_for(what: str, **given: object) -> None:
@@ -233,7 +284,7 @@ def _only_for(what: str, **given: object) -> None:
             raise InputError(f"for {what} only", place=Place(key=name), found=f"{value}", remedy="Leave it out.")
 
 
-def _of_recording(recorded: Recording, minutes: float | None, from_s: float | None) -> LevelsResult:
+def _of_recording(recorded: Recording, minutes: float | None, from_s: float | None, *, thirds: bool) -> LevelsResult:
     lowest = octave_filter(octaves()[0])
     if lowest.high > SHARE_OF_NYQUIST * math.pi * recorded.rate:
         raise InputError(
@@ -245,12 +296,17 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
         )
     start, derivative = _start(recorded, from_s), QUANTITIES.index(recorded.quantity)
     signals = [Signal(values, recorded.rate, 1 - derivative, start, from_s is None) for values in recorded.samples]
-    place = PlaceLevels("file", tuple(map(axis_levels, recorded.names, signals)))
+    axes = [axis_levels(name, signal, thirds=thirds) for name, signal in zip(recorded.names, signals, strict=True)]
+    places = tuple(
+        PlaceLevels(handle or "file", tuple(axes[k] for k in members))
+        for handle, members in recorded.axes_by_handle.items()
+    )
+    loudest = level(largest(place.velocity for place in places))
     return _result(
         Path(recorded.file).name,
-        (PlaceLevel.of(place, minutes),),
-        checks=level_checks((place,), minutes),
-        warnings=(*recorded.told, *_remarks(recorded, signals), *_unusual(level(place.velocity))),
+        tuple(PlaceLevel.of(place, minutes) for place in places),
+        checks=level_checks(places, minutes),
+        warnings=(*recorded.told, *_remarks(recorded, signals), *_unusual(loudest)),
         provenance=Provenance.today(recorded.file, recorded.sha256),
         source="recording",
         quantity=recorded.quantity,
@@ -298,14 +354,20 @@ def _unusual(level_db: float | None) -> Iterator[str]:
 
 
 def _of_motion(
-    subject: Subject, minutes: float | None, accuracy: float, duration_s: float | None, progress: Progress
+    subject: Subject,
+    minutes: float | None,
+    accuracy: float,
+    duration_s: float | None,
+    progress: Progress,
+    *,
+    thirds: bool,
 ) -> LevelsResult:
     design = subject.design
     subject = subject.lasting(duration_for(subject.scene) if duration_s is None else duration_s)
     times = times_for(subject.scene)
     ledger = subject.ledger(accuracy)
     run = integrated(ledger.scene, accuracy - ledger.spared, times, progress=progress)
-    at_axis = axis_place_levels(run, times, "axis")
+    at_axis = axis_place_levels(run, times, "axis", thirds=thirds)
     places = (at_axis,) if design is None else held_levels(design, at_axis)
     records = tuple(PlaceLevel.of(place, minutes) for place in places)
     measured = None

@@ -4,22 +4,20 @@ The choice depends on the makers' catalogue, the interference, the stress and th
 """
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import cache, lru_cache
 from typing import Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.clearance import Mounting, makers_classes
+from abu_calc.features.seats.clearance import Mounting
 from abu_calc.features.seats.creep import holds_at_start
 from abu_calc.features.seats.interference import of_all
-from abu_calc.features.seats.joint import Joint
+from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
+from abu_calc.features.seats.joints import makers_classes
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.units import from_si
-from abu_calc.standards.bearing_catalogue import GROUPS, radial_clearance
+from abu_calc.standards.internal_clearance import groups_of, internal_clearance, usual_group
 from abu_calc.standards.tolerance_classes import MakerFits, Seat, tolerance_classes
-
-LOOSE_ENOUGH: Final = 0.5
-"""A ring under a load fixed in direction should be loose in at least half of all pairs: it creeps, spreads its wear
-and can be moved along its seat."""
 
 _USUAL_GRADE: Final[dict[Seat, str]] = {"shaft": "6", "housing": "7"}
 _SLIDING: Final[dict[Seat, str]] = {"shaft": "h6", "housing": "H7"}
@@ -38,20 +36,37 @@ class Rejected(NamedTuple):
 def advised(joint: Joint, start: Start, usual: MakerFits | None) -> Joint | None:
     """The joint with the recommended tolerance class; None if no tabulated one passes.
 
-    With C known the maker's class (the given one where the same row names it), tightened until the mean interference
-    reaches what the ring needs, loosened where stress forbids. Without C the loosest class whose smallest interference
-    reaches it. Without a load, or where nothing else decides, `usual`, the maker's class for normal loads.
+    With C known the catalogue's class (the given one where the same row names it), tightened until few pairs are short
+    of what the rule demands, loosened where stress forbids. Without C the loosest class whose smallest interference
+    reaches it. Without a load, or where nothing else decides, `usual`, the maker's class for normal loads. A ring under
+    a load fixed in direction gets a looser class if warmth or cold would make it tight.
     """
     maker = joint.maker
     if maker is None and joint.must_grip and joint.required is not None:
-        return _by_smallest(joint, start) or _first(_by_mean(joint), start)
+        return _by_smallest(joint, start) or _best(_by_mean(joint), start)
     row = maker or usual
     classes = row.classes if row else (_SLIDING[joint.seat],)
-    named = joint.measured is None and joint.tolerance_class in classes
-    base = joint.with_class(joint.tolerance_class if named else classes[0])
+    first = joint.catalogue_class or classes[0]
+    named = joint.measured is None and first == classes[0] and joint.tolerance_class in classes
+    base = joint.with_class(joint.tolerance_class if named else first)
     above = [candidate for candidate in _like(base) if candidate.mean > base.mean]
     below = [candidate for candidate in reversed(_like(base)) if candidate.mean < base.mean]
-    return _first((base, *above, *below), start)
+    if not joint.must_grip and not joint.runs_on_needles and base.loose_share() >= LOOSE_ENOUGH:
+        looser = [base, *below, *(fit for fit in reversed(_by_mean(joint)) if fit.mean < base.mean)]
+        free = (fit for fit in looser if fit.loose_share(fit.coldest_or_hottest.loss) >= LOOSE_ENOUGH)
+        return _best((*free, looser[-1]), start)
+    return _best((base, *above, *below), start)
+
+
+def rule_class(joint: Joint, start: Start) -> str | None:
+    """The loosest class whose smallest interference the rules for the load ask for; None if none is tight enough.
+
+    The catalogue plays no part in it. A ring under a load fixed in direction has none.
+    """
+    if not joint.must_grip or joint.required is None:
+        return None
+    found = _by_smallest(replace(joint, maker=None), start)
+    return found.tolerance_class if found else None
 
 
 def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, ...]:
@@ -101,8 +116,10 @@ def _by_smallest(joint: Joint, start: Start) -> Joint | None:
     return min(passing, key=order, default=None)
 
 
-def _first(joints: Iterable[Joint], start: Start) -> Joint | None:
-    return next((joint for joint in joints if _will_do(joint, start)), None)
+def _best(joints: Iterable[Joint], start: Start) -> Joint | None:
+    """The first that holds with few short pairs, else the first that holds."""
+    holding = [joint for joint in joints if _will_do(joint, start)]
+    return next((joint for joint in holding if joint.short_grade != "warn"), holding[0] if holding else None)
 
 
 def _will_do(joint: Joint, start: Start) -> bool:
@@ -116,6 +133,9 @@ def _why_not(joint: Joint, start: Start) -> str | None:
         needed, mean = from_si(joint.required.value, "um"), from_si(joint.mean, "um")
         short = of_all(joint.short)
         return f"the ring creeps: mean interference {mean:.3g} µm of {needed:.3g} µm required, {short} have less"
+    if joint.short_grade == "fail" and joint.short_pairs is not None and joint.demand is not None:
+        demand = from_si(joint.demand.value, "um")
+        return f"{of_all(joint.short_pairs)} have less than the {demand:.3g} µm demanded"
     if joint.stress == "fail":
         limit = from_si(joint.stress_limit.value, "um")
         return (
@@ -155,10 +175,11 @@ def _grade(tolerance_class: str) -> str:
     return tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")
 
 
-_USUAL_GROUP: Final = "CN"
-SHARE_TO_ORDER: Final = 0.05
-"""Share of bearings without clearance up to which a group is still the one to order; assumed. The makers' own js5 … j6
-with CN stay below it, their k5, for which they ask for more clearance, lies above."""
+SHARE_TO_ORDER: Final = 0.01
+"""Share of bearings without clearance up to which a group is still the one to order; assumed."""
+SHARE_OF_MAKERS: Final = 0.05
+"""The same for a catalogue's own class on the shaft with a loose ring in the housing; assumed. The makers' js5 … j6
+with CN stay below it but for two bearings. Their k5, for which they ask for more clearance, lies above."""
 
 
 class SeatAdvice(NamedTuple):
@@ -182,12 +203,16 @@ class JointAdvice(NamedTuple):
 def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
     """Recommended tolerance classes, with the group of clearance that stays above zero in all but few bearings.
 
+    No seat helps a bearing whose static load is above C0: the ring under a rotating load gets no class then.
+
     If the classes leave no clearance in the group given, a looser group is named in place of it. If no group keeps its
     clearance, the shaft's class is loosened as far as its mean interference allows.
     """
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
-    inner = advised(shaft, start, makers_classes(bearing, "shaft"))
-    outer = advised(housing, start, makers_classes(bearing, "housing"))
+    inner, outer = (
+        None if overloaded(bearing) and joint.must_grip else advised(joint, start, makers_classes(bearing, joint.seat))
+        for joint in (shaft, housing)
+    )
     group = None
     if _has_groups(bearing) and inner is not None and outer is not None:
         for candidate in (inner, *looser_that_hold(inner, start)):
@@ -195,6 +220,7 @@ def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
             if group is not None:
                 inner = candidate
                 break
+        group = _group_for_given(bearing, shaft, housing, (inner, outer), group)
     return JointAdvice(
         _with_neighbours(bearing, inner, outer, start, group),
         _with_neighbours(bearing, outer, inner, start, group),
@@ -211,16 +237,27 @@ def _with_neighbours(
         pair = (joint, other) if joint.seat == "shaft" else (other, joint)
         share = Mounting(bearing, *pair).share_below(group)
         text = f"no operating clearance is left in {of_all(share, 'bearings')} of group {group}"
-        return text if share > SHARE_TO_ORDER else None
+        return text if share > _share_to_order(*pair) else None
 
     return SeatAdvice(best, neighbours(best, start, too_tight) if best else ())
 
 
+def overloaded(bearing: SeatedBearing) -> bool:
+    """True if the equivalent static load is above C0."""
+    loads, ratings = bearing.equivalent_loads, bearing.ratings
+    return loads is not None and ratings is not None and 0 < ratings.static < loads[1]
+
+
 def _has_groups(bearing: SeatedBearing) -> bool:
-    if bearing.kind != "ball":
+    """True if the bearing is ordered with a clearance group.
+
+    The clearance of tapered and angular contact bearings is set by their pair.
+    """
+    kind = bearing.kind
+    if kind is None or bearing.no_inner_ring or kind in ("tapered", "angular-contact"):
         return False
     try:
-        radial_clearance(_USUAL_GROUP, bearing.inner.diameter)
+        internal_clearance(kind, usual_group(kind), bearing.inner.diameter)
     except RangeError:
         return False
     return True
@@ -228,6 +265,30 @@ def _has_groups(bearing: SeatedBearing) -> bool:
 
 def _group(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> str | None:
     """The group given or a looser one, the usual one or a looser where none is given: the first that keeps."""
-    mounting = Mounting(bearing, shaft, housing)
-    first = GROUPS.index(bearing.internal_clearance or _USUAL_GROUP)
-    return next((group for group in GROUPS[first:] if mounting.share_below(group) <= SHARE_TO_ORDER), None)
+    if bearing.kind is None:
+        return None
+    mounting, groups = Mounting(bearing, shaft, housing), groups_of(bearing.kind)
+    first, most = groups.index(bearing.internal_clearance or usual_group(bearing.kind)), _share_to_order(shaft, housing)
+    return next((group for group in groups[first:] if mounting.share_below(group) <= most), None)
+
+
+def _share_to_order(shaft: Joint, housing: Joint) -> float:
+    """Share of bearings without clearance up to which a group is the one to order with two seats."""
+    own = shaft.maker is not None and shaft.tolerance_class in shaft.maker.classes
+    loose = not housing.must_grip and housing.clearance_probability >= LOOSE_ENOUGH
+    return SHARE_OF_MAKERS if own and loose else SHARE_TO_ORDER
+
+
+def _group_for_given(
+    bearing: SeatedBearing, shaft: Joint, housing: Joint, advised_pair: tuple[Joint, Joint], group: str | None
+) -> str | None:
+    """The group that also suits the classes given, where they hold and one does: they may stay as they are."""
+    if group is None or bearing.kind is None:
+        return group
+    parts, joints = (bearing.shaft, bearing.housing), (shaft, housing)
+    pair = [
+        joint if (part.fit or part.measured) and joint.holds and not joint.turns_tight else best
+        for part, joint, best in zip(parts, joints, advised_pair, strict=True)
+    ]
+    given, groups = _group(bearing, pair[0], pair[1]), groups_of(bearing.kind)
+    return group if given is None else max(group, given, key=groups.index)

@@ -3,12 +3,14 @@
 from dataclasses import field
 from typing import Final
 
+from abu_calc.features.seats.equivalent_load import equivalent_dynamic, equivalent_static, load_factors
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.bearing_catalogue import Series
-from abu_calc.standards.tolerance_classes import BearingType, DeviationLimits, Kind, Ratings, RingLoad
+from abu_calc.standards.catalogue import CatalogueBearing, Kind, Ratings
+from abu_calc.standards.tolerance_classes import BearingType, DeviationLimits, RingLoad
 
 BEARING_SIZE: Final = Range("bearing size", 0.0, 10.0, "m", open_low=True)
 SEAT_DIAMETER: Final = Range("diameter of the seat", 0.0, 10.0, "m", open_low=True)
@@ -16,6 +18,9 @@ SEAT_LENGTH: Final = Range("length of the seat", 0.0, 10.0, "m", open_low=True)
 TUBE_RATIO: Final = Range("ratio of a tube's diameters", 0.0, 0.999)
 ROUGHNESS: Final = Range("roughness Rz of the seat", 0.0, 1e-3, "m")
 RADIAL_LOAD: Final = Range("radial load", 0.0, 1e9, "N")
+AXIAL_LOAD: Final = Range("axial load", 0.0, 1e9, "N")
+VISCOSITY: Final = Range("viscosity", 0.0, 0.1, "m²/s", open_low=True)
+SHARE: Final = Range("share of pairs", 0.0, 1.0)
 WARMER_RING: Final = Range("temperature difference of a ring and its seat", -500.0, 500.0, "K")
 WARMER_INSIDE: Final = Range("temperature of the inner ring above the outer one", -500.0, 500.0, "K")
 WARMER_THAN_MOUNTED: Final = Range("temperature of the bearing above that of mounting", -300.0, 500.0, "K")
@@ -72,7 +77,9 @@ class Service:
 
     Temperature differences [K] of either sign: `ring_over_shaft` and `inner_over_outer` of the inner ring
     over shaft and outer ring; `housing_over_ring` of the housing over the outer ring; `over_mounting` of
-    the rings over mounting (20 °C). `seat_friction`: coefficient of friction between ring and seat.
+    the rings over mounting (20 °C); `extremes` the lowest and highest of all parts over mounting. `seat_friction`:
+    coefficient of friction between ring and seat. `viscosity` [m²/s] of the lubricant at its temperature,
+    `contamination` factor e_C, `required_life` [s] (None: the makers' guide).
     """
 
     radial_load: float | None = None
@@ -83,8 +90,15 @@ class Service:
     over_mounting: float | None = None
     starting_torque: float | None = None
     seat_friction: float = 0.12
+    axial_load: float | None = None
+    viscosity: float | None = None
+    contamination: float = 0.5
+    required_life: float | None = None
+    extremes: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
+        _check(AXIAL_LOAD, self.axial_load)
+        _check(VISCOSITY, self.viscosity)
         _check(RADIAL_LOAD, self.radial_load)
         _check(RING_SPEED, self.speed)
         _check(WARMER_RING, self.ring_over_shaft)
@@ -100,7 +114,9 @@ class SeatedBearing:
     """A bearing between its shaft and its housing, and what is asked of the two seats.
 
     `type` by whose table its rings are toleranced, `kind` what it is (None: not told), `ratings` where they are known;
-    `remarks`: what was taken from where the table does not say it; `designation` ISO's, where it is known.
+    `remarks`: what was taken from where the table does not say it; `designation` ISO's, where it is known. `entry`: the
+    row of the makers' catalogue; `no_inner_ring`: the needles run on the shaft. `position` along the spindle from the
+    wheel's centre [m]; `short_shares` of pairs above which a seat warns, and fails.
     """
 
     name: str
@@ -118,8 +134,14 @@ class SeatedBearing:
     asked_interference: tuple[float, float] | None = None
     remarks: tuple[str, ...] = ()
     designation: str | None = None
+    entry: CatalogueBearing | None = None
+    no_inner_ring: bool = False
+    position: float | None = None
+    short_shares: tuple[float, float] = (0.01, 0.05)
 
     def __post_init__(self) -> None:
+        for share in self.short_shares:
+            SHARE.check(share)
         bore, outer = self.inner.diameter, self.outer.diameter
         _ascending("shaft bore", self.shaft.other or 0.0, "bearing bore", bore)
         _ascending("bearing bore", bore, "outside diameter", outer)
@@ -131,12 +153,24 @@ class SeatedBearing:
             raise InputError("the band of interference must ascend", place=Place(key="asked_interference_um"))
 
     @property
+    def equivalent_loads(self) -> tuple[float, float] | None:
+        """Equivalent dynamic and static load [N]; None without a radial load or ratings.
+
+        An axial load that is not given is taken as none.
+        """
+        radial, axial = self.service.radial_load, self.service.axial_load or 0.0
+        if radial is None or self.ratings is None or self.ratings.static <= 0 or self.kind is None:
+            return None if radial is None else (radial, radial)
+        factors, _ = load_factors(self.kind, self.entry, self.ratings, axial)
+        return equivalent_dynamic(radial, axial, factors), equivalent_static(radial, axial, factors)
+
+    @property
     def load_ratio(self) -> float | None:
-        """P/C, the radial load for P; None where the load or C is not known."""
-        if self.service.radial_load is None or self.ratings is None:
+        """P/C, the equivalent load by C; None where the load or C is not known."""
+        if self.equivalent_loads is None or self.ratings is None:
             return None
         # freed of rounding, so that a twentieth of C is not above it
-        return round(self.service.radial_load / self.ratings.dynamic, 9)
+        return round(self.equivalent_loads[0] / self.ratings.dynamic, 9)
 
 
 def _check(limits: Range, value: float | None) -> None:

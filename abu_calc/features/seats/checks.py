@@ -2,37 +2,200 @@
 
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.features.seats.advice import LOOSE_ENOUGH
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.creep import CreepJudgement
 from abu_calc.features.seats.interference import of_all
-from abu_calc.features.seats.joint import ARTICLE, Joint
+from abu_calc.features.seats.joint import ARTICLE, LOOSE_ENOUGH, TEMPERATURE, Joint
+from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.balls import seat_material
+from abu_calc.standards.catalogue import ROLLERS
+from abu_calc.standards.internal_clearance import groups_of, internal_clearance, pair_preload
 from abu_calc.standards.tolerance_classes import SOURCE
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.clearance import ClearanceLeft
 
 _CODES: Final = {
-    "shaft": ("ABU601", "ABU602", "ABU603", "ABU604"),
-    "housing": ("ABU611", "ABU612", "ABU613", "ABU614"),
+    "shaft": ("ABU601", "ABU602", "ABU603", "ABU604", "ABU605"),
+    "housing": ("ABU611", "ABU612", "ABU613", "ABU614", "ABU615"),
 }
 _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
 _MOST: Final = 0.5
+_KEPT: Final = 0.995
+_SMALL: Final = 0.006
+"""Bores [m] of rings that are bonded rather than pressed."""
+_ROLLER_SAFETY: Final = 1.5
+"""C0/P0 that the makers advise for roller bearings in normal running (SKF General Catalogue, 2006, table 10)."""
 
 
-def seat_checks(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
-    """Check the interference where it is needed, the stress of the tightest pair and the thermal effect."""
-    first = _grip if joint.must_grip else _loose
+def seat_checks(
+    bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: str | None = None
+) -> tuple[Check, ...]:
+    """Check the interference where it is needed, the stress of the tightest pair and the thermal effect.
+
+    `rule`: the class that the rules for the load alone ask for.
+    """
+    if joint.must_grip:
+        first = _grip(bearing, joint, recommended, rule)
+    else:
+        first = (_raceway if joint.runs_on_needles else _loose)(bearing, joint, recommended)
     return (
-        first(bearing, joint, recommended),
+        first,
         _stress(bearing.name, joint, recommended),
         *_expansion(bearing, joint),
     )
+
+
+def life_checks(bearing: SeatedBearing, life: RatingLife) -> tuple[Check, ...]:
+    """Check static safety, rating lives, speed and axial load; those without their data are not requested."""
+    of, service = bearing.name, bearing.service
+    unknown = "the type of the bearing or its load ratings are not known"
+    missing = "no radial load is given" if service.radial_load is None else unknown
+    wanted = "Specify radial_load_kN." if service.radial_load is None else "Specify designation or bearing_type."
+    checks = [_static(bearing, life)] if life.static_safety is not None else [
+        coded("ABU631", "not-done", missing, None, 1.0, "", wanted, "least", of=of, requested=False)
+    ]  # fmt: skip
+    if life.basic is None:
+        speed = "no speed is given" if not service.speed else missing
+        action = "Specify speed_rpm." if not service.speed else wanted
+        checks += [
+            coded(code, "not-done", speed, None, None, "h", action, "least", of=of, requested=False)
+            for code in ("ABU632", "ABU633")
+        ]
+    else:
+        checks += [_basic(bearing, life), _modified(bearing, life)]
+    return (*checks, _speed(bearing, life), _axial(bearing, life))
+
+
+def _static(bearing: SeatedBearing, life: RatingLife) -> Check:
+    safety, load = life.static_safety or 0.0, from_si(life.static_load or 0.0, "kN")
+    least = _ROLLER_SAFETY if bearing.kind in ROLLERS else 1.0
+    C0 = from_si(bearing.ratings.static if bearing.ratings else 0.0, "kN")
+    bearable = "" if safety >= 1 else ". The load leaves permanent dents, whatever the tolerance class"
+    return coded(
+        "ABU631", verdict(safety >= 1, safety >= least),
+        f"C0/P0 = {C0:.3g} kN/{load:.3g} kN{_axial_remark(bearing)}{bearable}", round(safety, 6),
+        least if safety >= 1 else 1.0, "", None if safety >= least else "Specify a larger bearing or reduce the load.",
+        "least", of=bearing.name,
+    )  # fmt: skip
+
+
+def _axial_remark(bearing: SeatedBearing) -> str:
+    return "" if bearing.service.axial_load is not None else " (no axial load given: none taken)"
+
+
+def life_check(
+    code: str, bearing: SeatedBearing, life: float, message: str, action: str = "Specify a larger bearing."
+) -> Check:
+    """A rating life [s] against the required one, or against the makers' guide."""
+    required = bearing.service.required_life
+    least = GUIDE_LIFE if required is None else required
+    passed = life >= least or required is None
+    return coded(
+        code, verdict(passed, life >= least), message, round(from_si(life, "h"), 1), from_si(least, "h"), "h",
+        None if life >= least else action, "least", of=bearing.name,
+    )  # fmt: skip
+
+
+def _basic(bearing: SeatedBearing, life: RatingLife) -> Check:
+    P, C = from_si(life.dynamic_load or 0.0, "kN"), from_si(bearing.ratings.dynamic if bearing.ratings else 0.0, "kN")
+    heavy = ". P is above C/2, where ISO 281 does not hold: the life is shorter" if 2 * P > C else ""
+    guide = "" if bearing.service.required_life is not None else ". The limit is the makers' guide for hand-held tools"
+    message = f"90 of 100 bearings reach it under P = {P:.3g} kN, C = {C:.3g} kN{_axial_remark(bearing)}{heavy}{guide}"
+    return life_check("ABU632", bearing, life.basic or 0.0, message)
+
+
+def _modified(bearing: SeatedBearing, life: RatingLife) -> Check:
+    if life.modified is None or life.kappa is None or life.a_iso is None:
+        return coded(
+            "ABU633", "not-done", "no viscosity is given", None, None, "h", "Specify lubricant_viscosity_mm2_per_s.",
+            "least", of=bearing.name, requested=False,
+        )  # fmt: skip
+    message = (
+        f"basic rating life times a_ISO = {life.a_iso:.3g} (κ = {life.kappa:.3g}, e_C = "
+        f"{bearing.service.contamination:g})"
+    )
+    return life_check("ABU633", bearing, life.modified, message, "Specify a lubricant of higher viscosity.")
+
+
+def _speed(bearing: SeatedBearing, life: RatingLife) -> Check:
+    speed, most = bearing.service.speed, life.limiting_speed
+    if not speed or most is None:
+        why = "no speed is given" if not speed else "no catalogue bearing gives a limiting speed"
+        action = "Specify speed_rpm." if not speed else "Specify designation."
+        return coded("ABU634", "not-done", why, None, None, "rpm", action, of=bearing.name, requested=False)
+    entry = bearing.entry
+    where = (
+        f"limit of {entry.designation}{' with grease' if entry.with_grease else ''} ({entry.source})" if entry else ""
+    )
+    passed = speed <= most * (1 + 1e-9)
+    return coded(
+        "ABU634", verdict(passed), f"speed of the shaft against the {where}", round(from_si(speed, "rpm"), 3),
+        round(from_si(most, "rpm"), 3), "rpm", None if passed else "Specify a bearing for this speed.", of=bearing.name,
+    )  # fmt: skip
+
+
+def _axial(bearing: SeatedBearing, life: RatingLife) -> Check:
+    axial, ratings = bearing.service.axial_load, bearing.ratings
+    if axial is None or ratings is None or not ratings.static:
+        why = "no axial load is given" if axial is None else "C0 is not known"
+        action = "Specify axial_load_kN." if axial is None else "Specify static_load_rating_kN."
+        return coded("ABU635", "not-done", why, None, None, "kN", action, of=bearing.name, requested=False)
+    most = ratings.static / 2 if life.carries_axial else 0.0
+    passed = axial <= 0 or life.carries_axial
+    message = f"a {bearing.kind} bearing carries at most half of C0" if passed else "the bearing carries no axial load"
+    rough = "" if life.axial_factors_known else ". Its factors e, X and Y are those of a usual bearing of its type"
+    return coded(
+        "ABU635", verdict(passed, axial <= most), f"{message}{rough}", from_si(axial, "kN"), from_si(most, "kN"), "kN",
+        None if passed and axial <= most else "Specify an angular contact or tapered bearing.", of=bearing.name,
+    )  # fmt: skip
+
+
+def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
+    """Check the share of pairs with less interference than the specified rule demands."""
+    if not joint.must_grip:
+        return ()
+    code, (warn, fail) = _CODES[joint.seat][4], joint.short_shares
+    if joint.short_pairs is None or joint.demand is None:
+        missing = "radial load" if joint.radial_load is None else "chamfer"
+        key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
+        why = f"no {missing} is given, so the interference that the ring needs is not known"
+        action = f"Specify {key}."  # ABU601 is not evaluated for the same reason, and decides
+        return (coded(code, "not-done", why, None, 100 * warn, "%", action, of=bearing, requested=False),)
+    grade, share, demand = joint.short_grade, joint.short_pairs, _um(joint.demand.value)
+    limit = fail if grade == "fail" else warn
+    least = f"less than the {demand:.3g} µm" if demand >= 0 else f"more clearance than the {-demand:.2g} µm"
+    return (coded(
+        code, grade, f"{of_all(share)} in {joint.told} have {least} demanded by {joint.demand.by}{_losses(joint)}",
+        round(100 * share, 6), round(100 * limit, 6), "%",
+        None if grade == "pass" else _fewer(joint, recommended), of=bearing,
+    ),)  # fmt: skip
+
+
+def _fewer(joint: Joint, recommended: str | None) -> str | None:
+    """Action: the advised class with its share of short pairs, as tried."""
+    best = joint.with_class(recommended) if recommended else None
+    if best is None or best.short_pairs is None or joint.short_pairs is None or best.short_pairs >= joint.short_pairs:
+        return _remedy(joint, None) if recommended is None else None
+    return (
+        f"Specify {recommended}: the share of short pairs falls from {100 * joint.short_pairs:.3g} to "
+        f"{100 * best.short_pairs:.2g} % (calculated)."
+    )
+
+
+def _raceway(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
+    """The shaft of a bearing without inner ring: the needles run on it with clearance."""
+    least = _um(-joint.interference.largest)
+    passed = least >= 0
+    return coded(
+        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.told}. The "
+        "shaft is the raceway: ground, at least 58 HRC", least, 0.0, "µm",
+        None if passed or recommended is None else f"Specify {recommended}.", "least", of=bearing.name,
+    )  # fmt: skip
 
 
 def start_checks(
@@ -56,22 +219,50 @@ def start_checks(
     ),)  # fmt: skip
 
 
-def clearance_checks(bearing: str, left: "ClearanceLeft | None") -> tuple[Check, ...]:
-    """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not."""
+def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tuple[Check, ...]:
+    """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not.
+
+    Of a preloaded pair the preload is checked.
+    """
     if left is None:
         return ()
+    if left.group in groups_of("angular-contact")[:3]:
+        return (_preload(bearing, left),)
     passed, safe = left.below_zero_probability < _MOST, left.probable.smallest >= 0
     choice = "No clearance group keeps clearance. Specify looser tolerance classes."
     if left.group_to_choose:
         choice = f"Specify group {left.group_to_choose}: it keeps clearance (calculated)."
+    direction = "axial" if left.axial else "radial"
+    things = "pairs" if left.axial or bearing.kind == "tapered" else "bearings"
     return (coded(
-        "ABU621", verdict(passed, safe), f"least probable radial clearance of group {left.group} after mounting; "
-        f"{of_all(left.below_zero_probability, 'bearings')} have none left", _um(left.probable.smallest), 0.0, "µm",
-        None if safe else choice, "least", of=bearing,
+        "ABU621", verdict(passed, safe), f"least probable {direction} clearance of group {left.group} after mounting; "
+        f"{of_all(left.below_zero_probability, things)} have none left", _um(left.probable.smallest), 0.0, "µm",
+        None if safe else choice, "least", of=bearing.name,
     ),)  # fmt: skip
 
 
-def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
+def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
+    """The probable preload of a pair against that of the next heavier group, and twice that of the heaviest."""
+    heavier = groups_of("angular-contact")
+    place, bore = heavier.index(left.group), bearing.inner.diameter
+    limits = [
+        pair_preload(internal_clearance("angular-contact", heavier[group], bore).smallest, bore)
+        for group in (max(place - 1, 0), 0)
+    ]
+    most = left.preload[1] if left.preload else None
+    if most is None or limits[0] is None or limits[1] is None:
+        return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
+    heaviest = 2 * limits[1]
+    passed, safe = most <= heaviest, most <= limits[0]
+    return coded(
+        "ABU621", verdict(passed, safe), f"largest probable preload of a pair of group {left.group} after mounting. "
+        f"The limit is {'the' if passed else 'twice the'} most of group {heavier[max(place - 1, 0) if passed else 0]} "
+        "before mounting", round(most, 1), limits[0] if passed else heaviest, "N",
+        None if safe else "Specify looser tolerance classes or a lighter group.", of=bearing.name,
+    )  # fmt: skip
+
+
+def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: str | None) -> Check:
     code = _CODES[joint.seat][0]
     smallest, required, short = _um(joint.interference.smallest), joint.required, joint.short
     if required is None or short is None:
@@ -85,14 +276,29 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Chec
     mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
     return coded(
-        code, joint.grip, f"least interference of {joint.told} against {limit}{remark}{_makers(bearing, joint)}",
-        smallest, _um(required.value), "µm", _tighter(joint, recommended),
+        code, joint.grip, f"least interference of {joint.told} against {limit}{remark}{_makers(bearing, joint)}"
+        f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm", _tighter(joint, recommended),
         "least", of=bearing.name,
     )  # fmt: skip
 
 
 def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
     share = f"{of_all(joint.clearance_probability)} have clearance"
+    tightest = joint.coldest_or_hottest
+    if joint.turns_tight:
+        low, high = (_um(end - tightest.loss) for end in joint.interference)
+        when = "at work" if tightest.rise is None else f"at {tightest.rise:+g} K"
+        judgement = f"A load fixed in direction requires none, but {when} the seat is {low:.3g} … {high:.3g} µm tight"
+        better = recommended if recommended and recommended != joint.tolerance_class else None
+        best = joint.with_class(better) if better else None
+        action = None
+        if best is not None:
+            free = of_all(best.loose_share(best.coldest_or_hottest.loss))
+            action = f"Specify {better}: then {free} have clearance {when} (calculated)."
+        return coded(
+            _CODES[joint.seat][0], "warn", f"least interference of {joint.told}. {judgement}",
+            _um(joint.interference.smallest), None, "µm", action, "least", of=bearing.name,
+        )  # fmt: skip
     if joint.clearance_probability >= LOOSE_ENOUGH:
         judgement = f"A load fixed in direction requires none; {share}, so the ring can creep and be moved"
     else:
@@ -110,7 +316,17 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
 def _makers(bearing: SeatedBearing, joint: Joint) -> str:
     if joint.maker is None or bearing.load_ratio is None:
         return ""
-    return f". For P/C = {bearing.load_ratio:.2g} the catalogue gives {joint.maker.classes[0]} ({SOURCE})"
+    adapted = ""
+    if joint.catalogue_class != joint.maker.classes[0]:
+        adapted = f", on this hollow shaft {joint.catalogue_class}"
+    return f". For P/C = {bearing.load_ratio:.2g} the catalogue gives {joint.maker.classes[0]}{adapted} ({SOURCE})"
+
+
+def _other_class(joint: Joint, rule: str | None) -> str:
+    """What the rule alone asks for, where the catalogue gives another class."""
+    if joint.catalogue_class in (None, rule):
+        return ""
+    return f". The rule alone asks for {rule}" if rule else ". The rule alone finds no class"
 
 
 def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
@@ -143,7 +359,11 @@ def _expansion(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
 
 
 def _losses(joint: Joint) -> str:
-    return "".join(f" + {loss.name} {_um(loss.value):.1f} µm" for loss in joint.losses if loss.value > 0)
+    parts = [(loss.name, loss.value) for loss in joint.losses if loss.name != TEMPERATURE]
+    warm = max(case.loss for case in joint.thermal_cases)
+    named = [*parts, (TEMPERATURE, warm)] if warm > 0 else parts
+    kept = f", over the {joint.pressure_kept:.0%} of the pressure that is kept" if joint.pressure_kept < _KEPT else ""
+    return kept + "".join(f" + {name} {_um(value):.1f} µm" for name, value in named if value > 0)
 
 
 def _tighter(joint: Joint, recommended: str | None) -> str | None:
@@ -156,6 +376,8 @@ def _remedy(joint: Joint, recommended: str | None) -> str:
     """Action: the advised tolerance class, as tried, and its result."""
     if recommended is None and joint.split:
         return "A split housing cannot hold a ring whose load turns round it. Specify a one-piece housing."
+    if recommended is None and joint.diameter < _SMALL and joint.must_grip:
+        return "A class that holds so small a ring overstresses it. Specify h5 and bond the ring."
     if recommended is None:
         return "No tabulated class both holds the ring and is permitted. Specify a longer seat or a larger bearing."
     best = joint.with_class(recommended)

@@ -1,133 +1,19 @@
-"""Clearance left in a deep groove ball bearing after mounting, by its joints on the shaft and in the housing."""
+"""Clearance left in a bearing, or in a pair, after mounting, by its joints on the shaft and in the housing.
+
+That of angular contact bearings is axial and belongs to a pair; all others have radial clearance.
+"""
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 from typing import Final, NamedTuple
 
-from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing
+from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.interference import Interval
-from abu_calc.features.seats.joint import (
-    CENTRIFUGAL,
-    MEASURED,
-    TEMPERATURE,
-    InterferenceLoss,
-    Joint,
-    Tube,
-    contact_pressure,
-    inner_ring_diameter,
-    inner_ring_stress,
-    outer_ring_diameter,
-    outer_ring_stress,
-    raceway_change,
-)
-from abu_calc.features.seats.requirement import SERIES_FACTORS, centrifugal_loss, smoothing_loss, temperature_loss
+from abu_calc.features.seats.joint import Joint, inner_ring_diameter, outer_ring_diameter
 from abu_calc.foundation.formula import formula
-from abu_calc.standards.balls import seat_material, seat_strength
-from abu_calc.standards.bearing_catalogue import GROUPS, radial_clearance
-from abu_calc.standards.tolerance_classes import NORMAL_RATIO, MakerFits, Seat, maker_fits, ring_limits
-
-ADVISED: Final = {"shaft": "k6", "housing": "H7"}
-"""Classes that stand in until one is advised, where none is given."""
-
-
-def shaft_joint(bearing: SeatedBearing) -> Joint:
-    """The inner ring on the shaft."""
-    part, service, bore = bearing.shaft, bearing.service, bearing.inner.diameter
-    steel, own = seat_material("steel"), seat_material(part.material)
-    ring_diameter, hollow = inner_ring_diameter(bore, bearing.outer.diameter), part.other or 0.0
-    shaft, ring = Tube(hollow / bore, own), Tube(bore / ring_diameter, steel)
-    losses = _smoothing(part.roughness)
-    losses += _warmth(bore, warm_parts(bearing, "shaft"))
-    if service.speed is not None:
-        growth = centrifugal_loss(service.speed, bore, ring_diameter, hollow, steel)
-        losses.append(InterferenceLoss(CENTRIFUGAL, growth, "(3+ν)·ρ·Ω²·d·(d₁² − d₀²)/(16·E)"))
-    pressure = contact_pressure(1.0, bore, shaft, ring)
-    # The core of a solid shaft is under the pressure itself; a hollow one has its hoop stress at the bore.
-    stress_rate = inner_ring_stress(1.0, bore, shaft, ring)
-    part_rate = pressure * (shaft.hoop_under_pressure_outside if hollow else 1.0)
-    rates = (pressure, stress_rate, raceway_change(pressure, bore, ring), part_rate)
-    return _joint("shaft", bearing, part, bearing.inner, tuple(losses), rates)
-
-
-def housing_joint(bearing: SeatedBearing) -> Joint:
-    """The outer ring in the housing."""
-    part, outer = bearing.housing, bearing.outer.diameter
-    steel, own = seat_material("steel"), seat_material(part.material)
-    ring = Tube(outer_ring_diameter(bearing.inner.diameter, outer) / outer, steel)
-    housing = Tube(0.0 if part.other is None else outer / part.other, own)
-    losses = _smoothing(part.roughness)
-    losses += _warmth(outer, warm_parts(bearing, "housing"))
-    pressure = contact_pressure(1.0, outer, ring, housing)
-    stress_rate = outer_ring_stress(1.0, outer, ring, housing)
-    rates = (pressure, stress_rate, raceway_change(pressure, outer, ring), pressure * housing.hoop_at_bore)
-    return _joint("housing", bearing, part, bearing.outer, tuple(losses), rates)
-
-
-def makers_classes(bearing: SeatedBearing, seat: Seat) -> MakerFits | None:
-    """The catalogue's classes of a seat; a type that is not told is taken as ball, a ratio not known as normal load."""
-    ring, split = (bearing.inner, False) if seat == "shaft" else (bearing.outer, bearing.housing.split)
-    ratio = NORMAL_RATIO if bearing.load_ratio is None else bearing.load_ratio
-    return maker_fits(seat, bearing.kind or "ball", ring.load, ratio, ring.diameter, bearing.bearing_class, split)
-
-
-def warm_parts(bearing: SeatedBearing, seat: Seat) -> tuple[tuple[float, float], tuple[float, float]] | None:
-    """Expansion [1/K] and warmth above mounting [K] of the part around and of the part inside; None where no
-    temperature is given. What is not told of the bearing's own warmth is taken as none."""
-    service, steel = bearing.service, seat_material("steel").expansion
-    other = service.ring_over_shaft if seat == "shaft" else service.housing_over_ring
-    if other is None and service.over_mounting is None:
-        return None
-    rise = service.over_mounting or 0.0
-    if seat == "shaft":
-        return (steel, rise), (seat_material(bearing.shaft.material).expansion, rise - (other or 0.0))
-    return (seat_material(bearing.housing.material).expansion, rise + (other or 0.0)), (steel, rise)
-
-
-def _warmth(diameter: float, parts: tuple[tuple[float, float], tuple[float, float]] | None) -> list[InterferenceLoss]:
-    return (
-        []
-        if parts is None
-        else [InterferenceLoss(TEMPERATURE, temperature_loss(diameter, *parts), "d·(α₂·ΔT₂ − α₁·ΔT₁)")]
-    )
-
-
-def _joint(
-    seat: Seat,
-    bearing: SeatedBearing,
-    part: MatingPart,
-    ring: Ring,
-    losses: tuple[InterferenceLoss, ...],
-    rates: tuple[float, float, float, float],
-) -> Joint:
-    pressure, stress, raceway, own = rates
-    return Joint(
-        seat=seat,
-        tolerance_class=part.fit or (MEASURED if part.measured else ADVISED[seat]),
-        ring=ring,
-        ring_limits=ring_limits(
-            bearing.type, "inner" if seat == "shaft" else "outer", bearing.bearing_class, ring.diameter
-        ),
-        radial_load=bearing.service.radial_load,
-        factor=SERIES_FACTORS[bearing.series],
-        losses=losses,
-        pressure_rate=pressure,
-        stress_rate=stress,
-        raceway_rate=raceway,
-        part_rate=own,
-        part_strength=part.strength or seat_strength(part.material),
-        measured=part.measured,
-        split=part.split,
-        maker=makers_classes(bearing, seat) if bearing.load_ratio is not None and bearing.kind else None,
-    )
-
-
-def _smoothing(roughness: float | None) -> list[InterferenceLoss]:
-    return (
-        []
-        if roughness is None
-        else [InterferenceLoss("smoothing", smoothing_loss(roughness), "0.4·Rz (DIN 7190-1:2017)")]
-    )
-
+from abu_calc.standards.balls import seat_material
+from abu_calc.standards.internal_clearance import CONTACT_ANGLE, groups_of, internal_clearance, pair_preload
 
 _TAIL: Final = 0.00135
 """Share beyond 3σ on one side of a normal law."""
@@ -142,7 +28,8 @@ _Law = tuple[tuple[float, float], ...]
 class ClearanceLeft(NamedTuple):
     """Radial clearance [m] of a group before and after mounting: the extremes, the 0.135 % and 99.865 % ends and the
     mean of all bearings, the share below zero, the part that temperature takes, and the tightest group whose lower end
-    stays above zero (None: no group)."""
+    stays above zero (None: no group). `axial` of a pair of angular contact bearings, whose `preload` [N] is that of the
+    probable clearances, least and most (None: not a preloaded pair)."""
 
     group: str
     initial: Interval
@@ -152,6 +39,8 @@ class ClearanceLeft(NamedTuple):
     below_zero_probability: float
     by_temperature: float
     group_to_choose: str | None
+    axial: bool = False
+    preload: tuple[float, float] | None = None
 
 
 class Mounting:
@@ -160,14 +49,26 @@ class Mounting:
     def __init__(self, bearing: SeatedBearing, shaft: Joint, housing: Joint) -> None:
         bore, outer = bearing.inner.diameter, bearing.outer.diameter
         raceways = (inner_ring_diameter(bore, outer) + outer_ring_diameter(bore, outer)) / 2
-        self.bore = bore
+        self.bore, self.kind = bore, bearing.kind or "ball"
+        self.axial = self.kind == "angular-contact"
+        # A pair loses axially what a raceway changes radially over the tangent of the contact angle.
+        self.lever = 1 / math.tan(math.radians(CONTACT_ANGLE)) if self.axial else 1.0
         self.joints = (shaft, housing)
-        self.warmth = seat_material("steel").expansion * raceways * (bearing.service.inner_over_outer or 0.0)
-        self.law = _together(_growth(shaft), _growth(housing))
+        warm = seat_material("steel").expansion * raceways * (bearing.service.inner_over_outer or 0.0)
+        self.warmth = self.lever * warm
+
+    @cached_property
+    def law(self) -> _Law:
+        """Losses of clearance by both seats, each with its share of bearings."""
+        return _together(*(_growth(joint, self.lever) for joint in self.joints))
+
+    def initial(self, group: str) -> Interval:
+        """Clearance [m] of a group before mounting."""
+        return Interval(*internal_clearance(self.kind, group, self.bore))
 
     def share_below(self, group: str, clearance: float = 0.0) -> float:
         """Share of bearings of a group that keep less than a clearance [m]."""
-        start = Interval(*radial_clearance(group, self.bore))
+        start = self.initial(group)
         middle, sigma = (start.smallest + start.largest) / 2, (start.largest - start.smallest) / 6
         level, scale = clearance + self.warmth - middle, sigma * math.sqrt(2)
         return sum([share * 0.5 * math.erfc(-(level + taken) / scale) for taken, share in self.law])
@@ -179,7 +80,7 @@ class Mounting:
     @property
     def group_to_choose(self) -> str | None:
         """The tightest group that keeps its clearance, None where none does."""
-        return next((group for group in GROUPS if self.keeps(group)), None)
+        return next((group for group in groups_of(self.kind) if self.keeps(group)), None)
 
     def end(self, group: str, share: float) -> float:
         """Clearance [m] that a share of the bearings of a group has not."""
@@ -197,32 +98,41 @@ class Mounting:
         "Each raceway changes by the raceway change at the interference less smoothing and temperature loss. A loose "
         "ring changes nothing. The extreme clearances combine all extreme values. The probable clearances are the "
         "0.135 % and 99.865 % quantiles of initial − Σ rate·max(interference, 0), integrated over the three normal "
-        "laws."
+        "laws. Pairs of angular contact bearings lose the change of both raceways over tan 40° in the axial direction."
     ),
-    checked=("deep groove ball bearings",),
+    checked=("ball and roller bearings; pairs of tapered bearings; pairs of angular contact bearings of 40°",),
     assumed="rings as plain tubes; sizes and clearance independent and normal, half a tolerance zone = 3σ",
-    source="Lamé; ISO 5753-1:2009 for the groups",
+    source="Lamé; ISO 5753-1:2009 for the groups; NSK and SKF for pairs",
 )
 def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Joint) -> ClearanceLeft:
     mounting = Mounting(bearing, shaft, housing)
-    start = Interval(*radial_clearance(group, bearing.inner.diameter))
+    start = mounting.initial(group)
     taken = sum(change * share for change, share in mounting.law)
+    probable = Interval(mounting.end(group, _TAIL), mounting.end(group, 1 - _TAIL))
     return ClearanceLeft(
         group=group,
         initial=start,
         mounted=Interval(*_extremes(mounting, group)),
-        probable=Interval(mounting.end(group, _TAIL), mounting.end(group, 1 - _TAIL)),
+        probable=probable,
         mean=(start.smallest + start.largest) / 2 - taken - mounting.warmth,
         below_zero_probability=mounting.share_below(group),
         by_temperature=mounting.warmth,
         group_to_choose=mounting.group_to_choose,
+        axial=mounting.axial,
+        preload=_preload(mounting, probable) if mounting.axial else None,
     )
 
 
+def _preload(mounting: Mounting, probable: Interval) -> tuple[float, float] | None:
+    """Preload [N] of a pair at its probable clearances, least first."""
+    least, most = (pair_preload(end, mounting.bore) for end in (probable.largest, probable.smallest))
+    return None if least is None or most is None else (least, most)
+
+
 def _extremes(mounting: Mounting, group: str) -> tuple[float, float]:
-    start = radial_clearance(group, mounting.bore)
-    most = sum(_change(joint, joint.interference.largest) for joint in mounting.joints)
-    least = sum(_change(joint, joint.interference.smallest) for joint in mounting.joints)
+    start = mounting.initial(group)
+    most = mounting.lever * sum(_change(joint, joint.interference.largest) for joint in mounting.joints)
+    least = mounting.lever * sum(_change(joint, joint.interference.smallest) for joint in mounting.joints)
     return start.smallest - most - mounting.warmth, start.largest - least - mounting.warmth
 
 
@@ -230,16 +140,17 @@ def _change(joint: Joint, interference: float) -> float:
     return max(interference - joint.mounted_losses, 0.0) * joint.raceway_rate
 
 
-def _growth(joint: Joint) -> _Law:
-    """Loss of clearance by one seat.
+def _growth(joint: Joint, lever: float) -> _Law:
+    """Loss of clearance by one seat, which the lever turns into an axial one.
 
     Loose pairs lose nothing. The others are summed by Simpson's rule over the normal law.
     """
+    rate = joint.raceway_rate * lever
     male, female = joint.male_and_female
     sigma = math.hypot(male.tolerance, female.tolerance) / 6
     mean = male.middle - female.middle - joint.mounted_losses
     if sigma == 0 or mean <= -_REACH * sigma:  # a share of 3e-7 of all pairs is tight, by a hair
-        return ((joint.raceway_rate * max(mean, 0.0), 1.0),)
+        return ((rate * max(mean, 0.0), 1.0),)
     low, high = max(0.0, mean - _REACH * sigma), mean + _REACH * sigma
     step = (high - low) / _PANELS
     points = [low + i * step for i in range(_PANELS + 1)]
@@ -249,7 +160,7 @@ def _growth(joint: Joint) -> _Law:
     scale = tight / sum(shares)
     return (
         (0.0, 1 - tight),
-        *((joint.raceway_rate * x, scale * share) for x, share in zip(points, shares, strict=True)),
+        *((rate * x, scale * share) for x, share in zip(points, shares, strict=True)),
     )
 
 

@@ -43,6 +43,7 @@ class BearingOption(NamedTuple):
 
 BEARING: Final = "Bearing"
 LOADS: Final = "Loads and speed"
+LIFE: Final = "Rating life"
 SEATS: Final = "Fits"
 PARTS: Final = "Shaft and housing"
 THERMAL: Final = "Temperatures and clearance"
@@ -55,7 +56,7 @@ OPTIONS: Final = (
     BearingOption("width_mm", "--width", BEARING, float, "MM", "Width of the ring."),
     BearingOption("chamfer_mm", "--chamfer", BEARING, float, "MM", "Chamfer of one edge."),
     BearingOption(
-        "bearing_type", "--bearing-type", BEARING, str, "NAME", "Type if sizes are given: ball, cylindrical, tapered …"
+        "bearing_type", "--bearing-type", BEARING, str, "NAME", "Type if sizes are given: ball, cylindrical, needle …"
     ),
     BearingOption("bearing_class", "--bearing-class", BEARING, str, "NAME", "Normal, P6, P5, P4 or P2."),
     BearingOption("series", "--series", BEARING, str, "NAME", "light, medium or heavy."),
@@ -67,12 +68,21 @@ OPTIONS: Final = (
     ),
     BearingOption("name", "--name", BEARING, str, "NAME", "Name of the bearing in the report."),
     BearingOption("radial_load_kN", "--radial-load-kN", LOADS, float, "KN", "Radial load."),
+    BearingOption("axial_load_kN", "--axial-load-kN", LOADS, float, "KN", "Axial load."),
     BearingOption("inner_ring_load", "--inner-ring-load", LOADS, str, "NAME", f"Load on the inner ring: {KINDS}"),
     BearingOption("outer_ring_load", "--outer-ring-load", LOADS, str, "NAME", f"Load on the outer ring: {KINDS}"),
     BearingOption("speed_rpm", "--speed", LOADS, float, "RPM", "Speed of the shaft."),
     BearingOption(
         "starting_torque_N_m", "--starting-torque", LOADS, float, "NM", "Torque that the seat must transmit."
     ),
+    BearingOption(
+        "lubricant_viscosity_mm2_per_s", "--lubricant-viscosity", LIFE, float, "MM2/S", "Viscosity at its temperature."
+    ),
+    BearingOption(
+        "contamination_factor", "--contamination-factor", LIFE, float, "RATIO", "e_C of ISO 281: 1 clean … 0 dirty."
+    ),
+    BearingOption("required_life_h", "--required-life", LIFE, float, "H", "Rating life that is required."),
+    BearingOption("position_mm", "--position", LIFE, float, "MM", "Place along the spindle from the wheel's centre."),
     BearingOption("shaft_fit", "--shaft", SEATS, str, "CLASS", "Tolerance class of the shaft: k6, or several: j5,k5."),
     BearingOption("housing_fit", "--housing", SEATS, str, "CLASS", "Tolerance class of the housing: H7, or several."),
     BearingOption("shaft_limits_um", "--shaft-limits", SEATS, str, "LOW:HIGH", "Measured limits of the shaft, µm."),
@@ -87,6 +97,12 @@ OPTIONS: Final = (
         "LOW:HIGH",
         "Interference required of every pair, µm.",
     ),
+    BearingOption(
+        "short_pairs_warn_percent", "--short-pairs-warn", SEATS, float, "PERCENT", "Share of short pairs that warns."
+    ),
+    BearingOption(
+        "short_pairs_fail_percent", "--short-pairs-fail", SEATS, float, "PERCENT", "Share of short pairs that fails."
+    ),
     BearingOption("seat_friction", "--seat-friction", SEATS, float, "RATIO", "Friction coefficient of the seat."),
     BearingOption("shaft_rz_um", "--shaft-rz", PARTS, float, "UM", "Roughness Rz of the shaft."),
     BearingOption("shaft_bore_mm", "--shaft-bore", PARTS, float, "MM", "Bore of a hollow shaft."),
@@ -99,8 +115,11 @@ OPTIONS: Final = (
         "housing_strength_MPa", "--housing-strength", PARTS, float, "MPA", "Allowable hoop stress of the housing."
     ),
     BearingOption("housing_split", "--housing-split", PARTS, bool, None, "The housing is split in two halves."),
-    BearingOption("internal_clearance", "--internal-clearance", THERMAL, str, "GROUP", "C2, CN, C3 or C4."),
+    BearingOption("internal_clearance", "--internal-clearance", THERMAL, str, "GROUP", "C2, CN, C3, C4 or C5."),
     BearingOption("temperature_rise_K", "--temperature-rise", THERMAL, float, "K", "Bearing warmer than at mounting."),
+    BearingOption(
+        "temperature_range_K", "--temperature-range", THERMAL, str, "LOW:HIGH", "Lowest and highest above mounting."
+    ),
     BearingOption(
         "ring_temperature_difference_K",
         "--ring-temperature-difference",
@@ -131,7 +150,7 @@ NAMES: Final = {option.key: option.name for option in OPTIONS}
 
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 FITS: Final = ("shaft_fit", "housing_fit")
-BANDS: Final = ("asked_interference_um", "shaft_limits_um", "housing_limits_um")
+BANDS: Final = ("asked_interference_um", "shaft_limits_um", "housing_limits_um", "temperature_range_K")
 """Keys that an option gives as LOW:HIGH."""
 
 

@@ -3,12 +3,13 @@
 A repair starts from the interference left in a worn seat and gives the dimensions to restore.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from abu_calc.features.seats.interference import Interval
 from abu_calc.features.seats.joint import Joint
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import to_si
+from abu_calc.foundation.units import from_si, to_si
 from abu_calc.standards.bearing_catalogue import next_size
 from abu_calc.standards.tables import toml_table
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits, tolerance_classes
@@ -57,6 +58,38 @@ def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) ->
         hardness=table["hardness"][joint.seat],
         source=f"{table['source']}, unverified",
     )
+
+
+class SeatForm(NamedTuple):
+    """What a drawing of a seat states, by a maker: cylindricity and total axial runout of the shoulder [m], Ra [m]."""
+
+    cylindricity: float
+    shoulder_runout: float
+    roughness_Ra: float
+    source: str
+
+
+@formula(
+    "Form and roughness of a seat by a maker's catalogue",
+    where=(
+        "The cylindricity is half of IT5 for class 0, of IT3 for 6, of IT2 for finer ones. The total axial runout of "
+        "the shoulder is that grade. Ra depends on the grade of the diameter and on the size."
+    ),
+    checked=("ground seats of 0.6 … 500 mm",),
+    source="SKF General Catalogue, 2006, tables 10 to 12",
+)
+def seat_form(joint: Joint, tolerance_class: str, bearing_class: str) -> SeatForm:
+    table = toml_table("seat_form")
+    size = round(from_si(joint.diameter, "mm"), 6)
+    grade = to_si(_row(table["it"]["rows"], size)[table["grade"][bearing_class] - 2], "um")
+    smooth = _row(table["roughness"]["rows"], size)
+    own = int(tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ") or 6)
+    return SeatForm(grade / 2, grade, to_si(smooth[min(max(7 - own, 0), 2)], "um"), table["source"])
+
+
+def _row(rows: Sequence[Sequence[float]], size: float) -> Sequence[float]:
+    """Figures of the first row whose upper end holds a size [mm]."""
+    return next(row[1:] for row in rows if size <= row[0])
 
 
 class SeatRepair(NamedTuple):

@@ -5,6 +5,7 @@ seats_sketch     shaft, rings and housing in section, tolerance classes with lim
 zones_drawing    tolerance zones of both seats about the zero line, to scale in µm, as textbooks draw fits
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Final, NamedTuple
@@ -47,7 +48,7 @@ def seats_of(result: Result, seats: Sequence[SeatResult]) -> tuple[Drawing, ...]
 def seat_figures(result: Result, seats: Sequence[SeatResult]) -> Iterator[Figure]:
     """A sketch of the two seats of each bearing: `seats-1` and on."""
     for index, drawing in enumerate(seats_of(result, seats), 1):
-        caption = f"Seats of bearing {index}: sizes with limits in mm, and what the drawing asks of them."
+        caption = f"Seats of bearing {index}: sizes and form in mm, Ra in µm (form by SKF's General Catalogue, 2006)."
         yield Figure(f"seats-{index}", "", drawing, caption)
 
 
@@ -71,11 +72,14 @@ def seats_sketch(name: str, result: Result, shaft: SeatResult, housing: SeatResu
 
 def _seat_note(seat: SeatResult) -> str:
     size = f"{seat.seat} {digits(seat.diameter_mm)} mm {seat.fit or ''}".strip()
-    return f"{size}, limits {_limits(seat.part_limits_um)}; asked for: {seat.requirements.field}."
+    other = seat.recommended_fit if seat.recommended_fit not in (None, seat.fit) else None
+    advice = f"; {other} is recommended" if other else ""
+    return f"{size}, limits {_limits(seat.part_limits_um)}{advice}."
 
 
 def _limits(pair: Pair) -> str:
-    return " / ".join(f"{limit:+g}" if limit else "0" for limit in reversed(pair)) + " µm"
+    """Upper and lower deviation [mm], as drawings state them."""
+    return " / ".join(f"{limit / 1000:+.4g}" if limit else "0" for limit in reversed(pair))
 
 
 def _parts(shaft: SeatResult, housing: SeatResult, beyond: float) -> Iterator[Shape]:
@@ -86,14 +90,60 @@ def _parts(shaft: SeatResult, housing: SeatResult, beyond: float) -> Iterator[Sh
     for side in (1, -1):
         inner = _ring(0, wide, side * bore, side * (bore + ring), shaft.chamfer_mm or 0.0)
         outer = _ring(0, wide, side * outside, side * (outside - ring), housing.chamfer_mm or 0.0)
-        yield Region(inner, "inner ring", 135.0, 1.8)
+        if shaft.bearing_kind != "drawn-cup":
+            yield Region(inner, "inner ring", 135.0, 1.8)
         yield Region(outer, "outer ring", 45.0, 1.8)
         yield Region(_ring(left, right, side * outside, side * (outside + beyond), 0.0), "housing", 135.0, 3.0)
         yield Line("outline", (left, side * bore), (right, side * bore))
-        yield Arc("outline", (wide / 2, side * (bore + outside) / 2), min((outside - bore) / 2 - ring, 0.45 * wide))
+        yield from _element(shaft.bearing_kind, (wide, side * (bore + ring), side * (outside - ring)))
     for x in (left, right):
         yield Line("outline", (x, -bore), (x, bore))
     yield Line("centre", (left - 0.05 * wide, 0), (right + 0.2 * wide, 0))
+
+
+TILT: Final = 10.0
+"""Angle [deg] of tapered and spherical rollers to the axis as they are drawn."""
+
+
+def _element(kind: str | None, place: tuple[float, float, float]) -> Iterator[Shape]:
+    """The rolling element between the raceways: a ball, or a roller as long as its type has it; schematic."""
+    wide, inner, outer = place
+    height, middle = abs(outer - inner), (wide / 2, (inner + outer) / 2)
+    if kind in (None, "ball", "angular-contact"):
+        radius = min(height / 2, 0.45 * wide)
+        yield Arc("outline", middle, radius)
+        if kind == "angular-contact":
+            rise = radius * 1.3 * (1 if outer > inner else -1)
+            yield Line(
+                "centre", (middle[0] - 0.7 * radius, middle[1] - rise), (middle[0] + 0.7 * radius, middle[1] + rise)
+            )
+        return
+    if kind == "spherical":
+        for way in (-1, 1):
+            centre = middle[0] + way * 0.23 * wide, middle[1]
+            yield from _roller(centre, 0.34 * wide, 0.8 * height, -way * TILT * (1 if outer > inner else -1))
+        return
+    long, tilt = (0.7 * wide, TILT) if kind == "tapered" else (0.6 * wide, 0.0)
+    if kind in ("needle", "drawn-cup"):
+        long = 0.8 * wide
+    yield from _roller(middle, long, (0.65 if tilt else 1.0) * height, -tilt * (1 if outer > inner else -1),
+                       0.75 if kind == "tapered" else 1.0)  # fmt: skip
+
+
+def _roller(
+    centre: tuple[float, float], long: float, high: float, angle: float, narrow: float = 1.0
+) -> Iterator[Shape]:
+    """A roller about its centre, turned by an angle [deg]; `narrow`: its small end over its large one."""
+    cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    ends = (
+        (-long / 2, narrow * high / 2),
+        (long / 2, high / 2),
+        (long / 2, -high / 2),
+        (-long / 2, -narrow * high / 2),
+    )
+    corners = [(centre[0] + x * cos - y * sin, centre[1] + x * sin + y * cos) for x, y in ends]
+    for start, end in pairwise((*corners, corners[0])):
+        yield Line("outline", start, end)
 
 
 def _ring(left: float, right: float, seat: float, free: float, chamfer: float) -> tuple[Corner, ...]:
@@ -122,18 +172,16 @@ def _asked(shaft: SeatResult, housing: SeatResult, beyond: float, scale: float) 
     unit, x = 1 / scale, 1.4 * shaft.ring_width_mm
     tops = (housing.diameter_mm / 2 + beyond, housing), (-4 * unit, shaft)
     for top, seat in tops:
-        asked = seat.requirements
+        form = seat.form
         tip = 1.2 * shaft.ring_width_mm, seat.diameter_mm / 2
         shelf = x + COLUMN * unit, top
-        head = f"Ø{digits(seat.diameter_mm)} {asked.field} ({_limits(asked.limits_um)})"
+        head = f"{'shaft' if seat.seat == 'shaft' else 'housing'} seat, ground"
         yield from leader(tip, shelf, head, scale, more=6)
         end = shelf[0] + (0.62 * 1.35 * HEIGHT * len(head) + 5) * unit
-        yield from roughness((end, top), f"Ra {digits(asked.roughness_Ra_um)}", scale)
-        runout = "" if asked.shoulder_runout_um is None else f" = {digits(asked.shoulder_runout_um)} µm"
+        yield from roughness((end, top), f"Ra {digits(form.roughness_Ra_um)}", scale)
         lines = (
-            f"roundness, profile {digits(asked.roundness_um, 2)} µm on the radius",
-            f"shoulder runout {asked.shoulder_runout_grade}{runout}",
-            f"{asked.hardness}; {asked.source}",
+            f"cylindricity {digits(form.cylindricity_um / 1000, 5)}",
+            f"total axial runout of the shoulder {digits(form.shoulder_runout_um / 1000, 5)}",
         )
         for index, line in enumerate(lines, 1):
             yield Text((shelf[0], top - 1.7 * HEIGHT * index * unit), line)

@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.clearance import warm_parts
 from abu_calc.features.seats.joint import CENTRIFUGAL, TEMPERATURE, Joint, inner_ring_diameter
+from abu_calc.features.seats.joints import warm_parts
 from abu_calc.features.seats.notes import SHOCK_FACTOR
 from abu_calc.features.seats.records import Clearance, SeatResult, um, um_pair
 from abu_calc.features.seats.seats import BearingSeats

@@ -5,9 +5,17 @@ from typing import TYPE_CHECKING, NamedTuple
 from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing, Service
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.standards.bearing_catalogue import GROUPS, Dimensions, of_size, read_designation
-from abu_calc.standards.tables import unknown
-from abu_calc.standards.tolerance_classes import BearingType, DeviationLimits, Kind, Ratings, load_ratings
+from abu_calc.standards.bearing_catalogue import Dimensions, of_size, read_designation
+from abu_calc.standards.catalogue import (
+    ESTIMATE_ERROR,
+    CatalogueBearing,
+    Kind,
+    Ratings,
+    catalogue_bearing,
+    estimated_ratings,
+)
+from abu_calc.standards.internal_clearance import groups_of
+from abu_calc.standards.tolerance_classes import BearingType, DeviationLimits
 
 if TYPE_CHECKING:
     from abu_calc.inputs.rolling_bearing import Bearing as BearingTable
@@ -25,25 +33,27 @@ class _Found(NamedTuple):
 def from_table(table: "BearingTable") -> SeatedBearing:
     """The bearing that a table describes; a designation is looked up, what the table gives goes before it.
 
-    A bearing given by sizes has the tolerances of radial ones unless bearing_type says tapered; without a chamfer it
-    has that of the tabulated bearing of its sizes, if there is one. InputError: neither designation nor all sizes,
-    sizes that contradict the designation or each other, an unknown designation, a clearance group of a bearing that
-    has none or whose type is not told, a suffix that contradicts a key.
+    A bearing given by sizes has the tolerances of radial ones unless bearing_type says tapered. If a tabulated bearing
+    has its sizes, it has that one's load ratings and chamfer; else its ratings are estimated from its sizes and type.
+    InputError: neither designation nor all sizes, sizes that contradict the designation or each other, an unknown
+    designation, a clearance group of a bearing that has none or whose type is not told, a suffix that contradicts a
+    key.
     """
     identity = _by_designation(table) if table.designation is not None else _by_sizes(table)
     size = identity.size
-    like = size if size.designation else of_size(size.bore, size.outer, size.inner_width)
+    like = size if size.designation else of_size(size.bore, size.outer, size.inner_width, table.bearing_type)
     inner_chamfer, outer_chamfer = _chamfers(table, like)
     group = _agreed("internal_clearance", table.internal_clearance, identity.group, table)
     _check_group(group, identity, table)
     accuracy = _agreed("bearing_class", table.bearing_class, identity.accuracy, table) or "0"
-    ratings, rated = _ratings(table, size)
+    entry = catalogue_bearing(like.designation) if like else None
+    ratings, rated = _ratings(table, size, entry)
     lent = like if not size.designation and table.chamfer_mm is None else None
     asked = table.asked_interference_um
     return SeatedBearing(
         name=table.name,
         type=size.type,
-        kind=identity.kind,
+        kind=identity.kind or (like.kind if like else None),
         ratings=ratings,
         inner=Ring(size.bore, size.inner_width, inner_chamfer, table.inner_ring_load),
         outer=Ring(size.outer, size.outer_width, outer_chamfer, table.outer_ring_load),
@@ -69,8 +79,15 @@ def from_table(table: "BearingTable") -> SeatedBearing:
         series=table.series or (size.series if size.designation else "light"),
         internal_clearance=group,
         asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
-        remarks=(*_lent(lent), *rated),
+        remarks=(*_taken_as(table, size, like), *_lent(lent), *rated),
         designation=size.designation or None,
+        entry=entry,
+        no_inner_ring=identity.kind == "drawn-cup" or size.designation.startswith("RNA"),
+        position=_si(table.position_mm, "mm"),
+        short_shares=(
+            to_si(table.short_pairs_warn_percent, "percent"),
+            to_si(table.short_pairs_fail_percent, "percent"),
+        ),
     )
 
 
@@ -84,6 +101,11 @@ def _service(table: "BearingTable") -> Service:
         over_mounting=_si(table.temperature_rise_K, "K"),
         starting_torque=_si(table.starting_torque_N_m, "N_m"),
         seat_friction=table.seat_friction,
+        axial_load=_si(table.axial_load_kN, "kN"),
+        viscosity=_si(table.lubricant_viscosity_mm2_per_s, "mm2_per_s"),
+        contamination=table.contamination_factor,
+        required_life=_si(table.required_life_h, "h"),
+        extremes=None if table.temperature_range_K is None else (*table.temperature_range_K,),  # type: ignore[arg-type]
     )
 
 
@@ -133,18 +155,37 @@ def _lent(like: Dimensions | None) -> tuple[str, ...]:
     return (f"No chamfer is given: that of {like.designation}, which has the same sizes, is taken.",)
 
 
-def _ratings(table: "BearingTable", size: Dimensions) -> tuple[Ratings | None, tuple[str, ...]]:
-    """Given ones win; with C0 alone given, C is still looked up."""
-    listed = load_ratings(size.designation)
-    dynamic = _si(table.dynamic_load_rating_kN, "kN") or (listed.dynamic if listed else None)
-    static = _si(table.static_load_rating_kN, "kN") or (listed.static if listed else None)
-    if dynamic is None:
-        return None, ()
-    if table.dynamic_load_rating_kN is not None:
-        return Ratings(dynamic, static or 0.0), ()
-    return Ratings(dynamic, static or 0.0), (
-        f"C = {from_si(dynamic, 'kN'):g} kN of {size.designation} is the SKF General Catalogue's of 2006.",
-    )
+def _taken_as(table: "BearingTable", size: Dimensions, like: Dimensions | None) -> tuple[str, ...]:
+    if size.designation or table.bearing_type is not None or like is None:
+        return ()
+    return (f"No bearing_type is given: the sizes are those of {like.designation}, a {like.kind} bearing.",)
+
+
+def _ratings(
+    table: "BearingTable", size: Dimensions, entry: CatalogueBearing | None
+) -> tuple[Ratings | None, tuple[str, ...]]:
+    """Ratings and where they are from: what the table gives wins, then the catalogue's row, then the estimate."""
+    listed = entry.ratings if entry else None
+    given = _si(table.dynamic_load_rating_kN, "kN"), _si(table.static_load_rating_kN, "kN")
+    if given[0] is not None and given[1] is not None:
+        return Ratings(given[0], given[1]), ()
+    kind = entry.kind if entry else table.bearing_type
+    if listed is None and kind is not None:
+        listed = estimated_ratings(kind, size.bore, size.outer, size.inner_width)
+        source = (
+            f"{_both(listed)} are estimated from the sizes of the {kind} bearing, within {ESTIMATE_ERROR[kind]:.0%}."
+        )
+        source = f"No catalogue bearing has these sizes: {source}" if entry is None else source
+    elif listed is not None and entry is not None:
+        source = f"{_both(listed)} are those of {entry.designation} ({entry.source})."
+    else:
+        return (None if given[0] is None else Ratings(given[0], given[1] or 0.0)), ()
+    return listed._replace(dynamic=given[0] or listed.dynamic, static=given[1] or listed.static), (source,)
+
+
+def _both(ratings: Ratings) -> str:
+    dynamic, static = from_si(ratings.dynamic, "kN"), from_si(ratings.static, "kN")
+    return f"C = {dynamic:.3g} kN and C0 = {static:.3g} kN"
 
 
 def _agreed(key: str, given: str | None, named: str | None, table: "BearingTable") -> str | None:
@@ -161,26 +202,26 @@ def _agreed(key: str, given: str | None, named: str | None, table: "BearingTable
 
 
 def _check_group(group: str | None, identity: _Found, table: "BearingTable") -> None:
-    if group is None or (identity.kind == "ball" and group in GROUPS):
+    if group is None:
         return
-    if identity.kind == "ball":
-        raise unknown("clearance group", group, GROUPS)
     if identity.kind is None:
         raise InputError(
-            "a group of radial clearance says nothing without the type of the bearing",
+            "a group of internal clearance says nothing without the type of the bearing",
             place=Place(key="bearing_type"),
             found="none",
-            allowed="ball, angular-contact, cylindrical, tapered, spherical",
+            allowed="ball, angular-contact, cylindrical, tapered, spherical, needle",
             remedy='Give bearing_type = "ball" where it is a deep groove ball bearing, or its designation.',
         )
+    known = groups_of(identity.kind)
+    if group in known:
+        return
     what = identity.size.designation or f"a {identity.kind} bearing"
-    settled = identity.kind in ("tapered", "angular-contact")
-    why = "the clearance of such a bearing is set when it is mounted" if settled else "its table is not held here"
+    why = f"that of {what} is one of {', '.join(known)}" if known else f"{what} has no group: its housing sets it"
     raise InputError(
-        f"the groups of radial clearance are those of deep groove ball bearings, {what} is none",
+        f"{what} has no clearance group of this name",
         place=Place(key="internal_clearance"),
         found=group,
-        remedy=f"Leave internal_clearance out: {why}.",
+        remedy=f"Leave internal_clearance out, or correct it: {why}.",
     )
 
 

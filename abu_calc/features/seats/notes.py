@@ -8,9 +8,9 @@ import math
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing
-from abu_calc.features.seats.clearance import makers_classes
 from abu_calc.features.seats.interference import Interval
 from abu_calc.features.seats.joint import ARTICLE, MEASURED, TEMPERATURE, InterferenceLoss, Joint
+from abu_calc.features.seats.joints import makers_classes
 from abu_calc.features.seats.requirement import catalogue_smoothing_loss
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si
@@ -20,6 +20,8 @@ from abu_calc.standards.tolerance_classes import SOURCE, DeviationLimits, Seat
 if TYPE_CHECKING:
     from abu_calc.features.seats.advice import SeatAdvice
 
+_AS_SOLID: Final = 0.97
+"""Share of the pressure above which a part is called solid or thick."""
 SHOCK_FACTOR: Final = 1.8
 """k₁ of the load intensity: strong shocks, overload to 300 %, taken always as the safe side (moderate ones: 1.0)."""
 
@@ -180,10 +182,13 @@ def seat_notes(
     intensity: float | None,
     asked: Interval | None,
     selection: "Selection | None",
+    rule: str | None,
 ) -> tuple[str, ...]:
-    """The notes of a seat, what concerns the bearing alike for both."""
+    """The notes of a seat, what concerns the bearing alike for both; `rule`: the class by the rules for the load."""
     return (
         *_needs(joint),
+        *_kept(joint),
+        *_differs(joint, own, rule),
         *_load(bearing, joint, intensity),
         *bearing.remarks,
         *_advised(bearing, joint, own, given),
@@ -197,6 +202,40 @@ def _needs(joint: Joint) -> tuple[str, ...]:
     needs = " and ".join(f"{from_si(criterion.value, 'um'):.2f} µm by {criterion.by}" for criterion in joint.criteria)
     larger = "; the larger counts" if len(joint.criteria) > 1 else ""
     return (f"Interference required under {ARTICLE[joint.ring.load]} load, without losses: {needs}{larger}.",)
+
+
+def _kept(joint: Joint) -> tuple[str, ...]:
+    """What a hollow shaft, a thin or a light-alloy housing keeps of the pressure."""
+    kept = joint.pressure_kept
+    if not joint.must_grip or kept > _AS_SOLID or joint.runs_on_needles:
+        return ()
+    part = "hollow or soft shaft" if joint.seat == "shaft" else "thin or soft housing"
+    like = "a solid shaft" if joint.seat == "shaft" else "a thick housing"
+    return (
+        f"The {part} keeps {kept:.0%} of the pressure in {like} of steel (Lamé): the load needs {1 / kept:.3g} times "
+        "the interference.",
+    )
+
+
+def _differs(joint: Joint, own: "SeatAdvice", rule: str | None) -> tuple[str, ...]:
+    """The class by the rules for the load beside the catalogue's, where they differ."""
+    listed = joint.catalogue_class
+    if not joint.must_grip or listed is None or joint.required is None or rule == listed:
+        return ()
+    needed, least = from_si(joint.required.value, "um"), joint.with_class(listed).interference.smallest
+    asks = f"asks for {rule}" if rule else "finds no tabulated class tight enough"
+    loosest = f"{least_text(least)} of the loosest pair of {listed}"
+    best = own.best.tolerance_class if own.best else listed
+    moved = "" if best == listed else f" The losses or the stress move it to {best}."
+    return (
+        f"The rule {joint.required.by} {asks}: {needed:.3g} µm required, {loosest}.",
+        f"The catalogue's {listed} governs: it rests on experience with this type, size and P/C.{moved}",
+    )
+
+
+def least_text(length: float) -> str:
+    """A length in micrometres."""
+    return f"{from_si(length, 'um'):.3g} µm"
 
 
 def _load(bearing: SeatedBearing, joint: Joint, intensity: float | None) -> tuple[str, ...]:
@@ -228,7 +267,7 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
             f"load {joint.ring.load}, seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
         )
         if best not in (None, *joint.maker.classes, *joint.maker.special):
-            notes.append(f"{best} is recommended: {joint.maker.classes[0]} fails by its interference or its stress.")
+            notes.append(_moved(joint, best or ""))
     elif (usual := makers_classes(bearing, joint.seat)) is not None and best in usual.classes:
         kind = bearing.kind or "ball"
         what = "the load" if joint.radial_load is None else "C"
@@ -240,6 +279,21 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
     if joint.fit_name == MEASURED:
         notes.append(f"The limits of the {joint.seat} are as measured, the ring's are those of a new bearing.")
     return tuple(notes)
+
+
+def _moved(joint: Joint, best: str) -> str:
+    """Reason for another class than those of the catalogue's row."""
+    listed = joint.catalogue_class or ""
+    if joint.maker is not None and listed != joint.maker.classes[0] and best == listed:
+        return (
+            f"{best} is recommended: its mean interference is nearest to that of {joint.maker.classes[0]} over "
+            f"{joint.pressure_kept:.0%} (SKF's rule for hollow shafts)."
+        )
+    if not joint.must_grip:
+        case = joint.coldest_or_hottest
+        when = "" if case.rise is None else f" at {case.rise:+g} K"
+        return f"{best} is recommended: {listed} would be tight{when}."
+    return f"{best} is recommended: {listed} fails by its short pairs, its interference or its stress."
 
 
 def _sorting(joint: Joint, asked: Interval | None, selection: "Selection | None") -> tuple[str, ...]:

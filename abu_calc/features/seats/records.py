@@ -13,6 +13,7 @@ from abu_calc.standards.tolerance_classes import RingLoad, Seat
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.drawing_requirements import SeatRequirements
+    from abu_calc.features.seats.joint import Joint, ThermalCase
     from abu_calc.features.seats.notes import Group, Item
     from abu_calc.features.seats.seats import BearingSeats, SeatFit
 
@@ -31,6 +32,10 @@ def um(length: float) -> float:
 def um_pair(pair: Pair) -> Pair:
     """Limits or an interval in micrometres."""
     return um(pair[0]), um(pair[1])
+
+
+def _in(value: float | None, unit: str) -> float | None:
+    return None if value is None else round(from_si(value, unit), 9)
 
 
 @record
@@ -151,8 +156,49 @@ class Requirements(Record):
 
 
 @record
+class DrawnForm(Record):
+    """Form and roughness that the drawing of a seat states, by a maker's catalogue."""
+
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
+
+    cylindricity_um: Annotated[float, Quantity("cylindricity", "", 2)]
+    shoulder_runout_um: Annotated[float, Quantity("total axial runout of the shoulder", "", 3)]
+    roughness_Ra_um: Annotated[float, Quantity("roughness", "Ra")]
+    source: Annotated[str, Quantity("source")]
+
+
+@record
+class ThermalInterference(Record):
+    """Interference of a seat at one temperature case."""
+
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
+
+    case: Annotated[str, Quantity("temperature case", "", 4, "mounting, working, lowest, highest")]
+    rise_K: Annotated[float | None, Quantity("rise over mounting", "", 4, "None: differences alone are given")]
+    interference_um: Annotated[Pair, Quantity("interference")]
+
+    @classmethod
+    def of(cls, joint: "Joint", case: "ThermalCase") -> Self:
+        """Record of a case of a joint."""
+        low, high = joint.interference
+        return cls(case=case.name, rise_K=case.rise, interference_um=(um(low - case.loss), um(high - case.loss)))
+
+
+@record
+class SimulatedLife(Record):
+    """Loads of a bearing from the simulation, and its basic rating life without and with the autobalancer."""
+
+    decimals: ClassVar[Mapping[str, int]] = {"h": 1}
+
+    load_without_kN: Annotated[float, Quantity("equivalent load without the autobalancer", "", 3)]
+    load_with_kN: Annotated[float, Quantity("equivalent load with the autobalancer", "", 3)]
+    life_without_h: Annotated[float, Quantity("basic rating life without the autobalancer", "", 3)]
+    life_with_h: Annotated[float, Quantity("basic rating life with the autobalancer", "", 3)]
+
+
+@record
 class Clearance(Record):
-    """Radial clearance in the bearing; it belongs to both seats."""
+    """Clearance in the bearing, radial or axial of a pair; it belongs to both seats."""
 
     decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
@@ -161,6 +207,8 @@ class Clearance(Record):
     mounted_um: Annotated[Pair, Quantity("after mounting, extreme")]
     probable_um: Annotated[Pair, Quantity("after mounting, probable")]
     mean_um: Annotated[float, Quantity("mean after mounting", "", 3)]
+    axial: Annotated[bool, Quantity("whether it is the axial clearance of a pair")]
+    preload_N: Annotated[Pair | None, Quantity("preload of the pair after mounting", "", 3, "least and most")]
     below_zero_probability: Annotated[float, Quantity("share of bearings without clearance", "", 3)]
     by_temperature_um: Annotated[float, Quantity("taken by temperature", "", 3)]
     group_to_choose: Annotated[str | None, Quantity("tightest group that passes")]
@@ -196,9 +244,32 @@ class SeatResult(Record):
     permitted_by: Annotated[str, Quantity("criterion of the permitted interference")]
     hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "", 4, "of the ring at the largest interference")]
     part_stress_MPa: Annotated[float, Quantity("hoop stress of the part", "", 4, "at the largest interference")]
-    load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "the radial load for P")]
+    short_pairs_share: Annotated[
+        float | None, Quantity("share of short pairs", "", 3, "less interference than the specified rule demands")
+    ]
+    pressure_kept: Annotated[
+        float, Quantity("share of the pressure kept", "", 3, "of that in a solid shaft or a thick housing")
+    ]
+    interference_by_temperature: tuple[ThermalInterference, ...]
+    load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "P the equivalent dynamic load")]
+    static_safety: Annotated[float | None, Quantity("static safety", "C0/P0", 3)]
+    basic_rating_life_h: Annotated[float | None, Quantity("basic rating life", "L_10h", 3)]
+    modified_rating_life_h: Annotated[float | None, Quantity("modified rating life", "", 3, "basic one times a_ISO")]
+    life_modification: Annotated[float | None, Quantity("life modification factor", "a_ISO", 3)]
+    limiting_speed_rpm: Annotated[float | None, Quantity("limiting speed", "", 4, "of the catalogue's bearing")]
+    equivalent_load_kN: Annotated[float | None, Quantity("equivalent dynamic load", "P", 3)]
+    static_load_kN: Annotated[float | None, Quantity("equivalent static load", "P_0", 3)]
+    dynamic_load_rating_kN: Annotated[float | None, Quantity("dynamic load rating", "C", 4)]
+    static_load_rating_kN: Annotated[float | None, Quantity("static load rating", "C0", 4)]
+    catalogue_bearing: Annotated[str | None, Quantity("catalogue bearing of this size")]
+    simulated_life: SimulatedLife | None
     maker_fits: Annotated[
         tuple[str, ...], Quantity("the makers' tolerance classes", "", 4, "the first is the usual one")
+    ]
+    catalogue_fit: Annotated[str | None, Quantity("tolerance class by the catalogue's row")]
+    rule_fit: Annotated[
+        str | None,
+        Quantity("tolerance class by the rules for the load", "", 4, "its loosest pair has what is required"),
     ]
     recommended_fit: Annotated[str | None, Quantity("recommended tolerance class")]
     recommended_clearance: Annotated[str | None, Quantity("clearance to order")]
@@ -207,6 +278,8 @@ class SeatResult(Record):
     load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·F_r/b_s")]
     creep: Creep
     requirements: Requirements
+    form: DrawnForm
+    bearing_kind: Annotated[str | None, Quantity("type of the bearing")]
     asked_interference_um: Annotated[Pair | None, Quantity("interference required of every pair")]
     selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n_g")]
     selective_interference_um: Annotated[Pair | None, Quantity("interference within the groups")]
@@ -242,7 +315,8 @@ class SeatResult(Record):
     @classmethod
     def of(cls, seat: "SeatFit", bearing: "BearingSeats", clearance: Clearance | None) -> Self:
         """Record of a seat of a bearing, in user units; `clearance`: the clearance left in the bearing."""
-        sorted_out, maker = seat.selection, seat.joint.maker
+        sorted_out, maker, life, ratings = seat.selection, seat.joint.maker, bearing.life, bearing.bearing.ratings
+        in_use = bearing.life_in_use
         return cls.read(
             seat,
             seat.joint.ring,
@@ -250,9 +324,25 @@ class SeatResult(Record):
             losses=tuple(map(Loss.of, seat.ledger)),
             part_stress_MPa=from_si(seat.joint.part_stress, "MPa"),
             load_ratio=bearing.bearing.load_ratio,
+            interference_by_temperature=tuple(
+                ThermalInterference.of(seat.joint, case) for case in seat.joint.thermal_cases
+            ),
+            static_safety=life.static_safety,
+            basic_rating_life_h=_in(life.basic, "h"),
+            modified_rating_life_h=_in(life.modified, "h"),
+            life_modification=life.a_iso,
+            limiting_speed_rpm=_in(life.limiting_speed, "rpm"),
+            equivalent_load_kN=_in(life.dynamic_load, "kN"),
+            static_load_kN=_in(life.static_load, "kN"),
+            dynamic_load_rating_kN=_in(ratings.dynamic if ratings else None, "kN"),
+            static_load_rating_kN=_in(ratings.static or None if ratings else None, "kN"),
+            catalogue_bearing=bearing.bearing.entry.designation if bearing.bearing.entry else None,
+            simulated_life=None if in_use is None or in_use.lives is None else SimulatedLife.read(in_use.lives),
             maker_fits=(*maker.classes, *maker.special) if maker else (),
             recommended_clearance=bearing.group_to_order,
             creep=Creep.of(seat),
+            form=DrawnForm.read(seat.form),
+            bearing_kind=bearing.bearing.kind,
             selective_groups=sorted_out.groups if sorted_out else None,
             selective_interference_um=um_pair(sorted_out.interference) if sorted_out else None,
             sorting_groups=tuple(SortingGroup.of(group, seat.seat) for group in seat.groups),

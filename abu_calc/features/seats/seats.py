@@ -6,16 +6,17 @@ An error of one bearing names its table, and its key if known. Parts that few be
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice
+from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice, rule_class
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.checks import clearance_checks, seat_checks, start_checks
-from abu_calc.features.seats.clearance import housing_joint, shaft_joint
+from abu_calc.features.seats.checks import clearance_checks, life_checks, seat_checks, short_pair_checks, start_checks
 from abu_calc.features.seats.creep import CreepJudgement, creep
-from abu_calc.features.seats.drawing_requirements import SeatRequirements, seat_requirements
+from abu_calc.features.seats.drawing_requirements import SeatForm, SeatRequirements, seat_form, seat_requirements
 from abu_calc.features.seats.interference import Interval, probable_interference, truncated_clearance_probability
 from abu_calc.features.seats.joint import InterferenceLoss, Joint
+from abu_calc.features.seats.joints import housing_joint, shaft_joint
 from abu_calc.features.seats.lookup import from_table
 from abu_calc.features.seats.notes import Item, ledger, load_intensity, seat_notes
+from abu_calc.features.seats.rating_life import RatingLife, rating_life
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import SI_PER_UNIT
@@ -24,6 +25,7 @@ from abu_calc.standards.tolerance_classes import DeviationLimits, Seat
 if TYPE_CHECKING:
     from abu_calc.features.seats.clearance import ClearanceLeft
     from abu_calc.features.seats.drawing_requirements import SeatRepair
+    from abu_calc.features.seats.life_in_use import LifeInUse
     from abu_calc.features.seats.notes import Group, Selection
     from abu_calc.inputs.rolling_bearing import Bearing as BearingTable
 
@@ -41,7 +43,8 @@ class SeatFit(NamedTuple):
 
     `required_interference` is that of a ring under a rotating load; a ring under a load fixed in direction is not held
     to it. `losses` are those included in it beside the load, `ledger` all that are known, counted or not; `groups`
-    those of the `selection`; `repair` of a seat whose limits are measured.
+    those of the `selection`; `repair` of a seat whose limits are measured; `rule_fit`: the class by the rules for the
+    load alone.
     """
 
     name: str
@@ -55,12 +58,14 @@ class SeatFit(NamedTuple):
     load_intensity: float | None
     creep: CreepJudgement
     requirements: SeatRequirements
+    form: SeatForm
     asked_interference: Interval | None
     selection: "Selection | None"
     groups: "tuple[Group, ...]"
     repair: "SeatRepair | None"
     notes: tuple[str, ...]
     checks: tuple[Check, ...]
+    rule_fit: str | None
 
     @property
     def seat(self) -> Seat:
@@ -123,6 +128,21 @@ class SeatFit(NamedTuple):
         return self.joint.hoop_stress
 
     @property
+    def short_pairs_share(self) -> float | None:
+        """Share of pairs with less interference than the specified rule demands."""
+        return self.joint.short_pairs
+
+    @property
+    def catalogue_fit(self) -> str | None:
+        """The class of the makers' catalogue for this seat; None without C or a row."""
+        return self.joint.catalogue_class
+
+    @property
+    def pressure_kept(self) -> float:
+        """Share of the pressure in a solid shaft or a thick housing that this part gives."""
+        return self.joint.pressure_kept
+
+    @property
     def recommended_fit(self) -> str | None:
         """The class to write."""
         return self.advice.best.tolerance_class if self.advice.best else None
@@ -139,8 +159,10 @@ class BearingSeats(NamedTuple):
     bearing: SeatedBearing
     shaft: SeatFit
     housing: SeatFit
+    life: RatingLife
     clearance: "ClearanceLeft | None" = None
     group_to_order: str | None = None
+    life_in_use: "LifeInUse | None" = None
 
     @property
     def seats(self) -> tuple[SeatFit, SeatFit]:
@@ -149,8 +171,10 @@ class BearingSeats(NamedTuple):
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """The checks of both seats and of the clearance."""
-        return self.shaft.checks + self.housing.checks + clearance_checks(self.bearing.name, self.clearance)
+        """The checks of both seats, of the bearing's life, and of the clearance."""
+        left = clearance_checks(self.bearing, self.clearance)
+        in_use = self.life_in_use.checks if self.life_in_use else ()
+        return (*self.shaft.checks, *self.housing.checks, *life_checks(self.bearing, self.life), *in_use, *left)
 
 
 def seat_bearing(table: "BearingTable") -> BearingSeats:
@@ -179,7 +203,8 @@ def judge(bearing: SeatedBearing) -> BearingSeats:
         _seat_fit(bearing, joint, own, not unsaid, asked if joint in asked_of else None)
         for joint, own, unsaid in zip(joints, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
     )
-    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints), recommendation.group)
+    left = _clearance(bearing, *joints)
+    return BearingSeats(bearing, shaft, housing, rating_life(bearing), left, recommendation.group)
 
 
 def _clearance(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
@@ -198,6 +223,7 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
     if joint.radial_load is not None and joint.length is not None:
         intensity = load_intensity(joint.radial_load, joint.length)
     selection, groups = _sorting(joint, asked)
+    rule = rule_class(joint, start)
     wanted = recommended or joint.tolerance_class
     return SeatFit(
         name=bearing.name,
@@ -214,13 +240,16 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
         load_intensity=intensity,
         creep=creep_result,
         requirements=seat_requirements(joint, wanted, bearing.bearing_class),
+        form=seat_form(joint, joint.tolerance_class if given and not joint.measured else wanted, bearing.bearing_class),
         asked_interference=asked,
         selection=selection,
         groups=groups,
         repair=_repair(bearing, joint, wanted),
-        notes=seat_notes(bearing, joint, own, given, intensity, asked, selection),
-        checks=seat_checks(bearing, joint, recommended)
-        + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended),
+        notes=seat_notes(bearing, joint, own, given, intensity, asked, selection, rule),
+        checks=seat_checks(bearing, joint, recommended, rule)
+        + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended)
+        + short_pair_checks(bearing.name, joint, recommended),
+        rule_fit=rule,
     )
 
 

@@ -34,7 +34,11 @@ ROWS: Final = (
     "permitted_by",
     "hoop_stress_MPa",
     "part_stress_MPa",
+    "short_pairs_share",
+    "pressure_kept",
     "load_ratio",
+    "catalogue_fit",
+    "rule_fit",
     "recommended_fit",
     "recommended_clearance",
 )
@@ -102,8 +106,10 @@ def _label(name: str) -> str:
 
 
 def _cell(value: tuple[float, float] | float | str | None, name: str) -> str:
-    if isinstance(value, float) and "probability" in name:
+    if isinstance(value, float) and ("probability" in name or name == "short_pairs_share"):
         return of_all(value).removesuffix(" pairs")
+    if isinstance(value, float) and name == "pressure_kept":
+        return f"{value:.0%}"
     if isinstance(value, tuple):
         return " … ".join(f"{each:g}" for each in value)
     if isinstance(value, float):
@@ -350,6 +356,8 @@ def _bearing(index: int, pair: Seats) -> list[Block]:
         Picture(tuple(zone_lines(*pair)), caption, indent=2),
         Paragraph(""),
         fit_grid(pair),
+        *_bearing_life(pair[0]),
+        *_temperatures(pair),
         *_clearance(pair[0].internal_clearance),
         *_losses(pair),
         *_fits(pair),
@@ -375,19 +383,67 @@ def _creep_of(seat: SeatResult) -> tuple[str, ...]:
     return CREEP.get(creep.verdict, creep.verdict), creep.why, torques, AT_START[creep.holds_at_start]
 
 
+LIFE: Final = (
+    "catalogue_bearing",
+    "dynamic_load_rating_kN",
+    "static_load_rating_kN",
+    "equivalent_load_kN",
+    "static_load_kN",
+    "static_safety",
+    "basic_rating_life_h",
+    "life_modification",
+    "modified_rating_life_h",
+    "limiting_speed_rpm",
+)
+"""Fields of the bearing itself, alike in the records of both seats."""
+
+
+def _bearing_life(seat: SeatResult) -> list[Block]:
+    """Load ratings, safety and lives, as far as they are known."""
+    rows = [(_label(name), _life_cell(getattr(seat, name))) for name in LIFE if getattr(seat, name) is not None]
+    if seat.simulated_life is not None:
+        lives = seat.simulated_life
+        rows += [
+            ("life in this machine without the autobalancer, h", _life_cell(lives.life_without_h)),
+            ("  with the autobalancer, h", _life_cell(lives.life_with_h)),
+        ]
+    return [Heading("Static safety and rating life"), Grid(("", ""), tuple(rows))] if rows else []
+
+
+def _life_cell(value: float | str) -> str:
+    return value if isinstance(value, str) else number(value, 3)
+
+
+def _temperatures(pair: Seats) -> list[Block]:
+    """Interference at mounting, at work, at the lowest and highest temperature, where one is given."""
+    cases = pair[0].interference_by_temperature
+    if len(cases) < 2:  # mounting alone is in the table above
+        return []
+    rows = tuple(
+        (shaft.case, "–" if shaft.rise_K is None else f"{shaft.rise_K:+g}",
+         _span_text(shaft.interference_um), _span_text(housing.interference_um))
+        for shaft, housing in zip(cases, pair[1].interference_by_temperature, strict=True)
+    )  # fmt: skip
+    header = ("case", "K over mounting", "shaft, µm", "housing, µm")
+    return [Heading("Interference by temperature"), Grid(header, rows)]
+
+
 def _clearance(left: Clearance | None) -> list[Block]:
     if left is None:
         return []
+    preload = () if left.preload_N is None else (("  preload of the pair, N", _span_text(left.preload_N)),)
     rows = (
         (f"of group {left.group}, before", _span_text(left.initial_um)),
         ("after mounting, extreme", _span_text(left.mounted_um)),
         ("after mounting, probable", _span_text(left.probable_um)),
         ("  mean", f"{left.mean_um:.3g}"),
+        *preload,
         ("  no clearance left in", of_all(left.below_zero_probability, "bearings")),
         ("  taken by temperature", f"{left.by_temperature_um:.3g}"),
         ("tightest group that passes", left.group_to_choose or "–"),
     )
-    return [Heading("Radial clearance in the bearing, µm"), Grid(("", ""), rows)]
+    name = "Axial clearance of the pair, µm" if left.axial else "Radial clearance in the bearing, µm"
+    return [Heading(name), Grid(("", ""), rows)]
 
 
 def _losses(pair: Seats) -> list[Block]:

@@ -256,6 +256,8 @@ def _limits(subject: Subject, run: Simulation, spared: float, duration_s: float 
 
 def _level_at(subject: Subject, response: Response) -> str:
     """The place on the axis whose motion the response is about, in words."""
+    if subject.design is not None and subject.design.case.body.in_space:
+        return "race, forward whirl"
     if subject.design is not None:
         return "race plane" if subject.design.case.race_offset else "wheel plane"
     if response.final.arm_angle is not None:

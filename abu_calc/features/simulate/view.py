@@ -29,6 +29,7 @@ from abu_calc.reporting.parts import (
 from abu_calc.reporting.screen import one_screen, verdict_line
 from abu_calc.simulation.records import Audit, Cost, EffectEntry, End
 from abu_calc.simulation.rotor_view import RotorView
+from abu_calc.sizing.case import WHEEL_PLANE
 
 CONVENTIONS = (
     "Amplitudes are 0–peak over the last twentieth of the run, about the mean place. Velocities are rms, the larger of "
@@ -104,7 +105,9 @@ def simulate_screen(result: SimulateResult) -> tuple[Block, ...]:
 def _numbers(result: SimulateResult) -> Grid:
     """Amplitude, levels, settling, error, each with its limit."""
     limits = {check.code: limit_in_file(check) for check in result.checks}
-    bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {hand.name}" for hand in result.handles or ()]
+    bearings = result.bearing_amplitudes_mm is not None
+    names = [hand.name for hand in result.handles or ()]
+    held = [f"level, {name}" for name in ([WHEEL_PLANE] if WHEEL_PLANE in names else names)]
     before = value_of(result, "unbalanced_amplitude_mm")
     rows = (
         ("spindle amplitude", before, value_of(result, "axis_amplitude_mm"), ""),

@@ -211,9 +211,11 @@ def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Ch
     }
 
     def field(part: int) -> tuple[tuple[float | None, ...], ...]:
+        """One quantity of all cells, a row for each value of the second key."""
         return tuple(tuple(cell(abscissa, other, part) for abscissa in x) for other in y)
 
     def cell(x: object, y: object, part: int) -> float | None:
+        """One quantity of a cell; None where no sample gave one."""
         return cells.get((x, y), (None, None, None))[part]
 
     x, y = (tuple(_plain(value) for value in values) for values in (across, upward))

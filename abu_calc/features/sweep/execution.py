@@ -73,6 +73,7 @@ def once_more(
     """Members beside those of the store."""
 
     def keep(rows: list[Row], *_: object) -> None:
+        """Rows of a batch, whose further numbers nobody needs."""
         take(rows)
 
     counted = _Counted(keep, 0, count, progress, "sweep: what may be loosened, {} of {}")

@@ -4,16 +4,23 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Any, ClassVar, Final
 
 import numpy as np
 
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
+from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.features.design.study import size
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, What, drag_ratio
-from abu_calc.features.sweep.sample_run import Overtime, limited, machine_started, scene_once
 from abu_calc.features.sweep.sampling import Sample
+from abu_calc.features.sweep.time_limit import Overtime, limited
+from abu_calc.formulas.friction_band import friction_band
+from abu_calc.formulas.motion import SETTLED
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
@@ -23,10 +30,14 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneFile
 from abu_calc.inputs.variation import Variants
+from abu_calc.simulation.balance import HALF, allowed_imbalance, balances, slip
+from abu_calc.simulation.ensemble import WORK, outcome_of
+from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.response import Response, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import scene_from
-from abu_calc.simulation.start_cases import OPPOSITE, SwitchedOn, turned
-from abu_calc.sizing.design import Design, built
+from abu_calc.simulation.start_cases import OPPOSITE, SwitchedOn, scene_switched_on, turned
+from abu_calc.sizing.design import Design, built, with_worst
 
 LOT: Final = 0.5e-6
 """Diameters of balls of one lot differ by this much [m] (grade 20 of ISO 3290, by practice)."""
@@ -178,6 +189,57 @@ class Scenes(SweepStudy):
             response.level, response.settling_time, from_si(response.axis_amplitude, "mm"),
             from_si(response.residual_imbalance, "g_mm"), run.balanced, run.balanced,
         )  # fmt: skip
+
+
+def machine_started(design: Design, start: SwitchedOn, lighter: tuple[float, ...], tolerance: float) -> StartOutcome:
+    """One start of one machine, by one run with every effect there is data for. Raises NotTrustworthyError."""
+    scene, _ = with_parted_balls(scene_switched_on(design, start, lighter))
+    response = _response(scene, tolerance, WORK)
+    outcome = outcome_of(design, start.member(design), scene, response)
+    if outcome.balanced or outcome.hanging or outcome.imbalance > HALF * scene.imbalance:
+        return outcome
+    # Only where it decides: the worst arrangement of balls that friction holds takes longer than all the rest.
+    return replace(outcome, allowed=allowed_imbalance(with_worst(design), scene.imbalance))
+
+
+@dataclass(frozen=True)
+class SceneOutcome:
+    """A scene given outright, run once, and whether its balls balance."""
+
+    response: Response
+    slip: float
+    balanced: bool
+
+
+def scene_once(scene: Scene, tolerance: float) -> SceneOutcome:
+    """One run of a scene. It balances as a machine does: see `balanced`. Raises NotTrustworthyError."""
+    scene, _ = with_parted_balls(scene)
+    response = _response(scene, tolerance, MOST_EVALUATIONS)
+    slipping = slip(response, abs(response.final.speed) or scene.speed)
+    balanced = balances(response.residual_imbalance, _allowed(scene, response), slipping)
+    return SceneOutcome(response, slipping, balanced)
+
+
+def _allowed(scene: Scene, response: Response) -> float:
+    """A tenth of the imbalance, and what eccentricity and dry friction leave; with friction at most half of it."""
+    mass = scene.support.felt_mass
+    eccentric, rolling = scene.effect("race_eccentricity"), scene.effect("dry_rolling_friction")
+    tenth = SETTLED * reference_imbalance(scene) + mass * getattr(eccentric, "magnitude", 0.0)
+    if rolling is None:
+        return tenth
+    arm, radius = getattr(rolling, "lever_arm", 0.0), getattr(rolling, "ball_radius", 1.0)
+    first, held = 0, 0.0
+    for race in scene.races:
+        angles = response.ball_angles[first : first + len(race.ball_masses)]
+        held, first = max(held, friction_band(arm, race.pitch_radius, radius, angles)), first + len(angles)
+    return max(tenth, min(tenth + mass * held, HALF * scene.imbalance))
+
+
+def _response(scene: Scene, tolerance: float, work: int) -> Response:
+    equations = assemble(scene)
+    choice = choose(equations, "auto", tolerance)
+    run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(work))
+    return evaluate(scene, run)
 
 
 def _line(text: str) -> str:

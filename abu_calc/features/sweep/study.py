@@ -103,6 +103,7 @@ def sweep(
         progress("sweep: reading the answers")
 
         def again(study: Trials, numbers: Iterator[int], take: Take) -> None:
+            """Compute samples of some studies once more."""
             count = len(study.studies) * len(study.members)
             once_more(study, numbers, take, count, hands, progress)
 

@@ -47,6 +47,11 @@ KINDS: Final = (
         "features.balancing.read:readings_from", "features.balancing.read:readings_template",
         "features.balancing.read:readings_schema",
     ),
+    Kind(
+        "recordings", "recordings of a type test", ("recording", "calibration"), "declare --recordings",
+        "features.declare.read:recordings_from", "features.declare.read:recordings_template",
+        "features.declare.read:recordings_schema",
+    ),
 )  # fmt: skip
 """A file that has tables of several is of the first of them, one that has none is a machine's."""
 

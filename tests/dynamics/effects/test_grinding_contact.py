@@ -15,7 +15,7 @@ from abu_calc.dynamics.equations.right_hand_side import accelerations, with_stat
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Race, Scene, placed
 from abu_calc.dynamics.supports.planar import planar
-from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import hand_support, scene_on

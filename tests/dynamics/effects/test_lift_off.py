@@ -15,6 +15,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport, cutting_arm
 from abu_calc.dynamics.switching.modes import starting
 from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.formulas.swing_arm import Arm
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.scene import read_scene
 from abu_calc.simulation.scene_of_file import scene_from
@@ -91,7 +92,7 @@ def test_whether_it_touches_at_first(angle: float, rate: float, mode: float, sid
 
 def test_an_arm_that_stays_pressed_moves_as_the_linear_one() -> None:
     """To the last bit: the effect adds nothing while they touch."""
-    arm = cutting_arm(LENGTH, INERTIA, 2000.0, 40.0, WORK, 0.4, 1.4, 0.02, 900.0, 0.115)
+    arm = cutting_arm(Arm(LENGTH, INERTIA, 2000.0, 40.0, WORK, 0.4, 0.115, 1.4, 0.02, 900.0))
     (rest,) = arm.resting_position()
     scene = replace(
         scene_on("swing arm"), support=arm, speed=600.0, imbalance=1e-5, races=(), duration=0.2,

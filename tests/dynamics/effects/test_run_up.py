@@ -15,6 +15,7 @@ from abu_calc.dynamics.integrators import run as recorder
 from abu_calc.dynamics.integrators.scipy_solvers import integrate
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.swing_arm import idle_arm
+from abu_calc.formulas.swing_arm import Arm
 from abu_calc.simulation import response
 from abu_calc.simulation.scene_of_file import scene_from
 from abu_calc.simulation.simulate import simulate
@@ -119,7 +120,7 @@ def test_an_arm_takes_the_reaction_of_what_runs_up_its_rotor():
     """J_O φ'' + b l² φ' + c l² φ = −J_r Ω' and then nothing: a step there and a step back, of a damped oscillator."""
     length, inertia, stiffness, damping, own = 0.35, 0.62, 2000.0, 40.0, 2e-3
     up, speed = 0.25, 150.0
-    arm = idle_arm(length, inertia, stiffness, damping)
+    arm = idle_arm(Arm(length, inertia, stiffness, damping))
     scene = Scene("arm", arm, speed, 1e-9, 0.0, (), 0.5, (0.0,), (0.0,), effects=(RunUpEffect(up, 0.0, own),))
     rate, held = damping * length**2 / (2 * inertia), stiffness * length**2
     natural = math.sqrt(held / inertia - rate**2)

@@ -17,7 +17,7 @@ from abu_calc.dynamics.equations.right_hand_side import accelerations, with_stat
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.planar import planar
-from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weighing_amplitude
 from abu_calc.foundation.errors import NotTrustworthyError, RangeError
 from tests.dynamics.scenes import scene_on
 

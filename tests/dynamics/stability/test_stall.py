@@ -13,6 +13,7 @@ from abu_calc.dynamics.stability.stall import hanging_bounds
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.supports.swing_arm import idle_arm
 from abu_calc.dynamics.supports.tilting import tilting
+from abu_calc.formulas.swing_arm import Arm
 from tests.dynamics.scenes import dimensionless
 
 
@@ -101,7 +102,7 @@ def test_a_tilting_support_that_does_not_tilt_is_planar() -> None:
 
 def test_an_arm_is_one_axis() -> None:
     """l²(J_O + n m l²) as the mass: one axis alone."""
-    arm = idle_arm(2.0, 4 * 0.99, 1.0, 0.04)
+    arm = idle_arm(Arm(2.0, 4 * 0.99, 1.0, 0.04))
     scene = replace(scene_of(), support=arm, start_position=(0.0,), start_velocity=(0.0,))
     expected = hanging_bounds(scene_of()).resonance / 2
     assert hanging_bounds(scene).resonance == pytest.approx(expected, rel=1e-6)

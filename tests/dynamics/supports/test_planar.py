@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from abu_calc.dynamics.supports.planar import in_hands, planar, with_body
-from abu_calc.dynamics.supports.receptance import receptance
+from abu_calc.dynamics.supports.steady_motion import receptance
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.formulas.suspension import Hands, dynamic_stiffness
 from abu_calc.foundation.errors import InputError, RangeError

@@ -16,7 +16,7 @@ from abu_calc.foundation.errors import InputError, RangeError
 
 def bare(omega: float, natural: float, h: float, kappa: float, duration: float, angle: float = 0.0) -> Scene:
     """No balls: z'' (1 + 2κ cos ωt) + 2z' (h − κω sin ωt) + ω₀² z = ω²κ sin ωt, eq. (8), with J_O = l = 1."""
-    arm = idle_arm(1.0, 1.0, natural**2, 2 * h)
+    arm = idle_arm(Arm(1.0, 1.0, natural**2, 2 * h))
     return Scene("arm", arm, omega, kappa, 0.0, (), duration, (angle,), (0.0,))
 
 
@@ -72,7 +72,7 @@ def balanced(ratio: float, duration: float) -> tuple[Scene, np.ndarray, np.ndarr
     """ω/ω₀ = ratio at 300 rad/s: the scene, the last twentieth of the arm's angle, the balls at the end."""
     J, length, omega = 0.45, 0.3, 300.0
     natural = omega / ratio
-    arm = idle_arm(length, J, J * natural**2 / length**2, 2 * 0.1 * natural * J / length**2)
+    arm = idle_arm(Arm(length, J, J * natural**2 / length**2, 2 * 0.1 * natural * J / length**2))
     race = Race(0.03, (0.01, 0.01), 10.0, 1.0, (2.0, -1.0), (0.0, 0.0))
     scene = Scene("arm", arm, omega, 400e-6, 0.0, (race,), duration, (0.0,), (0.0,))
     y = scipy_.integrate(assemble(scene), 1e-6, np.linspace(0.95 * duration, duration, 2001)).y
@@ -103,11 +103,11 @@ def cutting(**changes: float) -> tuple[SwingArmSupport, Arm]:
     """The arm that cuts, and as the sizing of the arm knows it."""
     numbers = {
         "length": 0.35, "inertia": 0.62, "joint_stiffness": 2000.0, "joint_damping": 40.0, "contact_stiffness": 1e5,
-        "cutting_coefficient": 0.45, "contact_angle": 1.2, "touch_angle": 0.03, "pressing_moment": 20.0,
-        "wheel_radius": 0.115, **changes,
+        "friction": 0.45, "contact_angle": 1.2, "touch_angle": 0.03, "pressing_moment": 20.0, "disk_radius": 0.115,
+        **changes,
     }  # fmt: skip
-    own = {"cutting_coefficient": "friction", "wheel_radius": "disk_radius"}
-    return cutting_arm(**numbers), Arm(**{own.get(name, name): value for name, value in numbers.items()})
+    arm = Arm(**numbers)
+    return cutting_arm(arm), arm
 
 
 def test_resting_angle_balances_all_moments():
@@ -129,14 +129,14 @@ def test_a_resting_arm_stays_at_rest():
     angle = support.resting_position()[0]
     equations = assemble(Scene("cutting", support, 300.0, 0.0, 0.0, (), 1.0, (angle,), (0.0,)))
     assert np.abs(equations.rhs(np, 0.0, np.array((angle, 0.0)), equations.acting)).max() < 1e-9
-    assert idle_arm(0.35, 0.62, 2000.0, 40.0) == SwingArmSupport(0.35, 0.62, 2000.0, 40.0, 0.0)
-    assert idle_arm(0.35, 0.62, 0.0, 40.0).resting_position()[0] == 0
+    assert idle_arm(Arm(0.35, 0.62, 2000.0, 40.0)) == SwingArmSupport(0.35, 0.62, 2000.0, 40.0, 0.0)
+    assert idle_arm(Arm(0.35, 0.62, 0.0, 40.0)).resting_position()[0] == 0
 
 
 def test_an_arm_that_lifts_itself_does_not_stand():
     """f = 0.45, R/l = 0.33: least g = −0.0220 at 0.144 rad, so the joint must be stiffer than c_n/45."""
     for joint, stands in ((1e5 / 46, False), (1e5 / 45, True)):
-        support, _ = cutting(joint_stiffness=joint, contact_angle=0.144, wheel_radius=0.33 * 0.35)
+        support, _ = cutting(joint_stiffness=joint, contact_angle=0.144, disk_radius=0.33 * 0.35)
         assert (support.stiffness > 0) == stands
         if stands:
             support.resting_position()[0]
@@ -146,7 +146,7 @@ def test_an_arm_that_lifts_itself_does_not_stand():
 
 
 @pytest.mark.parametrize(
-    "name", ["length", "wheel_radius", "contact_stiffness", "cutting_coefficient", "contact_angle", "pressing_moment"]
+    "name", ["length", "disk_radius", "contact_stiffness", "friction", "contact_angle", "pressing_moment"]
 )
 def test_what_is_no_arm_is_refused(name):
     with pytest.raises(RangeError):

@@ -10,7 +10,7 @@ import pytest
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.scene import Race
 from abu_calc.dynamics.supports.planar import LinearSupport
-from abu_calc.dynamics.supports.receptance import unbalanced_amplitude
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.foundation.errors import RangeError
 from tests.dynamics.supports.steady import MASS, PLACES, POLAR, SPEED, TRANSVERSE, acceleration, assert_steady, scene_on

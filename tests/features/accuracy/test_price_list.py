@@ -5,9 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.accuracy import price_list as module
-from abu_calc.features.accuracy.price_list import ReferenceRun, cheapest, study
-from abu_calc.features.accuracy.study import MeasuredPoint
+from abu_calc.features.accuracy import study as module
+from abu_calc.features.accuracy.study import MeasuredPoint, ReferenceRun, cheapest, price_list
 from abu_calc.features.accuracy.view import picture
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation.effect_selection import Ledger
@@ -29,7 +28,7 @@ def measured():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "REPEATS", 1)
         patch.setattr(module, "TOLERANCES", module.TOLERANCES[:-1])
-        return study(scene, Ledger(scene, ()), "amplitude", 0.01, 3600.0, TOLD.append)
+        return price_list(scene, Ledger(scene, ()), "amplitude", 0.01, 3600.0, TOLD.append)
 
 
 def test_every_rung_and_integrator_is_measured(measured):
@@ -68,19 +67,19 @@ def test_the_picture_stays_within_eighty_columns(measured):
 def test_no_time_is_told_beforehand():
     scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
     with pytest.raises(NotTrustworthyError, match="the reference alone takes"):
-        study(scene, Ledger(scene, ()), "amplitude", 0.01, 1e-6, quiet)
+        price_list(scene, Ledger(scene, ()), "amplitude", 0.01, 1e-6, quiet)
 
 
 def test_a_reference_that_two_methods_do_not_share_is_none(monkeypatch):
     scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
     monkeypatch.setitem(module.QUANTITIES, "amplitude", lambda *_: math.inf)
     with pytest.raises(NotTrustworthyError, match="no reference"):
-        study(scene, Ledger(scene, ()), "amplitude", 0.01, 60.0, quiet)
+        price_list(scene, Ledger(scene, ()), "amplitude", 0.01, 60.0, quiet)
 
 
 def test_unknown_quantities_are_refused(measured):
     with pytest.raises(InputError, match="known quantities"):
-        study(measured.reference.response, Ledger(None, ()), "beauty", 0.01, 1.0, quiet)
+        price_list(measured.reference.response, Ledger(None, ()), "beauty", 0.01, 1.0, quiet)
     assert isinstance(measured.reference, ReferenceRun)
 
 

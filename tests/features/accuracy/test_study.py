@@ -5,8 +5,15 @@ import math
 import pytest
 
 import abu_calc
-from abu_calc.features.accuracy.price_list import PriceList, PricePoint, ReferenceRun
-from abu_calc.features.accuracy.study import MeasuredPoint, Reference, _affordable, accuracy
+from abu_calc.features.accuracy.study import (
+    MeasuredPoint,
+    PriceList,
+    PricePoint,
+    Reference,
+    ReferenceRun,
+    _affordable,
+    accuracy,
+)
 from abu_calc.foundation.errors import InputError
 
 GOOD = PricePoint("equations", "scipy-dop853", 1e-6, 2e-3, 900, 90, 0.02, 0.5)

@@ -1,7 +1,6 @@
 """The picture of error against time, the table of points, and the chosen way."""
 
-from abu_calc.features.accuracy.price_list import PricePoint
-from abu_calc.features.accuracy.study import AccuracyResult, MeasuredPoint, Reference
+from abu_calc.features.accuracy.study import AccuracyResult, MeasuredPoint, PricePoint, Reference
 from abu_calc.features.accuracy.view import accuracy_blocks, accuracy_extras, picture
 from abu_calc.reporting.charts.chart import Plot
 from abu_calc.reporting.text import as_text
@@ -56,7 +55,7 @@ def test_the_report_says_what_was_chosen_and_what_was_not_measured() -> None:
         and "12.5 ms" in text
     )
     assert "Not computed by bdf: stiff." in text
-    assert "Not measured in the time allowed (--time-budget): radau 1e-3/1e-4, envelope." in text
+    assert "Not measured in the time allowed (--time-budget): radau 1e-3/1e-4; envelope." in text
 
 
 def test_a_figure_has_a_line_for_each_way() -> None:

@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from abu_calc.features.grinding.formulas import (
+    BallArrangement,
     characteristic,
     flutter_drag,
     growing_roots,
@@ -284,12 +285,13 @@ def test_boundaries_of_stability_are_the_published_ones(count, fan, ball, inerti
     """Idle, equal axes, M = k = 1: roots grow just below the speed, none just above; ±90°, or a fan of two."""
     doubled = count * abs(math.cos(2 * math.acos(fan))) if count == 2 else float(count)
     idle = SteadyContact(1.0, (1.0, 1.0), 1.0, 0.0, 0.0)
+    balls = BallArrangement(count, ball, doubled, inertia, drag)
 
     def growing(at: float) -> int:
         def whirl(w: complex) -> complex:
             return idle.whirl_at(w, (1 + 2j * zeta * w - w**2,) * 2)
 
-        return growing_roots(lambda s: characteristic(whirl, ball, at, count, doubled, inertia, drag, s), at)
+        return growing_roots(lambda s: characteristic(whirl, balls, at, s), at)
 
     assert growing(speed * (1 - 2e-4)) > 0
     assert growing(speed * (1 + 2e-4)) == 0

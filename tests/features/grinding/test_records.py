@@ -11,7 +11,7 @@ from abu_calc.features.grinding.records import AxisMotion, Orbit, ProfilePoint, 
 from abu_calc.features.grinding.steady_contact import SteadyWork
 from abu_calc.features.grinding.work import Remedy
 from abu_calc.formulas.steady_contact import SteadyContact
-from abu_calc.sizing.vibration import Levels
+from abu_calc.sizing.places import Levels
 
 CONTACT = SteadyContact(600.0, (-2e6 + 0j, -2e6 + 0j), 0.0, 0.0)
 

@@ -11,6 +11,8 @@ from tests.features.levels.test_study import sine_file
 @pytest.mark.parametrize("arguments", [
     ("--minutes", "0"), ("--minutes", "1500"), ("--from", "7"), ("--from", "-1"), ("--scene", "idle"),
     ("--duration", "3"), ("--set", "machine.mass_kg=5"), ("--quantity", "force"), ("--scale", "0"), ("--channels", "9"),
+    ("--handle", "front"), ("--handle", "=1"), ("--handle", "front=9"), ("--sensitivity", "10"),
+    ("--sensitivity", "ax=ten"), ("--full-scale-mV", "5000"),
 ])  # fmt: skip
 def test_wrong_options_are_refused(tmp_path: Path, arguments: tuple[str, str]) -> None:
     seen = abu("levels", sine_file(tmp_path, seconds=0.1), *arguments)

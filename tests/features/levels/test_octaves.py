@@ -20,6 +20,7 @@ from abu_calc.features.levels.octaves import (
     folded_share,
     hand_arm_filter,
     octave_filter,
+    third_octave_filter,
     why_not,
 )
 from abu_calc.foundation.units import from_si
@@ -89,6 +90,49 @@ def test_the_filter_is_of_class_1(away: float, side: int) -> None:
         assert 2.0 <= lost <= 5.0  # the edge: 3.01 dB
     else:
         assert lost >= CLASS_1[int(away)]
+
+
+@pytest.mark.parametrize("away", [*PASSED, 0.5, 1.0, 2.0, 3.0])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_the_filter_of_a_third_octave_is_of_class_1(away: float, side: int) -> None:
+    """The standard maps its table for octaves to the frequencies 1 + (G^(1/6) − 1)/(G^(1/2) − 1)·(G^away − 1)."""
+    ratio, third = 10**0.3, third_octaves()[12]
+    off = 1 + (ratio ** (1 / 6) - 1) / (ratio ** (1 / 2) - 1) * (ratio**away - 1)
+    response = third_octave_filter(third).response(np.array([1j * third.centre * off**side]))
+    lost = -20 * math.log10(abs(response[0]))
+    if away in PASSED:
+        assert -0.3 <= lost <= PASSED[away]
+    elif away == 0.5:
+        assert 2.0 <= lost <= 5.0
+    else:
+        assert lost >= CLASS_1[int(away)]
+
+
+@pytest.mark.parametrize("index", range(24))
+def test_a_sine_reads_its_level_in_its_third_octave(index: int) -> None:
+    """Centres and edges of IEC 61260-1:2014 written down again; the filter has settled over the periods it names."""
+    third, centre = third_octaves()[index], 10 ** ((index + 8) / 10)
+    edges = [from_si(third.low, "hz"), from_si(third.high, "hz")]
+    assert edges == pytest.approx([centre * 10**-0.05, centre * 10**0.05], rel=1e-9)
+    for off in (-0.6, 0.0, 0.6):
+        signal = sine(centre * 10 ** (0.05 * off), 4 * centre, 51.5 / centre)
+        assert abs(20 * math.log10(band_rms(signal, third_octave_filter(third)))) < 0.02
+    assert why_not(sine(centre, 4 * centre, 50 / centre), third_octave_filter(third)) is not None
+
+
+def test_third_octaves_of_noise_add_up_to_their_octave_and_to_the_weighted_acceleration() -> None:
+    """Energies of three thirds are that of the octave; Σ(W_h·a)² of the table is a_h² (ISO 5349-1, A.2 within 1 %)."""
+    noise = np.random.default_rng(2).standard_normal(2**17)
+    found = axis_levels("x", Signal(noise, 4096.0, 1), thirds=True)
+    velocities = [band.velocity for band in found.thirds]
+    assert len(velocities) == 24 and None not in velocities
+    for index, octave in enumerate(found.bands):
+        third = math.hypot(*velocities[3 * index : 3 * index + 3])  # type: ignore[arg-type]
+        # Narrow bands of noise fluctuate by the edges, which the filters cut differently.
+        assert third == pytest.approx(octave.velocity, rel=0.06 if index < 2 else 0.02)
+    total = math.hypot(*(band.third.weight * band.third.centre * (band.velocity or 0.0) for band in found.thirds))
+    assert found.weighted == pytest.approx(total, rel=0.03)
+    assert axis_levels("x", Signal(noise[:4096], 4096.0, 0)).thirds == ()
 
 
 def test_the_edge_belongs_half_to_either_octave() -> None:

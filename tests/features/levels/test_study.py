@@ -92,6 +92,46 @@ def test_a_start_that_is_loud_is_told_and_can_be_left_out(tmp_path: Path) -> Non
     assert later.octaves[4].level_db == pytest.approx(later.level_db, abs=0.01)
 
 
+def two_handles(folder: Path) -> str:
+    """Volts of six sensors: front 1, 2, 3 and rear 2, 4, 6 times 109 dB along x, y, z; 1 mV per m/s², rear z 2."""
+    rate, hertz = 4096.0, 100.0
+    t = np.arange(round(6 * rate)) / rate
+    wave = 1e3 * 2 * math.pi * hertz * V * math.sqrt(2) * np.sin(2 * math.pi * hertz * t) * 1e-3
+    columns = [t, *(k * wave for k in (1, 2, 3, 2, 4, 12))]
+    head = ";".join(["t_s", *(f"{handle}_a{axis}_mV" for handle in ("front", "rear") for axis in "xyz")])
+    rows = [";".join(f"{value:.9f}".replace(".", ",") for value in row) for row in zip(*columns, strict=True)]
+    file = folder / "two.csv"
+    file.write_text("\n".join([head, *rows]), encoding="utf-8")
+    return str(file)
+
+
+def test_two_handles_in_volts_each_have_their_levels_and_total(tmp_path: Path) -> None:
+    """By closed form: √(1+4+9) and twice it, W_h 0.160 at 100 Hz; the rear decides; third octaves beside octaves."""
+    asked = ("--sensitivity", "1", "--sensitivity", "rear_az_mV=2", "--third-octaves", "--json")
+    result = abu("levels", two_handles(tmp_path), *asked).document["result"]
+    front, rear = result["places"]
+    level, total = 20 * math.log10(V / 5e-8), 2 * math.pi * 100 * V * 0.160 * math.sqrt(14)
+    assert (front["name"], rear["name"], result["loudest_place"]) == ("front", "rear", "rear")
+    for place, times in ((front, 1), (rear, 2)):
+        assert place["level_db"] == pytest.approx(level + 20 * math.log10(3 * times), abs=0.01)
+        assert place["weighted_acceleration_m_per_s2"] == pytest.approx(times * total, rel=0.01)
+        thirds = {band["nominal_hz"]: band["level_db"] for band in place["third_octaves"]}
+        assert thirds[100] == pytest.approx(place["level_db"], abs=0.01)
+        assert max(other or 0.0 for hertz, other in thirds.items() if hertz != 100) < thirds[100] - 30
+        assert [axis["third_octave_levels_db"][12] for axis in place["axes"]] == pytest.approx(
+            [level + 20 * math.log10(k * times) for k in (1, 2, 3)], abs=0.01
+        )
+    plain = abu("levels", two_handles(tmp_path), "--sensitivity", "1", "--json").document["result"]
+    assert "third_octaves" not in plain["places"][0]
+
+
+def test_a_machine_has_third_octaves_too() -> None:
+    place = abu_calc.levels("avtovaz-707-222", third_octaves=True).places[0]
+    assert place.third_octaves is not None
+    spindle = next(band for band in place.third_octaves if band.nominal_hz == 100)
+    assert spindle.level_db == pytest.approx(place.level_db, abs=0.02)
+
+
 # simulated motion
 @pytest.mark.parametrize("samples", ["1001", "4001"])
 def test_a_file_that_the_simulation_wrote_has_its_level(tmp_path: Path, samples: str) -> None:

@@ -47,6 +47,14 @@ def table(**changes: Any) -> Any:
         "shaft_strength_MPa": None,
         "housing_strength_MPa": None,
         "housing_split": False,
+        "axial_load_kN": None,
+        "position_mm": None,
+        "lubricant_viscosity_mm2_per_s": None,
+        "contamination_factor": 0.5,
+        "required_life_h": None,
+        "short_pairs_warn_percent": 1.0,
+        "short_pairs_fail_percent": 5.0,
+        "temperature_range_K": None,
     }
     assert set(changes) <= set(example)
     return SimpleNamespace(**(example | changes))

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from abu_calc.features.seats.clearance import Mounting, housing_joint, shaft_joint
+from abu_calc.features.seats.clearance import Mounting
+from abu_calc.features.seats.joints import housing_joint, shaft_joint
 from abu_calc.features.seats.seats import seat_bearing
 from abu_calc.standards.bearing_catalogue import bearing as dimensions
 from abu_calc.standards.bearing_catalogue import radial_clearance

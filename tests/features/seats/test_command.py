@@ -17,8 +17,10 @@ def test_bare_options_give_a_whole_result_but_for_creep_under_an_unknown_load():
     shaft, housing = seen.document["result"]
     assert shaft["interference_um"] == [11, 45] and housing["interference_um"] == [-30, 28]
     assert shaft["required_interference_um"] is None and shaft["creep"]["verdict"] == "not known"
-    undone = [check for check in seen.document["checks"] if check["status"] == "not-done"]
+    undone = [check for check in seen.document["checks"] if check["status"] == "not-done" and check["requested"]]
     assert [check["code"] for check in undone] == ["ABU601"] and "radial_load_kN" in undone[0]["remedy"]
+    optional = [check for check in seen.document["checks"] if not check["requested"]]
+    assert {check["status"] for check in optional} == {"not-done"} and all(check["remedy"] for check in optional)
     assert seen.document["status"] == "not-done" and seen.status == 1
 
 
@@ -43,7 +45,10 @@ def test_every_key_has_an_option_that_is_taken():
              "--asked-interference": "3:18", "--name": "spindle", "--dynamic-load-rating": "9.95",
              "--static-load-rating": "4.75", "--housing-limits": "0:20", "--temperature-rise": "30",
              "--housing-temperature-difference": "-4", "--shaft-material": "stainless-steel",
-             "--shaft-strength": "250", "--housing-strength": "120", "--bearing-type": "ball"}  # fmt: skip
+             "--shaft-strength": "250", "--housing-strength": "120", "--bearing-type": "ball",
+             "--axial-load-kN": "0.1", "--lubricant-viscosity": "20", "--contamination-factor": "0.6",
+             "--required-life": "500", "--position": "35", "--short-pairs-warn": "2", "--short-pairs-fail": "6",
+             "--temperature-range": "-20:60"}  # fmt: skip
     others = {"--bore", "--outer", "--width", "--shaft-limits", "--housing-split"}
     assert set(given) | others == {option.name for option in OPTIONS}
     seen = abu("check-fit", *(word for pair in given.items() for word in pair), "--housing-split", "--json")

@@ -33,7 +33,8 @@ def test_the_free_diameters_of_warm_parts_meet(difference):
 
 
 def test_a_gain_by_warmth_stresses_and_does_not_grip():
-    cold, warm = seats(shaft_fit="p6"), seats(shaft_fit="p6", shaft_material="aluminium", temperature_rise_K=60.0)
+    soft = {"shaft_fit": "p6", "shaft_material": "aluminium"}
+    cold, warm = seats(**soft), seats(**soft, temperature_rise_K=60.0)
     assert warm.shaft.required_interference == cold.shaft.required_interference
     gain = (ALUMINIUM - STEEL) * 0.080 * 60
     assert warm.shaft.joint.tightest == pytest.approx(cold.shaft.interference.largest + gain)

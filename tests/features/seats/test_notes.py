@@ -143,7 +143,7 @@ def test_the_drawing_of_the_example():
     assert (housing.shoulder_runout_grade, um(housing.shoulder_runout)) == ("IT8", 63)
     assert "unverified" in shaft.source
     fine = seats(bearing_class="4").shaft.requirements
-    assert (um(fine.form), um(fine.roughness_Ra), um(fine.shoulder_runout)) == (19 / 8, 0.32, 8)
+    assert (um(fine.form), um(fine.roughness_Ra), um(fine.shoulder_runout)) == (8 / 8, 0.32, 8)  # k4
 
 
 def test_finer_classes_ask_for_more():

@@ -1,12 +1,16 @@
-"""Reasons of members without numbers: those that lie in the computer are no results."""
+"""Reasons of members without numbers: those that lie in the computer are no results; one run of a scene."""
 
 import sqlite3
+from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 import abu_calc
-from abu_calc.features.sweep.samples import Builds
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.features.sweep.samples import Builds, _allowed, scene_once
+from tests.dynamics.scenes import dimensionless
 from tests.features.sweep.conftest import Sweeps
 
 
@@ -63,7 +67,7 @@ def test_members_that_failed_in_the_computer_are_tried_again_and_no_others(
 def test_a_member_that_took_too_long_is_tried_again_with_more_time(
     sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from abu_calc.features.sweep.sample_run import Overtime
+    from abu_calc.features.sweep.time_limit import Overtime
 
     seeds = sweeps.run(sweeps.folder / "whole.sqlite").members["seed"].astype(int).tolist()
     with monkeypatch.context() as patch:
@@ -72,3 +76,23 @@ def test_a_member_that_took_too_long_is_tried_again_with_more_time(
     assert reasons(sweeps) == {4: "not done within 9 s"}
     assert sweeps.run(resume=True, time_limit_s=9.0).failed.members == 1
     assert sweeps.run(resume=True, time_limit_s=10.0).failed.members == 0
+
+
+def test_a_scene_above_its_resonance_balances_and_one_below_does_not() -> None:
+    """Two balls of 0.02 each balance 0.02 above the natural frequency of 1; below it they join it.
+
+    All three side by side make 0.06; drag holds the balls a little behind.
+    """
+    above = scene_once(dimensionless(3.0, 0.02, 0.02, 0.1, 0.2, (1.5, -1.7), 200.0), 1e-6)
+    below = scene_once(dimensionless(0.5, 0.02, 0.02, 0.1, 0.2, (1.5, -1.7), 200.0), 1e-6)
+    assert above.balanced and above.slip < 0.01 and above.response.residual_imbalance < 1e-4
+    assert not below.balanced and 0.055 < below.response.residual_imbalance <= 0.06
+
+
+def test_dry_friction_and_eccentricity_widen_what_is_allowed() -> None:
+    """A tenth of the imbalance, and M·Δ of a race that is off by Δ."""
+    scene = dimensionless(3.0, 0.1, 0.1, 0.3, 0.05, (1.5, -1.7), 3.0)
+    response = SimpleNamespace(ball_angles=(2.0, -2.0))
+    plain = _allowed(scene, response)  # type: ignore[arg-type]
+    off = replace(scene, effects=(RaceEccentricityEffect(1e-3, 0.0),))
+    assert _allowed(off, response) - plain == pytest.approx(scene.support.felt_mass * 1e-3)  # type: ignore[arg-type]

@@ -24,6 +24,7 @@ FREE = {
     "Wheel.runout_angle_deg", "Wheel.measured_axes", "MeasuredAfter.measured_axes",
     "Grinding.rotation_sense", "Tilting.ball_tilt_inertia",
     "Sweep.least_share", "Sweep.runs", "Sweep.seed", "Sweep.time_limit_s",
+    "TypeTest.orientations", "TypeTest.runs", "TypeTest.operators",
 }  # fmt: skip
 """Numbers of which every permitted one is usual."""
 RIGID = ("machine.center_of_mass_to_wheel_mm=200", "machine.transverse_inertia_kg_m2=0.1")

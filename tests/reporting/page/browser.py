@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+import select
 import shutil
 import subprocess
 import sys
@@ -21,6 +22,13 @@ LAUNCH = (
     "import os, sys; os.dup2(int(sys.argv[1]), 3); os.dup2(int(sys.argv[2]), 4); os.execv(sys.argv[3], sys.argv[3:])"
 )
 
+PATIENCE = 120.0
+"""Seconds without an answer after which the browser counts as hung."""
+
+
+class BrowserUnavailableError(Exception):
+    """The browser does not start or does not answer."""
+
 
 @dataclass
 class Browser:
@@ -37,18 +45,23 @@ class Browser:
             os.set_inheritable(end, True)
         self._process = subprocess.Popen(
             [sys.executable, "-c", LAUNCH, str(reads), str(writes), str(FOUND), "--headless=new", "--no-sandbox",
-             "--disable-gpu", "--disable-background-networking", "--remote-debugging-pipe",
+             "--disable-gpu", "--disable-dev-shm-usage", "--disable-background-networking", "--no-first-run",
+             "--remote-debugging-pipe",
              f"--user-data-dir={self.profile}", "about:blank"],
             pass_fds=(reads, writes), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         os.close(reads)
         os.close(writes)
         self._buffer, self._count, self._session = b"", 0, None
-        target = self._ask("Target.createTarget", url="about:blank")["targetId"]
-        self._session = self._ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        self._ask("Emulation.setScrollbarsHidden", hidden=True)
-        for domain in ("Page", "Runtime", "Log", "Network"):
-            self._ask(f"{domain}.enable")
+        try:
+            target = self._ask("Target.createTarget", url="about:blank")["targetId"]
+            self._session = self._ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+            self._ask("Emulation.setScrollbarsHidden", hidden=True)
+            for domain in ("Page", "Runtime", "Log", "Network"):
+                self._ask(f"{domain}.enable")
+        except BrowserUnavailableError:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -62,9 +75,9 @@ class Browser:
         self.errors.clear()
         self.requests.clear()
         self.seen(1600)
+        self.value("window.former = true")
         self._ask("Page.navigate", url=file.as_uri())
-        while not self.value("document.readyState === 'complete' && location.protocol === 'file:'"):
-            time.sleep(0.02)
+        self._settled("document.readyState === 'complete' && location.protocol === 'file:' && !window.former")
         self.value(SCRIPTS.read_text("utf-8"))
 
     def seen(self, width: int, *, dark: bool = False, paper: bool = False) -> None:
@@ -72,6 +85,23 @@ class Browser:
         self._ask("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
         theme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self._ask("Emulation.setEmulatedMedia", media="print" if paper else "screen", features=[theme])
+        # The window and its page are processes of their own: under load the page learns of it later.
+        media = f"matchMedia('{'print' if paper else 'screen'}').matches"
+        self._settled(f"innerWidth === {width} && {media} && matchMedia('({theme['name']}: {theme['value']})').matches")
+
+    def _settled(self, condition: str) -> None:
+        """Returns once a condition holds; a page that is being replaced answers with an error."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            try:
+                if self.value(condition):
+                    return
+            except AssertionError:
+                if time.monotonic() > end:
+                    raise
+            if time.monotonic() > end:
+                raise BrowserUnavailableError(f"not within {PATIENCE:g} s: {condition}")
+            time.sleep(0.02)
 
     def value(self, expression: str) -> Any:
         """Of what the page computes; what it throws is raised."""
@@ -104,7 +134,10 @@ class Browser:
         message = {"id": self._count, "method": method, "params": parameters}
         if self._session:
             message["sessionId"] = self._session
-        os.write(self._to, json.dumps(message).encode() + b"\0")
+        try:
+            os.write(self._to, json.dumps(message).encode() + b"\0")
+        except BrokenPipeError as problem:
+            raise BrowserUnavailableError("it has ended") from problem
         while True:
             answer = self._next()
             if answer.get("id") == self._count:
@@ -115,9 +148,11 @@ class Browser:
 
     def _next(self) -> dict[str, Any]:
         while b"\0" not in self._buffer:
+            if not select.select([self._from], [], [], PATIENCE)[0]:
+                raise BrowserUnavailableError(f"no answer within {PATIENCE:g} s")
             piece = os.read(self._from, 2**16)
             if not piece:
-                raise AssertionError("the browser has ended")
+                raise BrowserUnavailableError("it has ended")
             self._buffer += piece
         line, _, self._buffer = self._buffer.partition(b"\0")
         return dict(json.loads(line))

@@ -70,11 +70,13 @@ var examine = {
     }
     return [...faults];
   },
-  // Of writing on the screen; in places that scroll it keeps its size.
+  // Pixels that the font is high on the screen, whatever the font; in places that scroll it keeps its size.
   small(least) {
     const faults = new Set();
-    for (const { owner, words, box } of this.texts()) {
-      if (box.height && Math.min(box.height, box.width * 4) < least) faults.add(`"${words.slice(0, 60)}": ${box.height}`);
+    for (const { owner, words } of this.texts()) {
+      const drawn = owner.getScreenCTM ? owner.getScreenCTM() : null;
+      const size = parseFloat(getComputedStyle(owner).fontSize) * (drawn ? Math.hypot(drawn.a, drawn.b) : 1);
+      if (size < least) faults.add(`"${words.slice(0, 60)}": ${size.toFixed(2)}`);
     }
     return [...faults];
   },

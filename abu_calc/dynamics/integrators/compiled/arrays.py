@@ -1,9 +1,75 @@
 """Layout of the compiled loop's arrays, and the names of the traced equations that it calls."""
 
 from collections.abc import MutableSequence
+from typing import NamedTuple
 
 Reals = MutableSequence[float]
 Integers = MutableSequence[int]
+
+
+class Run(NamedTuple):
+    """The arrays of one run."""
+
+    y: Reals
+    """State."""
+    numbers: Reals
+    """Numbers of the scene, its modes among them."""
+    par: Reals
+    """Parameters that the equations use, which `setup` computes from the numbers."""
+    lay: Integers
+    """The layout."""
+    con: Reals
+    """Constants."""
+    clock: Reals
+    counts: Integers
+
+
+class Step(NamedTuple):
+    """A step of length `h` from the state `y` of `n` numbers at `t`."""
+
+    t: float
+    h: float
+    n: int
+    y: Reals
+    par: Reals
+    end: Reals
+    """State at the end."""
+    k: Reals
+    """Rates at the stages, a row each."""
+    between: Reals
+    """Rows of the dense output."""
+    at: Reals
+    """Room for a state within the step."""
+
+
+class Pairs(NamedTuple):
+    """Touching pairs of balls that meet."""
+
+    many: int
+    matrix: Reals
+    """Change of the speeds of all pairs by a unit impulse on each, a row each [1/(kg·m²)]."""
+    near: Reals
+    """1 for a pair whose speed is to become zero, otherwise 0."""
+    speed: Reals
+    """Speed at which each opens [rad/s]."""
+    right: Reals
+    work: Reals
+    chosen: Integers
+    """Room for the elimination."""
+
+
+class Watch(NamedTuple):
+    """Where the watched numbers of a step are looked up and put."""
+
+    lay: Integers
+    counts: Integers
+    dy: Reals
+    """Room for rates."""
+    w: Reals
+    """Watched numbers at the place that was looked at last."""
+    rows: Reals
+    """Watched numbers at the start and at each check, a row each."""
+
 
 # The layout: where something of this scene is.
 STATES, BALLS, RATES, WATCHED, VALUES, MODES, PUSH, NUMBERS = 0, 1, 2, 3, 4, 5, 6, 7

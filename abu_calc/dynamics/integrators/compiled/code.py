@@ -26,8 +26,8 @@ TRANSLATOR: tuple[ModuleType, ...] = (translator, llvm_text, llvm_engine, arrays
 NAMES = {"inf": math.inf}
 """Names that the compiled texts know besides their own."""
 
-POINTERS = 10
-"""Arguments of `loop.go`."""
+POINTERS = len(arrays.Run._fields) + 3
+"""Arguments of `loop.go`: the arrays of a run, times and rows of samples, room."""
 
 ROUNDING = 1e-8
 """Compiled and plain equations may differ by this much, relatively."""
@@ -66,6 +66,7 @@ def code(structure: object, equations: Equations, acting: Acting, numbers: np.nd
     """Code of a structure; `acting` and `numbers` of any scene that has it. Raises CompilerError."""
 
     def make() -> Code:
+        """Compile, and compare the rates with those of the plain equations."""
         made = Code(text(structure, equations, acting), method)
         with np.errstate(all="ignore"):
             made.check(equations, acting, numbers)

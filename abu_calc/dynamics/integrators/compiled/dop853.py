@@ -6,7 +6,7 @@ error is estimated by orders 5 and 3) and II.6 (dense output, which takes three 
 
 from math import sqrt
 
-from abu_calc.dynamics.integrators.compiled.arrays import Reals, rates, watched
+from abu_calc.dynamics.integrators.compiled.arrays import Reals, Step, rates, watched
 
 METHOD_ORDER = 8
 EXPONENT = -1 / 8
@@ -17,11 +17,12 @@ KEPT, LAST, BETWEEN = 16, 12, 7
 """Rows of rates, which of them is that at the end, and rows of the dense output."""
 
 
-def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Reals, w: Reals) -> None:
+def stages(step: Step, w: Reals) -> None:
     """Compute one step from y, whose rates are the first of k, to the end: thirteen rates.
 
     The last rates come with the watched numbers there.
     """
+    t, h, n, y, par, end, k = step.t, step.h, step.n, step.y, step.par, step.end, step.k
     k1, k2, k3, k4, k5, k6 = k, k[n:], k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :]
     k7, k8, k9, k10, k11, k12 = k[6 * n :], k[7 * n :], k[8 * n :], k[9 * n :], k[10 * n :], k[11 * n :]
     for i in range(n):
@@ -85,8 +86,9 @@ def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Real
     watched(t + h, end, par, k[LAST * n :], w)
 
 
-def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, relative: Reals) -> float:
+def error(step: Step, absolute: Reals, relative: Reals) -> float:
     """The estimated error of a step in units of what is allowed, root mean square."""
+    h, n, y, end, k = step.h, step.n, step.y, step.end, step.k
     k1, k6, k7, k8, k9, k10 = k, k[5 * n :], k[6 * n :], k[7 * n :], k[8 * n :], k[9 * n :]
     k11, k12 = k[10 * n :], k[11 * n :]
     total, coarse = 0.0, 0.0
@@ -105,8 +107,10 @@ def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, rel
     return h * total / sqrt((total + 0.01 * coarse) * n)
 
 
-def prepared(t: float, h: float, n: int, y: Reals, par: Reals, end: Reals, k: Reals, between: Reals, at: Reals) -> None:
+def prepared(step: Step) -> None:
     """Prepare the dense output of a step."""
+    t, h, n, y, par, end, k = step.t, step.h, step.n, step.y, step.par, step.end, step.k
+    between, at = step.between, step.at
     k1, k6, k7, k8, k9, k10 = k, k[5 * n :], k[6 * n :], k[7 * n :], k[8 * n :], k[9 * n :]
     k11, k12, k13, k14, k15, k16 = k[10 * n :], k[11 * n :], k[12 * n :], k[13 * n :], k[14 * n :], k[15 * n :]
     for i in range(n):

@@ -6,7 +6,7 @@ in Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II
 
 from math import sqrt
 
-from abu_calc.dynamics.integrators.compiled.arrays import Reals, rates, watched
+from abu_calc.dynamics.integrators.compiled.arrays import Reals, Step, rates, watched
 
 METHOD_ORDER = 5
 EXPONENT = -1 / 5
@@ -17,11 +17,12 @@ KEPT, LAST, BETWEEN = 7, 6, 4
 """Rows of rates, which of them is that at the end, and rows of the dense output."""
 
 
-def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Reals, w: Reals) -> None:
+def stages(step: Step, w: Reals) -> None:
     """Compute one step from y, whose rates are the first of k, to the end: seven rates.
 
     The last rates come with the watched numbers there.
     """
+    t, h, n, y, par, end, k = step.t, step.h, step.n, step.y, step.par, step.end, step.k
     a, b, c, d, e, f = k, k[n:], k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :]
     for i in range(n):
         end[i] = y[i] + h * (1 / 5 * a[i])
@@ -46,8 +47,9 @@ def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Real
     watched(t + h, end, par, k[LAST * n :], w)
 
 
-def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, relative: Reals) -> float:
+def error(step: Step, absolute: Reals, relative: Reals) -> float:
     """The estimated error of a step in units of what is allowed, root mean square."""
+    h, n, y, end, k = step.h, step.n, step.y, step.end, step.k
     c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]
     total = 0.0
     for i in range(n):
@@ -58,8 +60,9 @@ def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, rel
     return sqrt(total / n)
 
 
-def prepared(t: float, h: float, n: int, y: Reals, par: Reals, end: Reals, k: Reals, between: Reals, at: Reals) -> None:
+def prepared(step: Step) -> None:
     """Prepare the dense output of a step."""
+    h, n, y, end, k, between = step.h, step.n, step.y, step.end, step.k, step.between
     c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]
     second, third, fourth = between[n:], between[2 * n :], between[3 * n :]
     for i in range(n):

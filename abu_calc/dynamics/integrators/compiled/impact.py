@@ -37,7 +37,9 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     TURNS,
     UNIT,
     Integers,
+    Pairs,
     Reals,
+    Run,
     rates,
     setup,
 )
@@ -121,32 +123,32 @@ def approaching(y: Reals, numbers: Reals, lay: Integers, con: Reals) -> bool:
     return any(touches(p, y, numbers, lay) and opening(p, lay, y) < -0.1 * con[REST] for p in range(lay[PAIRS]))
 
 
-def meeting(
-    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, room: Reals,
-) -> bool:  # fmt: skip
+def meeting(t: float, run: Run, k: Reals, room: Reals) -> bool:
     """The state after all impacts. False where that takes too many."""
+    y, lay, con = run.y, run.lay, run.con
     pairs, states = lay[PAIRS], lay[STATES]
     slow, speed, total = room, room[pairs:], room[2 * pairs :]
     near, right = room[3 * pairs :], room[4 * pairs :]
     matrix, work = room[6 * pairs :], room[(6 + pairs) * pairs :]
     kicks = room[(6 + 2 * pairs) * pairs :]
-    met, chosen = count[COUNTS:], count[COUNTS + pairs :]
+    met, chosen = run.counts[COUNTS:], run.counts[COUNTS + pairs :]
     many = 0
     for p in range(pairs):
-        if touches(p, y, numbers, lay):
+        if touches(p, y, run.numbers, lay):
             met[many] = p
             many += 1
-    closing(t, y, numbers, par, lay, count, k, many, met, near, total)
-    responses(t, y, numbers, par, lay, con, count, k, k[states:], many, met, kicks)
+    closing(t, run, k, many, met, near, total)
+    responses(t, run, k, k[states:], many, met, kicks)
     for a in range(many):
         for b in range(many):
             matrix[a * many + b] = opening(met[a], lay, kicks[b * states :])
     # With what torques they would press, so how fast a rebound may be that is none.
-    squeezed(many, near, total, speed, slow, right, matrix, work, chosen)
+    touching = Pairs(many, matrix, near, speed, right, work, chosen)
+    squeezed(touching, total, slow)
     for a in range(many):
         slow[a] = GRAZING * con[SLOW] + sqrt(2.0 * con[LIFTED] * matrix[a * many + a] * max(slow[a], 0.0))
         total[a], speed[a] = 0.0, opening(met[a], lay, y)
-    if not passed(many, 0.1 * con[REST], con[RESTITUTION], slow, speed, total, near, right, matrix, work, chosen):
+    if not passed(touching, 0.1 * con[REST], con[RESTITUTION], slow, total):
         return False
     for b in range(many):
         if total[b] != 0.0:
@@ -155,11 +157,9 @@ def meeting(
     return True
 
 
-def passed(
-    many: int, rest: float, restitution: float, slow: Reals, speed: Reals, total: Reals, near: Reals, right: Reals,
-    matrix: Reals, work: Reals, chosen: Integers,
-) -> bool:  # fmt: skip
+def passed(pairs: Pairs, rest: float, restitution: float, slow: Reals, total: Reals) -> bool:
     """The impulses of all impacts, in `total`; False where there are too many."""
+    many, matrix, near, speed = pairs.many, pairs.matrix, pairs.near, pairs.speed
     for _ in range(MOST_IMPACTS):
         worst, deepest, uneven = -1, 0.0, False
         for a in range(many):
@@ -174,26 +174,24 @@ def passed(
             for a in range(many):
                 speed[a] += matrix[a * many + worst] * impulse
         elif uneven:
-            evened(many, near, speed, total, right, matrix, work, chosen)
+            evened(pairs, total)
         else:
             return True
     return False
 
 
-def squeezed(
-    many: int, near: Reals, closes: Reals, speed: Reals, torque: Reals, right: Reals, matrix: Reals, work: Reals,
-    chosen: Integers,
-) -> None:  # fmt: skip
+def squeezed(pairs: Pairs, closes: Reals, torque: Reals) -> None:
     """Compute the torques with which touching pairs press, from their relative accelerations without any.
 
     The torques never hold pairs together.
     """
+    many, near, speed = pairs.many, pairs.near, pairs.speed
     for a in range(many):
         near[a] = 1.0
     for _ in range(2 * many + 4):
         for a in range(many):
             speed[a], torque[a] = closes[a], 0.0
-        evened(many, near, speed, torque, right, matrix, work, chosen)
+        evened(pairs, torque)
         changed = False
         for a in range(many):
             if near[a] > 0.0 and torque[a] < 0.0:
@@ -204,10 +202,10 @@ def squeezed(
             return
 
 
-def evened(
-    many: int, near: Reals, speed: Reals, total: Reals, right: Reals, matrix: Reals, work: Reals, chosen: Integers,
-) -> None:  # fmt: skip
-    """Equal speeds for pairs that are near to it, by elimination."""
+def evened(pairs: Pairs, total: Reals) -> None:
+    """Equal speeds for pairs that are near to it, by elimination; the impulses are added to `total`."""
+    many, matrix, near, speed = pairs.many, pairs.matrix, pairs.near, pairs.speed
+    right, work, chosen = pairs.right, pairs.work, pairs.chosen
     m = 0
     for a in range(many):
         if near[a] > 0.0:
@@ -238,31 +236,27 @@ def evened(
         speed[chosen[i]] = 0.0
 
 
-def closing(
-    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, count: Integers, k: Reals, many: int,
-    met: Integers, saved: Reals, answers: Reals,
-) -> None:  # fmt: skip
+def closing(t: float, run: Run, k: Reals, many: int, met: Integers, saved: Reals, answers: Reals) -> None:
     """Relative accelerations of the pairs that touch, were none held together."""
-    joined = numbers[lay[JOINED] :]
+    lay = run.lay
+    joined = run.numbers[lay[JOINED] :]
     for p in range(lay[PAIRS]):
         saved[p], joined[p] = joined[p], 0.0
-    setup(numbers, par)
-    rates(t, y, par, k)
-    count[EVALUATIONS] += 1
+    setup(run.numbers, run.par)
+    rates(t, run.y, run.par, k)
+    run.counts[EVALUATIONS] += 1
     for p in range(lay[PAIRS]):
         joined[p] = saved[p]
     for a in range(many):
         answers[a] = opening(met[a], lay, k)
 
 
-def responses(
-    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, free: Reals,
-    saved: Reals, many: int, met: Integers, kicks: Reals,
-) -> None:  # fmt: skip
+def responses(t: float, run: Run, free: Reals, saved: Reals, many: int, met: Integers, kicks: Reals) -> None:
     """Compute the changes of all rates by unit torques that separate the pairs.
 
     All balls are free, and there is no friction.
     """
+    y, numbers, par, lay, con, count = run.y, run.numbers, run.par, run.lay, run.con, run.counts
     n, pairs, states, modes = lay[BALLS], lay[PAIRS], lay[STATES], lay[DIRECTION]
     push, levered, joined = numbers[lay[PUSH] :], con[SCALES + 2 * states :], numbers[lay[JOINED] :]
     for p in range(pairs):

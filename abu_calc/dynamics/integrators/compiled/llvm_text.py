@@ -3,13 +3,19 @@
 import ast
 import struct
 from collections.abc import Mapping
-from typing import Any, NoReturn
+from types import MappingProxyType
+from typing import Any, Final, NoReturn
 
 Value = tuple[str, str]
 """Type and text: "double", "i64", "i1", "reals", "integers"."""
 
 Signature = tuple[str, list[str]]
-"""Types of result and arguments."""
+"""Types of result and arguments; a group's type is its name."""
+
+Groups = Mapping[str, Mapping[str, str]]
+"""Groups of arguments by name: each is a `NamedTuple` of the texts, here its fields with their types."""
+
+NO_GROUPS: Final[Groups] = MappingProxyType({})
 
 TYPES = {"float": "double", "int": "i64", "bool": "i1", "Reals": "reals", "Integers": "integers", "None": "void"}
 ELEMENTS = {"reals": "double", "integers": "i64"}
@@ -33,20 +39,33 @@ def constant(value: float) -> Value:
     return "double", "0x" + struct.pack(">d", value).hex().upper()
 
 
-def signature(function: ast.FunctionDef) -> Signature:
+def fields(group: ast.ClassDef) -> dict[str, str]:
+    """Fields of a group with their types."""
+    rows = [node for node in group.body if isinstance(node, ast.AnnAssign)]
+    for node in rows:
+        if ast.unparse(node.annotation) not in TYPES:
+            raise LanguageError(f"{group.name}: {ast.unparse(node.annotation)} is no type of the compiled language")
+    return {ast.unparse(node.target): TYPES[ast.unparse(node.annotation)] for node in rows}
+
+
+def signature(function: ast.FunctionDef, groups: Groups = NO_GROUPS) -> Signature:
     """Signature of a function by its annotations."""
     kinds = [ast.unparse(node) if node else "nothing" for node in (param.annotation for param in function.args.args)]
     result = ast.unparse(function.returns) if function.returns else "None"
+    place = f"{function.name}, line {function.lineno}"
+    if result in groups:
+        raise LanguageError(f"{place}: {result} is no type of a result")
     for kind in (result, *kinds):
-        if kind not in TYPES:
-            raise LanguageError(f"{function.name}, line {function.lineno}: {kind} is no type of the compiled language")
-    return TYPES[result], [TYPES[kind] for kind in kinds]
+        if kind not in TYPES and kind not in groups:
+            raise LanguageError(f"{place}: {kind} is no type of the compiled language")
+    return TYPES[result], [TYPES.get(kind, kind) for kind in kinds]
 
 
 class Writer:
     """One function on its way: every variable has a place in memory, which LLVM makes registers of.
 
     `known`: all functions that may be called; `numbers`: names from outside; `outside`: functions of another module.
+    A group has no place of its own: each of its fields has one, so that it costs what single arguments cost.
     """
 
     def __init__(
@@ -55,10 +74,14 @@ class Writer:
         known: Mapping[str, Signature],
         numbers: Mapping[str, float],
         outside: Mapping[str, Signature],
+        groups: Groups = NO_GROUPS,
     ) -> None:
-        self.node, self.known, self.numbers, self.outside = node, known, numbers, outside
+        self.node, self.known, self.numbers, self.outside, self.groups = node, known, numbers, outside, groups
         self.result, kinds = known[node.name]
-        self.kinds = dict(zip((param.arg for param in node.args.args), kinds, strict=True))
+        self.grouped: dict[str, str] = {}
+        self.kinds: dict[str, str] = {}
+        for param, kind in zip(node.args.args, kinds, strict=True):
+            self.kinds |= self.parts(param.arg, kind)
         self.arguments = dict(self.kinds)
         self.body: list[str] = []
         self.count = 0
@@ -73,6 +96,13 @@ class Writer:
         """Method that writes a node of this kind."""
         method = getattr(self, f"{prefix}_{type(node).__name__}", None)
         return method or self.refuse(node, "the compiled language has no such word")
+
+    def parts(self, name: str, kind: str) -> dict[str, str]:
+        """A variable with its type; of a group, which is known from here on, all fields with theirs."""
+        if kind not in self.groups:
+            return {name: kind}
+        self.grouped[name] = kind
+        return {f"{name}.{field}": each for field, each in self.groups[kind].items()}
 
     def put(self, line: str) -> None:
         """One instruction."""
@@ -149,9 +179,9 @@ class Expressions(Writer):
 
     def array(self, node: ast.Subscript) -> Value:
         """Array whose element a subscript takes."""
-        if not isinstance(node.value, ast.Name):
+        if not isinstance(node.value, ast.Name | ast.Attribute):
             self.refuse(node, "elements are those of a named array")
-        kind, base = self.load(node.value)
+        kind, base = self.value(node.value)
         return (kind, base) if kind in ELEMENTS else self.refuse(node, "no array")
 
     def of_Constant(self, node: ast.Constant) -> Value:  # noqa: N802
@@ -165,6 +195,10 @@ class Expressions(Writer):
         if node.id in self.numbers and node.id not in self.kinds:
             return constant(self.numbers[node.id])
         return self.load(node)
+
+    def of_Attribute(self, node: ast.Attribute) -> Value:  # noqa: N802
+        """A field of a group."""
+        return self.load(ast.copy_location(ast.Name(ast.unparse(node)), node))
 
     def of_BinOp(self, node: ast.BinOp) -> Value:  # noqa: N802
         """Arithmetic; a division gives a real number."""

@@ -14,11 +14,12 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     FRICTION,
     ORDER,
     SEEN,
-    STATES,
     VALUES,
     WATCHED,
     Integers,
     Reals,
+    Step,
+    Watch,
     apparent,
     watched,
 )
@@ -53,44 +54,36 @@ def moving(lay: Integers, before: Reals, after: Reals) -> int:
     return lay[SEEN]
 
 
-def look(
-    many: int, x: float, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
-    at: Reals, dy: Reals, w: Reals,
-) -> None:  # fmt: skip
+def look(many: int, x: float, step: Step, watch: Watch, w: Reals) -> None:
     """State and so many of the watched numbers at a share x of the step."""
-    dense(x, lay[STATES], y, between, at)
-    if many > lay[SEEN]:
-        count[EVALUATIONS] += 1
-        watched(t + x * h, at, par, dy, w)
+    dense(x, step.n, step.y, step.between, step.at)
+    if many > watch.lay[SEEN]:
+        watch.counts[EVALUATIONS] += 1
+        watched(step.t + x * step.h, step.at, step.par, watch.dy, w)
     else:
-        apparent(t + x * h, at, par, w)
+        apparent(step.t + x * step.h, step.at, step.par, w)
 
 
-def peek(
-    index: int, x: float, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
-    at: Reals, dy: Reals, w: Reals,
-) -> float:  # fmt: skip
+def peek(index: int, x: float, step: Step, watch: Watch) -> float:
     """One watched number at a share x of the step; the others are then of no moment."""
+    lay, at, w = watch.lay, step.at, watch.w
     few = lay[lay[APPARENT] + index]
     if few >= 0:
         for k in range(lay[few]):
             i = lay[few + 1 + k]
-            at[i] = within(i, x, lay[STATES], y, between)
-        apparent(t + x * h, at, par, w)
+            at[i] = within(i, x, step.n, step.y, step.between)
+        apparent(step.t + x * step.h, at, step.par, w)
     else:
-        look(lay[WATCHED], x, t, h, y, par, lay, count, between, at, dy, w)
+        look(lay[WATCHED], x, step, watch, w)
     return w[index]
 
 
-def resolved(t: float, h: float) -> float:
+def resolved(step: Step) -> float:
     """Share of a step below which moments are one."""
-    return FINE * (1.0 + 8.0 * abs(t) / h)
+    return FINE * (1.0 + 8.0 * abs(step.t) / step.h)
 
 
-def crossing(
-    index: int, above: float, high: float, below: float, low: float, t: float, h: float, y: Reals, par: Reals,
-    lay: Integers, count: Integers, between: Reals, at: Reals, dy: Reals, w: Reals,
-) -> float:  # fmt: skip
+def crossing(index: int, above: float, high: float, below: float, low: float, step: Step, watch: Watch) -> float:
     """Place between two others at which a number falls below zero; the number is below zero there.
 
     Source: Chandrupatla 1997, Advances in Engineering Software 28(3), 145: inverse quadratic where that is
@@ -98,10 +91,10 @@ def crossing(
     """
     a, fa, b, fb, c, fc = below, low, above, high, above, high
     share = fa / (fa - fb)
-    least = resolved(t, h)
+    least = resolved(step)
     for _ in range(100):
         x = a + share * (b - a)
-        fx = peek(index, x, t, h, y, par, lay, count, between, at, dy, w)
+        fx = peek(index, x, step, watch)
         if (fx < 0.0) == (fa < 0.0):
             c, fc = a, fa
         else:
@@ -119,11 +112,9 @@ def crossing(
     return a if fa < 0.0 or fa == 0.0 else b
 
 
-def dips(
-    many: int, check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
-    at: Reals, dy: Reals, w: Reals, rows: Reals,
-) -> float:  # fmt: skip
+def dips(many: int, check: int, step: Step, watch: Watch) -> float:
     """The first event of the numbers that fall and rise again within the last two quarters."""
+    lay, rows = watch.lay, watch.rows
     values, event = lay[VALUES], NEVER
     first, second, third = rows[(check - 2) * values :], rows[(check - 1) * values :], rows[check * values :]
     for k in range(many):
@@ -135,40 +126,38 @@ def dips(
             lowest = 0.5 - slope / (2.0 * bend)
             if lowest > 0.0 and lowest < 2.0 and first[i] + lowest * (slope + bend * (lowest - 1.0)) < 0.0:
                 x = (check - 2 + lowest) / CHECKS
-                if peek(i, x, t, h, y, par, lay, count, between, at, dy, w) < 0.0:
+                if peek(i, x, step, watch) < 0.0:
                     above = (check - 2) / CHECKS if lowest < 1.0 else (check - 1) / CHECKS
                     high = first[i] if lowest < 1.0 else second[i]
-                    x = crossing(i, above, high, x, w[i], t, h, y, par, lay, count, between, at, dy, w)
+                    x = crossing(i, above, high, x, watch.w[i], step, watch)
                     if x < event:
                         event = x
-                        count[FOUND] = i
+                        watch.counts[FOUND] = i
     return event
 
 
-def fallen(
-    many: int, check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
-    at: Reals, dy: Reals, w: Reals, rows: Reals,
-) -> float:  # fmt: skip
+def fallen(many: int, check: int, step: Step, watch: Watch) -> float:
     """The first event of the numbers that are below zero at a check.
 
     Looked for is the one that a straight line says is first, then any that is below zero there: in between others may
     have fallen and risen again, such as what presses balls together shortly before another hits them.
     """
+    lay, rows = watch.lay, watch.rows
     values, start, event = lay[VALUES], (check - 1) / CHECKS, check / CHECKS
     before, low = rows[(check - 1) * values :], rows[check * values :]
     which = earliest(many, lay, before, low, -1)
     if which < 0:
         return NEVER
     while which >= 0:
-        count[FOUND] = which
+        watch.counts[FOUND] = which
         if before[which] <= 0.0:
             return start
-        x = crossing(which, start, before[which], event, low[which], t, h, y, par, lay, count, between, at, dy, w)
-        if x > event - resolved(t, h):
+        x = crossing(which, start, before[which], event, low[which], step, watch)
+        if x > event - resolved(step):
             return x
         event = x
-        look(many, event, t, h, y, par, lay, count, between, at, dy, w)
-        low = w
+        look(many, event, step, watch, watch.w)
+        low = watch.w
         which = earliest(many, lay, before, low, which)
     return event
 
@@ -191,20 +180,18 @@ def earliest(many: int, lay: Integers, before: Reals, here: Reals, known: int) -
     return which
 
 
-def located(
-    t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals, dy: Reals,
-    w: Reals, rows: Reals,
-) -> float:  # fmt: skip
+def located(step: Step, watch: Watch) -> float:
     """The share of the step at which the first event is, and in the counts which number fell."""
+    lay, count, rows = watch.lay, watch.counts, watch.rows
     many = moving(lay, rows, rows[CHECKS * lay[VALUES] :])
     for check in range(1, CHECKS + 1):
         if check < CHECKS:
-            look(many, check / CHECKS, t, h, y, par, lay, count, between, at, dy, rows[check * lay[VALUES] :])
+            look(many, check / CHECKS, step, watch, rows[check * lay[VALUES] :])
         event = NEVER
         if check > 1:
-            event = dips(many, check, t, h, y, par, lay, count, between, at, dy, w, rows)
+            event = dips(many, check, step, watch)
         which = count[FOUND]
-        other = fallen(many, check, t, h, y, par, lay, count, between, at, dy, w, rows)
+        other = fallen(many, check, step, watch)
         if event < other:
             count[FOUND] = which
             return event

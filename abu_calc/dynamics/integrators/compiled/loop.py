@@ -34,8 +34,10 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     UNDECIDED,
     VALUES,
     WATCHED,
-    Integers,
     Reals,
+    Run,
+    Step,
+    Watch,
     setup,
     watched,
 )
@@ -83,23 +85,22 @@ It applies to a number that does not rise from the start of the step.
 """
 
 
-def go(
-    y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, run: Reals, count: Integers, samples: Reals,
-    states: Reals, room: Reals,
-) -> int:  # fmt: skip
+def go(run: Run, samples: Reals, states: Reals, room: Reals) -> int:
     """Integrate a run from its present time toward its end; return how it comes back."""
+    y, par, lay, con, clock, count = run.y, run.par, run.lay, run.con, run.clock, run.counts
     n, values = lay[STATES], lay[VALUES]
     end, at, dy = room[KEPT * n :], room[(KEPT + 1) * n :], room[(KEPT + 2) * n :]
     between, rows = room[(KEPT + 3) * n :], room[(KEPT + 3 + BETWEEN) * n :]
     w, last, deciding = rows[5 * values :], rows[4 * values :], rows[6 * values :]
-    t, h, bound = run[TIME], run[STEP], con[END]
+    t, h, bound = clock[TIME], clock[STEP], con[END]
     absolute, relative = con[SCALES:], con[SCALES + n :]
-    setup(numbers, par)
+    watch = Watch(lay, count, dy, w, rows)
+    setup(run.numbers, par)
     watched(t, y, par, room, rows)
     count[EVALUATIONS] += 1
     if count[START] > 0:
         count[START], count[FOUND] = 0, -1
-        if not decided(t, y, numbers, par, lay, con, count, room, rows, deciding):
+        if not decided(t, run, room, rows, deciding):
             return UNDECIDED
     if count[DONE] == 0 and count[SAMPLES] > 0 and samples[0] <= t:
         for i in range(n):
@@ -107,37 +108,38 @@ def go(
         count[DONE] = 1
     most = MOST_FACTOR
     while t < bound:
-        run[TIME], run[STEP] = t, h
+        clock[TIME], clock[STEP] = t, h
         if count[EVALUATIONS] + LOOP_EVENT * count[EVENTS] > count[MOST]:
             return TOO_MUCH
         if count[EVALUATIONS] > count[PAUSE]:
             return PAUSED
         h = min(h, con[LONGEST])
-        reached, step = t + h, h
+        reached, size = t + h, h
         if reached >= bound:
-            reached, step = bound, bound - t
-        stages(t, step, n, y, par, room, end, last)
+            reached, size = bound, bound - t
+        step = Step(t, size, n, y, par, end, room, between, at)
+        stages(step, last)
         count[EVALUATIONS] += STAGES
-        off = error(step, n, y, end, room, absolute, relative)
+        off = error(step, absolute, relative)
         if not off <= 1.0:
-            h, most = step * shorter(off), 1.0
+            h, most = size * shorter(off), 1.0
             if h < SMALLEST * abs(t) or h < 1e-300:
                 return TOO_SMALL if off - off == 0.0 else NOT_FINITE
             continue
         if not finite(n, end):
             return NOT_FINITE
         count[STEPS] += 1
-        further = step * min(most, longer(off))
+        further = size * min(most, longer(off))
         most = MOST_FACTOR
         x = NEVER
         if lay[WATCHED] > 0 or (count[DONE] < count[SAMPLES] and samples[count[DONE]] <= reached):
-            prepared(t, step, n, y, par, end, room, between, at)
+            prepared(step)
             count[EVALUATIONS] += EXTRA
         if lay[WATCHED] > 0:
-            x = located(t, step, y, par, lay, count, between, at, dy, w, rows)
-        came = reached if x == NEVER else t + x * step
+            x = located(step, watch)
+        came = reached if x == NEVER else t + x * size
         while count[DONE] < count[SAMPLES] and samples[count[DONE]] <= came:
-            dense((samples[count[DONE]] - t) / step, n, y, between, states[count[DONE] * n :])
+            dense((samples[count[DONE]] - t) / size, n, y, between, states[count[DONE] * n :])
             count[DONE] += 1
         if x == NEVER:
             t = reached
@@ -145,27 +147,27 @@ def go(
                 y[i], room[i] = end[i], room[LAST * n + i]
             for i in range(values):
                 rows[i] = last[i]
-            h = max(further, h) if step < h else further
-            run[TIME], run[STEP] = t, h
+            h = max(further, h) if size < h else further
+            clock[TIME], clock[STEP] = t, h
             continue
-        if x == 0.0 and t == run[BEGUN] and step > CLOSER * con[LONGEST]:
-            h = step / 10  # it may have risen and fallen again before the first look
+        if x == 0.0 and t == clock[BEGUN] and size > CLOSER * con[LONGEST]:
+            h = size / 10  # it may have risen and fallen again before the first look
             continue
         count[EVENTS] += 1
-        count[STALLS] = count[STALLS] + 1 if came - run[BEGUN] < con[STALLED] else 0
-        run[TIME], run[STEP] = came, h
+        count[STALLS] = count[STALLS] + 1 if came - clock[BEGUN] < con[STALLED] else 0
+        clock[TIME], clock[STEP] = came, h
         if count[STALLS] > MOST_STALLED:
             return STALL
-        if x == 0.0 and t == run[BEGUN]:
-            run[STEP] = h / 10
+        if x == 0.0 and t == clock[BEGUN]:
+            clock[STEP] = h / 10
             return UNDECIDED
         dense(x, n, y, between, at)
         t = came
         for i in range(n):
             y[i] = at[i]
-        if t < bound and not decided(t, y, numbers, par, lay, con, count, room, rows, deciding):
+        if t < bound and not decided(t, run, room, rows, deciding):
             return UNDECIDED
-        run[BEGUN] = t
+        clock[BEGUN] = t
     return REACHED
 
 

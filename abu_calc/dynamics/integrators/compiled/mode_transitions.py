@@ -31,6 +31,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     WATCHED,
     Integers,
     Reals,
+    Run,
     setup,
     watched,
 )
@@ -90,25 +91,21 @@ CLEAR = 1e-9
 """Depth or gap of wheel and workpiece, relative to the usual one, below which it counts as nothing."""
 
 
-def decided(
-    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
-    room: Reals,
-) -> bool:  # fmt: skip
+def decided(t: float, run: Run, k: Reals, w: Reals, room: Reals) -> bool:
     """True if a next mode was found; `k`, `w` are then rates and watched numbers to go on with.
 
     Otherwise state and modes are as before.
     """
+    y, numbers, lay = run.y, run.numbers, run.lay
     n, many = lay[STATES], lay[NUMBERS] - lay[MODES]
     states, modes = room, room[n:]
     for i in range(n):
         states[i] = y[i]
     for i in range(many):
         modes[i] = numbers[lay[MODES] + i]
-    if switched(t, y, numbers, par, lay, con, count, k, w, room[n + many :]) and settled(
-        t, y, numbers, par, lay, con, count, k, w, modes, room[n + many :]
-    ):
+    if switched(t, run, k, room[n + many :]) and settled(t, run, k, w, modes, room[n + many :]):
         return True
-    count[GENERAL] += 1
+    run.counts[GENERAL] += 1
     for i in range(n):
         y[i] = states[i]
     for i in range(many):
@@ -116,18 +113,16 @@ def decided(
     return False
 
 
-def switched(
-    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
-    room: Reals,
-) -> bool:  # fmt: skip
+def switched(t: float, run: Run, k: Reals, room: Reals) -> bool:
     """Apply the mode that follows directly from the number that fell, or from a start.
 
     False for effects whose modes are not known here.
     """
-    fell, pairs = count[FOUND], lay[PAIRS]
+    y, numbers, lay, con = run.y, run.numbers, run.lay, run.con
+    fell, pairs = run.counts[FOUND], lay[PAIRS]
     if fell < 0:
         if lay[GAPS] >= 0 and approaching(y, numbers, lay, con):
-            return meeting(t, y, numbers, par, lay, con, count, k, room)
+            return meeting(t, run, k, room)
         return True
     if fell == lay[ONE_SIDED]:
         numbers[lay[TOUCHES]] = 1.0 - numbers[lay[TOUCHES]]
@@ -138,7 +133,7 @@ def switched(
             numbers[lay[JOINED] + (p if p < pairs else p - pairs)] = 0.0
             return True
         if approaching(y, numbers, lay, con):
-            return meeting(t, y, numbers, par, lay, con, count, k, room)
+            return meeting(t, run, k, room)
         return True
     if lay[FRICTION] >= 0 and fell >= lay[FRICTION] and fell < lay[FRICTION] + 3 * lay[BALLS]:
         if fell < lay[FRICTION] + lay[BALLS]:
@@ -149,11 +144,9 @@ def switched(
     return False
 
 
-def settled(
-    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
-    before: Reals, still: Reals,
-) -> bool:  # fmt: skip
+def settled(t: float, run: Run, k: Reals, w: Reals, before: Reals, still: Reals) -> bool:
     """Modes that agree with what follows from them; False where none was found."""
+    y, numbers, par, lay, con = run.y, run.numbers, run.par, run.lay, run.con
     if lay[FRICTION] >= 0:
         rested(y, numbers, lay, con)
     if lay[GAPS] >= 0:
@@ -163,7 +156,7 @@ def settled(
             together(y, numbers, lay)
         setup(numbers, par)
         watched(t, y, par, k, w)
-        count[EVALUATIONS] += 1
+        run.counts[EVALUATIONS] += 1
         changed = False
         if lay[GAPS] >= 0:
             changed = pressed(y, numbers, lay, con, k, w, still)
@@ -173,7 +166,7 @@ def settled(
             if lay[GAPS] >= 0:
                 bounded(y, numbers, par, lay, before, w)
             # Where wheel and work part or meet, their number is nothing; at a start it must say clearly which it is.
-            if lay[ONE_SIDED] >= 0 and count[FOUND] != lay[ONE_SIDED] and w[lay[ONE_SIDED]] < CLEAR:
+            if lay[ONE_SIDED] >= 0 and run.counts[FOUND] != lay[ONE_SIDED] and w[lay[ONE_SIDED]] < CLEAR:
                 return False
             return all(not (w[i] < 0.0 and i != lay[ONE_SIDED]) for i in range(lay[WATCHED]))
     return False

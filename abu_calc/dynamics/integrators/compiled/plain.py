@@ -12,14 +12,15 @@ from typing import Any, Final
 
 import numpy as np
 
+from abu_calc.dynamics.integrators.compiled.arrays import Run
 from abu_calc.dynamics.integrators.compiled.kernels import Method, kernels
 from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program
 
 NAMES_ALONE: Final = __future__.annotations.compiler_flag
 """Annotations are not looked up."""
 
-PARAMETERS, LAYOUT = 2, 3
-"""Arguments of `loop.go` of which no part is taken: lists are read in half the time."""
+PARAMETERS, LAYOUT = (Run._fields.index(name) for name in ("par", "lay"))
+"""Arrays of a run of which no part is taken: lists are read in half the time."""
 
 
 class Plain:
@@ -34,7 +35,8 @@ class Plain:
         # Parameters of this run alone: runs of one structure may go side by side.
         views[PARAMETERS] = [0.0] * self.program.parameters
         views[LAYOUT] = views[LAYOUT].tolist()
-        return int(self._go(*views))
+        arrays = len(Run._fields)
+        return int(self._go(Run(*views[:arrays]), *views[arrays:]))
 
 
 def _loop(program: Program, method: Method) -> Callable[..., Any]:

@@ -1,9 +1,11 @@
 """Translator of plain Python on numbers to LLVM's language: the few words that a compiled loop needs.
 
 Each function is translated alone. Types are those of the annotations: float, int, bool, `Reals` and `Integers` (arrays;
-`a[i:]` is the same array from i on). Words: assignments, `a: float = b`, `a, b = c, d`, if, while, for … in range(…),
-break, continue, return, calls of each other, and abs, min, max, sqrt, sin, cos, any, all. Names from outside are
-numbers. All else is refused by a LanguageError. The same text is Python as well, and does there what it does compiled.
+`a[i:]` is the same array from i on), and groups of these: classes of the texts that are `NamedTuple`s. A group is made
+by `g = Group(a, b)`, read by `g.a` and handed on whole. Words: assignments, `a: float = b`, `a, b = c, d`, if, while,
+for … in range(…), break, continue, return, calls of each other, and abs, min, max, sqrt, sin, cos, any, all. Names from
+outside are numbers. All else is refused by a LanguageError. The same text is Python as well, and does there what it
+does compiled.
 """
 
 import ast
@@ -17,6 +19,7 @@ from abu_calc.dynamics.integrators.compiled.llvm_text import (
     Expressions,
     Value,
     constant,
+    fields,
     shown,
     signature,
 )
@@ -48,13 +51,21 @@ class Calls(Expressions):
         result, kinds = self.known[name]
         if len(kinds) != len(node.args):
             self.refuse(node, f"{len(kinds)} arguments")
-        given = [f"{shown(kind)} {self.number(operand, kind)}" for operand, kind in zip(node.args, kinds, strict=True)]
+        given = [text for operand, kind in zip(node.args, kinds, strict=True) for text in self.handed(operand, kind)]
         place = self.new(f"load ptr, ptr @{name}.at") if name in self.outside else f"@{name}"
         call = f"call {shown(result)} {place}({', '.join(given)})"
         if result == "void":
             self.put(call)
             return "void", ""
         return result, self.new(call)
+
+    def handed(self, node: ast.expr, kind: str) -> list[str]:
+        """An argument of a call; of a group, all its fields."""
+        if kind not in self.groups:
+            return [f"{shown(kind)} {self.number(node, kind)}"]
+        if not isinstance(node, ast.Name) or self.grouped.get(node.id) != kind:
+            self.refuse(node, f"a variable that is a {kind}")
+        return [f"{shown(each)} {self.load(ast.Name(name))[1]}" for name, each in self.parts(node.id, kind).items()]
 
     def of_each(self, every: bool, node: ast.Call) -> Value:
         """`all` and `any` of conditions: a loop that ends where one decides."""
@@ -92,6 +103,18 @@ class Calls(Expressions):
         else:
             self.refuse(target, "nothing can be stored there")
 
+    def make(self, target: ast.expr, call: ast.Call) -> None:
+        """A group of these values."""
+        kind = ast.unparse(call.func)
+        if not isinstance(target, ast.Name):
+            self.refuse(target, "a group has a name")
+        if call.keywords or len(call.args) != len(self.groups[kind]):
+            self.refuse(call, f"{len(self.groups[kind])} values without names")
+        rows = zip(self.parts(target.id, kind).items(), call.args, strict=True)
+        values = [(name, (each, self.number(operand, each))) for (name, each), operand in rows]
+        for name, value in values:
+            self.store(ast.Name(name), value)
+
     def statement(self, node: ast.stmt) -> None:
         """Any of the words."""
         if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
@@ -122,17 +145,21 @@ def translated(parts: Sequence[Part], exported: Collection[str], given: str = ""
     `given`: functions, as their text declares them, that another module exports; their addresses are given to
     `connect`, in order. Raises LanguageError where a text is more than the language.
     """
-    outside = {node.name: signature(node) for node in _parsed(given) if isinstance(node, ast.FunctionDef)}
+    others, own = _parsed(given), [(_parsed(text), numbers(names)) for text, names in parts]
+    groups = {
+        node.name: fields(node) for body in (others, *(body for body, _ in own)) for node in body
+        if isinstance(node, ast.ClassDef)
+    }  # fmt: skip
+    outside = {node.name: signature(node) for node in others if isinstance(node, ast.FunctionDef)}
     functions = [
-        (node, numbers(names)) for text, names in parts for node in _parsed(text)
-        if isinstance(node, ast.FunctionDef)
+        (node, constants) for body, constants in own for node in body if isinstance(node, ast.FunctionDef)
     ]  # fmt: skip
-    known = outside | {node.name: signature(node) for node, _ in functions}
+    known = outside | {node.name: signature(node, groups) for node, _ in functions}
     lines = [f"declare double @{name}(double) memory(none) nounwind willreturn" for name in FUNCTIONS.values()]
     lines.append("declare double @llvm.pow.f64(double, double)")
     lines += [f"@{name}.at = internal global ptr null" for name in outside]
     for function, constants in functions:
-        lines += _Function(function, known, constants, outside).lines(function.name in exported)
+        lines += _Function(function, known, constants, outside, groups).lines(function.name in exported)
     stored = [f"  store ptr %{name}, ptr @{name}.at" for name in outside]
     arguments = ", ".join(f"ptr %{name}" for name in outside)
     return "\n".join([*lines, f"define void @connect({arguments}) {{", *stored, "  ret void", "}", ""])
@@ -154,15 +181,20 @@ class _Function(Calls):
         return [named, "entry:", *places, *entry, *self.body, "}"]
 
     def do_Expr(self, node: ast.Expr) -> None:  # noqa: N802
+        """A call whose value nobody takes."""
         self.value(node.value)
 
     def do_Pass(self, node: ast.Pass) -> None:  # noqa: N802
+        """Nothing."""
         return
 
     def do_Assign(self, node: ast.Assign) -> None:  # noqa: N802
+        """One value, as many values as names, or a group."""
         if len(node.targets) != 1:
             self.refuse(node, "one assignment at a time")
         (target,) = node.targets
+        if isinstance(node.value, ast.Call) and ast.unparse(node.value.func) in self.groups:
+            return self.make(target, node.value)
         if not isinstance(target, ast.Tuple):
             return self.store(target, self.value(node.value))
         if not isinstance(node.value, ast.Tuple) or len(node.value.elts) != len(target.elts):
@@ -173,18 +205,21 @@ class _Function(Calls):
         return None
 
     def do_AnnAssign(self, node: ast.AnnAssign) -> None:  # noqa: N802
+        """A value whose type is written down."""
         kind = ast.unparse(node.annotation)
         if node.value is None or kind not in TYPES:
             self.refuse(node, "a value of a type of the compiled language")
         self.store(node.target, (TYPES[kind], self.number(node.value, TYPES[kind])))
 
     def do_AugAssign(self, node: ast.AugAssign) -> None:  # noqa: N802
+        """`a += b` as `a = a + b`."""
         (read,) = _parsed(ast.unparse(node.target))
         assert isinstance(read, ast.Expr)
         whole = ast.copy_location(ast.BinOp(read.value, node.op, node.value), node)
         self.store(node.target, self.value(ast.fix_missing_locations(whole)))
 
     def do_Return(self, node: ast.Return) -> None:  # noqa: N802
+        """The end, with the value that the signature names."""
         if (node.value is None) != (self.result == "void"):
             self.refuse(node, f"{self.result} is to be returned")
         text = "" if node.value is None else " " + self.number(node.value, self.result)
@@ -192,6 +227,7 @@ class _Function(Calls):
         self.block(self.label("after"))
 
     def do_If(self, node: ast.If) -> None:  # noqa: N802
+        """One of two blocks."""
         yes, no, end = self.label("yes"), self.label("no"), self.label("end")
         self.branch(self.truth(node.test), yes, no)
         for label, body in ((yes, node.body), (no, node.orelse)):
@@ -202,6 +238,7 @@ class _Function(Calls):
         self.block(end)
 
     def do_While(self, node: ast.While) -> None:  # noqa: N802
+        """A block as long as a condition holds."""
         test, body, end = self.label("test"), self.label("body"), self.label("end")
         self.jump(test)
         self.block(test)
@@ -212,6 +249,7 @@ class _Function(Calls):
         self.block(end)
 
     def do_For(self, node: ast.For) -> None:  # noqa: N802
+        """A block for whole numbers in order."""
         call, target = node.iter, node.target
         counts = isinstance(call, ast.Call) and ast.unparse(call.func) == "range" and len(call.args) in (1, 2)
         if not counts or not isinstance(call, ast.Call) or not isinstance(target, ast.Name):
@@ -242,9 +280,11 @@ class _Function(Calls):
         self.loops.pop()
 
     def do_Break(self, node: ast.Break) -> None:  # noqa: N802
+        """To the end of the innermost loop."""
         self.jump(self.loops[-1][1])
         self.block(self.label("after"))
 
     def do_Continue(self, node: ast.Continue) -> None:  # noqa: N802
+        """To the next turn of the innermost loop."""
         self.jump(self.loops[-1][0])
         self.block(self.label("after"))

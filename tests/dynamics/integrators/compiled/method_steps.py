@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from abu_calc.dynamics.integrators.compiled.arrays import Step
+
 Rates = Callable[[float, np.ndarray], Any]
 
 
@@ -21,20 +23,21 @@ class Stepping:
 
         for function in ("rates", "watched"):
             patch.setattr(method, function, put)
-        self.method, self.h, self.start = method, h, np.atleast_1d(np.array(start, dtype=float))
+        self.method, self.start = method, np.atleast_1d(np.array(start, dtype=float))
         self.n = len(self.start)
         n = self.n
         self.k, self.end = np.zeros(n * method.KEPT), np.zeros(n)
         self.between = np.zeros(n * method.BETWEEN)
         self.k[:n] = rates(t, self.start)
         nothing = np.zeros(0)
-        method.stages(t, h, n, self.start, nothing, self.k, self.end, nothing)
-        method.prepared(t, h, n, self.start, nothing, self.end, self.k, self.between, np.zeros(n))
+        self.step: Any = Step(t, h, n, *(self.start, nothing, self.end, self.k, self.between, np.zeros(n)))  # type: ignore[arg-type]
+        method.stages(self.step, nothing)
+        method.prepared(self.step)
 
     def error(self, tolerance: float) -> float:
         """The estimate, in units of an absolute tolerance."""
         allowed = np.full(self.n, tolerance)
-        return float(self.method.error(self.h, self.n, self.start, self.end, self.k, allowed, 0 * allowed))
+        return float(self.method.error(self.step, allowed, 0 * allowed))
 
     def at(self, share: float) -> np.ndarray:
         """State at a share of the step."""

@@ -1,21 +1,28 @@
 """Impacts of balls in a row, as Newton's cradle has them, and pairs that press without holding."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
+from abu_calc.dynamics.integrators.compiled.arrays import Pairs
 from abu_calc.dynamics.integrators.compiled.impact import evened, passed, squeezed
 
 CHAIN = np.array(((2.0, -1.0, 0.0), (-1.0, 2.0, -1.0), (0.0, -1.0, 2.0)))
 """What unit torques between four equal balls in a row do to the three gaps: each ball of inertia 1."""
 
 
+def touching(speed: np.ndarray, near: np.ndarray) -> Pairs:
+    """The first gaps of the row, which open at these speeds."""
+    n = len(speed)
+    rows: Any = (CHAIN[:n, :n].ravel().copy(), near, speed, np.zeros(n), np.zeros(n * n), np.zeros(n, dtype=int))
+    return Pairs(n, *rows)
+
+
 def after(speeds: list[float], restitution: float, slow: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Speeds of the gaps after all impacts, and the impulses."""
     n, speed, total = len(speeds), np.array(speeds), np.zeros(len(speeds))
-    room = [np.zeros(n) for _ in range(2)]
-    matrix = CHAIN[:n, :n].ravel().copy()
-    work, chosen = np.zeros(n * n), np.zeros(n, dtype=int)
-    assert passed(n, 1e-12, restitution, np.full(n, slow), speed, total, *room, matrix, work, chosen)
+    assert passed(touching(speed, np.zeros(n)), 1e-12, restitution, np.full(n, slow), total)  # type: ignore[arg-type]
     return speed, total
 
 
@@ -45,8 +52,7 @@ def test_touching_pairs_press_and_never_hold(seed: int) -> None:
     """Torque or parting: no torque is negative, no gap closes, and where there is one there is not the other."""
     closes = np.random.default_rng(seed).uniform(-1, 1, 3)
     speed, torque = np.zeros(3), np.zeros(3)
-    chosen = np.zeros(3, dtype=int)
-    squeezed(3, np.zeros(3), closes, speed, torque, np.zeros(3), CHAIN.ravel().copy(), np.zeros(9), chosen)
+    squeezed(touching(speed, np.zeros(3)), closes, torque)  # type: ignore[arg-type]
     gaps = closes + CHAIN @ torque
     assert torque.min() >= 0 and gaps.min() > -1e-12
     np.testing.assert_allclose(torque * gaps, 0, atol=1e-12)
@@ -55,8 +61,7 @@ def test_touching_pairs_press_and_never_hold(seed: int) -> None:
 def test_pairs_that_are_near_to_it_get_equal_speeds() -> None:
     """Two of three: the third feels its neighbour's torque."""
     speed, total = np.array((-1.0, 0.3, 0.5)), np.zeros(3)
-    near, chosen = np.array((1.0, 1.0, 0.0)), np.zeros(3, dtype=int)
-    evened(3, near, speed, total, np.zeros(3), CHAIN.ravel().copy(), np.zeros(9), chosen)
+    evened(touching(speed, np.array((1.0, 1.0, 0.0))), total)  # type: ignore[arg-type]
     torque = np.linalg.solve(CHAIN[:2, :2], (1.0, -0.3))
     np.testing.assert_allclose(total, (*torque, 0.0), rtol=1e-12)
     np.testing.assert_allclose(speed, (0, 0, 0.5 - torque[1]), rtol=1e-12)

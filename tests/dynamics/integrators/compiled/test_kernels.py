@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853, RK45
 
+from abu_calc.dynamics.integrators.compiled.arrays import Step
 from abu_calc.dynamics.integrators.compiled.kernels import METHODS
 
 SOLVERS: dict[str, Any] = {"rk45": RK45, "dop853": DOP853}
@@ -31,31 +32,39 @@ def name(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str
     return str(request.param)
 
 
-def step(method: ModuleType, t: float, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """End of a step, rates within it, and what its dense output needs."""
-    k, end, between, at = np.zeros(3 * method.KEPT), np.zeros(3), np.zeros(3 * method.BETWEEN), np.zeros(3)
-    k[:3] = rates(t, START)
-    method.stages(t, h, 3, START, np.zeros(0), k, end, np.zeros(0))
-    method.prepared(t, h, 3, START, np.zeros(0), end, k, between, at)
-    return end, k, between
+def step(method: ModuleType, t: float, h: float) -> Any:
+    """A step with its end, the rates within it, and what its dense output needs."""
+    made = standing(method, START, t, h)
+    made.k[:3] = rates(t, START)
+    method.stages(made, np.zeros(0))
+    method.prepared(made)
+    return made
+
+
+def standing(method: ModuleType, y: np.ndarray, t: float, h: float) -> Any:
+    """A step at whose stages all rates are zero, and that ends at the origin."""
+    rows: tuple[Any, ...] = (np.zeros(3), np.zeros(3 * method.KEPT), np.zeros(3 * method.BETWEEN), np.zeros(3))
+    nothing: Any = np.zeros(0)
+    return Step(t, h, 3, y, nothing, *rows)  # type: ignore[arg-type]
 
 
 def test_a_step_is_that_of_scipy(name: str) -> None:
     """End, error in units of what is allowed, and the motion within: to rounding."""
     method, t, h, tolerance = METHODS[name], 0.4, 0.3, 1e-3
-    end, k, between = step(method, t, h)
+    made = step(method, t, h)
+    end = made.end
     solver = SOLVERS[name](rates, t, START, 10.0, first_step=h, max_step=h, rtol=tolerance, atol=tolerance)
     solver.step()
     assert solver.t == t + h
     np.testing.assert_allclose(end, solver.y, rtol=1e-14)
     within, found = solver.dense_output(), np.zeros(3)
     for share in (0.0, 0.1, 0.37, 0.5, 0.9, 1.0):
-        method.dense(share, 3, START, between, found)
+        method.dense(share, 3, START, made.between, found)
         np.testing.assert_allclose(found, within(t + share * h), rtol=1e-13)
-        alone = [method.within(i, share, 3, START, between) for i in range(3)]
+        alone = [method.within(i, share, 3, START, made.between) for i in range(3)]
         np.testing.assert_array_equal(alone, found)
     allowed = tolerance + tolerance * np.maximum(np.abs(START), np.abs(end))
-    own = method.error(h, 3, START, end, k, np.full(3, tolerance), np.full(3, tolerance))
+    own = method.error(made, np.full(3, tolerance), np.full(3, tolerance))
     assert own == pytest.approx(solver._estimate_error_norm(solver.K, h, allowed), rel=1e-9)
 
 
@@ -70,10 +79,10 @@ def test_errors_fall_by_the_order(name: str) -> None:
             exact.step()
             if exact.t_old < h / 2 <= exact.t:
                 halfway = exact.dense_output()(h / 2)
-        end, _, between = step(method, 0.0, h)
+        made = step(method, 0.0, h)
         found = np.zeros(3)
-        method.dense(0.5, 3, START, between, found)
-        errors.append(np.abs(end - exact.y).max())
+        method.dense(0.5, 3, START, made.between, found)
+        errors.append(np.abs(made.end - exact.y).max())
         inner.append(np.abs(found - halfway).max())
     order = {"rk45": (5, 4), "dop853": (8, 7)}[name]
     assert order[0] == method.METHOD_ORDER
@@ -85,4 +94,4 @@ def test_errors_fall_by_the_order(name: str) -> None:
 def test_a_motion_that_stands_has_no_error(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is divided by nothing."""
     method, zero = METHODS[name], np.zeros(3)
-    assert method.error(0.1, 3, zero, zero, np.zeros(3 * method.KEPT), np.ones(3), zero) == 0.0
+    assert method.error(standing(method, zero, 0.0, 0.1), np.ones(3), zero) == 0.0

@@ -20,6 +20,8 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     WATCHED,
     Integers,
     Reals,
+    Step,
+    Watch,
 )
 from abu_calc.dynamics.integrators.compiled.locate import CHECKS
 from abu_calc.dynamics.scene import Scene
@@ -100,6 +102,10 @@ def test_numbers_are_left_alone_that_cannot_fall(before: Reals, after: Reals, ma
     assert looked_at(before, after) == many
 
 
+STEP = Step(0.0, 1.0, 1, *([0.0] for _ in range(6)))
+"""A step from 0 to 1, of whose motion nothing is asked."""
+
+
 @pytest.mark.parametrize("lowest", [0.02, 0.1, 0.3, 0.5, 0.9, 1.1, 1.7, 1.95])
 @pytest.mark.parametrize("check", [2, 3, 4])
 def test_a_dip_anywhere_within_two_quarters_is_found(
@@ -111,8 +117,8 @@ def test_a_dip_anywhere_within_two_quarters_is_found(
     def value(x: float) -> float:
         return (CHECKS * x - (check - 2) - lowest) ** 2 - depth
 
-    def peeked(index: int, x: float, *given: Reals) -> float:
-        given[-1][index] = value(x)
+    def peeked(index: int, x: float, step: Step, watch: Watch) -> float:
+        watch.w[index] = value(x)
         return value(x)
 
     monkeypatch.setattr(locate, "peek", peeked)
@@ -120,8 +126,7 @@ def test_a_dip_anywhere_within_two_quarters_is_found(
     lay[VALUES], lay[ORDER] = 1, 30
     rows = [value(quarter / CHECKS) for quarter in range(CHECKS + 1)]
     assert min(rows[check - 2 : check + 1]) > 0
-    count, nothing, w = [0] * COUNTS, [0.0], [0.0]
-    found = locate.dips(1, check, 0.0, 1.0, nothing, nothing, lay, count, nothing, nothing, nothing, w, rows)
+    found = locate.dips(1, check, STEP, Watch(lay, [0] * COUNTS, [0.0], [0.0], rows))
     assert found == pytest.approx((check - 2 + lowest - depth**0.5) / CHECKS, abs=1e-12)
 
 
@@ -131,9 +136,8 @@ def test_no_dip_is_looked_for_outside(lowest: float, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(locate, "peek", lambda *_: pytest.fail("looked at"))
     lay: Integers = [0] * 40
     lay[VALUES], lay[ORDER] = 1, 30
-    rows, nothing = [(quarter - lowest) ** 2 - 1e-6 for quarter in range(CHECKS + 1)], [0.0]
-    given = (nothing, nothing, lay, [0] * COUNTS, nothing, nothing, nothing, nothing, rows)
-    assert locate.dips(1, 2, 0.0, 1.0, *given) == locate.NEVER
+    rows = [(quarter - lowest) ** 2 - 1e-6 for quarter in range(CHECKS + 1)]
+    assert locate.dips(1, 2, STEP, Watch(lay, [0] * COUNTS, [0.0], [0.0], rows)) == locate.NEVER
 
 
 def test_balls_that_graze_each_other_at_the_start_of_a_step() -> None:

@@ -1,5 +1,7 @@
 """The natural next mode of dry friction: what rolls, what sticks, and to which side."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -58,9 +60,10 @@ def test_joined_balls_go_the_way_of_the_last_of_them() -> None:
 def test_work_and_wheel_change_between_touching_and_apart() -> None:
     lay, count, numbers = layout(ONE_SIDED=4, TOUCHES=2, FRICTION=-1), [0] * arrays.COUNTS, np.array((0.0, 0.0, 1.0))
     count[arrays.FOUND] = 4
-    nothing = np.zeros(6)
+    nothing: Any = np.zeros(6)
+    run = arrays.Run(nothing, numbers, nothing, lay, [0.0] * 8, nothing, count)  # type: ignore[arg-type]
     for touching in (0.0, 1.0):
-        assert switched(0.0, nothing, numbers, nothing, lay, [0.0] * 8, count, nothing, nothing, nothing)
+        assert switched(0.0, run, nothing, nothing)
         assert numbers[2] == touching
     count[arrays.FOUND] = 5  # of an effect whose modes are not known here
-    assert not switched(0.0, nothing, numbers, nothing, lay, [0.0] * 8, count, nothing, nothing, nothing)
+    assert not switched(0.0, run, nothing, nothing)

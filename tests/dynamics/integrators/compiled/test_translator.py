@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -46,6 +47,10 @@ BODIES = {
     "parts of arrays": "z, h = x[3:], x[k[0] + 1 :]\nz[1] = 5.0\nh[0] = z[0]",
     "names from outside": "x[0] = SIZE * 2\nk[0] = COUNT\nx[1] = SIZE if YES else 0.0",
     "calls": "x[0] = half(x[1])\nraise_all(x[2:], 3)\nif large(k[1]):\n x[6] = 1.0",
+    "groups": (
+        "g = Pair(x[0] + 1, x[2:], k)\nx[0] = g.size\nx[1] = grown(3.0, g)\ng.row[1] = 2.0\n"
+        "g = Pair(x[1], x, k)\nx[3] = grown(x[4], g) + g.count[0]\nrow, j = g.row, g.count[1]\nrow[5] = j"
+    ),
     "a return ends it": "if x[0] > -1.0:\n return 5\nx[0] = 3.0",
     "nothing": "pass",
     "a text of its own": "'said'\nx[0] = 1.0",
@@ -57,6 +62,8 @@ BODIES = {
 """Ends of functions of an array of eight numbers between 0 and 1 and one of four whole numbers."""
 
 OTHERS = (
+    "class Pair(NamedTuple):\n 'A group.'\n size: float\n row: Reals\n 'A row.'\n count: Integers\n"
+    "def grown(by: float, pair: Pair) -> float:\n pair.row[0] = by\n pair.count[0] += 1\n return by * pair.size\n"
     "def half(a: float) -> float:\n return a / 2\n"
     "def large(a: int) -> bool:\n return a > 1\n"
     "def raise_all(z: Reals, n: int) -> None:\n for i in range(n):\n  z[i] += 1.0\n"
@@ -68,6 +75,7 @@ def both(body: str) -> tuple[Callable[..., int], Callable[..., int]]:
     """A function as Python, and compiled."""
     text = OTHERS + HEAD + "".join(f" {line}\n" for line in (body + "\nreturn 0").splitlines())
     scope = {**NAMES, "sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "Reals": None, "Integers": None}
+    scope["NamedTuple"] = NamedTuple
     exec(text, scope)
     loaded = machine.LoadedModule(machine.compiled(language.translated([(text, NAMES)], ("go",))))
     call = loaded.function("go", 2)
@@ -118,6 +126,15 @@ REFUSED = {
     "a = b = 1.0": "one assignment",
     "a, b = x": "as many values",
     "a: str = 1.0": "of a type",
+    "g = Pair(1.0, x)": "3 values without names",
+    "g = Pair(size=1.0, row=x, count=k)": "3 values without names",
+    "g = Pair(1.0, k, k)": "integers where reals",
+    "x[0] = Pair(1.0, x, k)": "a group has a name",
+    "g = Pair(1.0, x, k)\nx[0] = g": "no such name",
+    "g = Pair(1.0, x, k)\nx[0] = g.depth": "no such name",
+    "g = Pair(1.0, x, k)\ng.size = 2.0": "nothing can be stored",
+    "x[0] = grown(1.0, x)": "a variable that is a Pair",
+    "x[0] = grown(1.0, Pair(1.0, x, k))": "a variable that is a Pair",
     "return": "to be returned",
     "return 1.5": "double where i64",
 }
@@ -134,6 +151,10 @@ def test_what_the_language_does_not_have_is_refused(body: str) -> None:
 def test_types_of_arguments_are_those_of_the_language() -> None:
     with pytest.raises(LanguageError, match="go, line 1: str is no type"):
         language.translated([("def go(x: str) -> int:\n return 0\n", {})], ("go",))
+    with pytest.raises(LanguageError, match="Pair: str is no type"):
+        language.translated([("class Pair(NamedTuple):\n name: str\n", {})], ())
+    with pytest.raises(LanguageError, match="go, line 3: Pair is no type of a result"):
+        language.translated([("class Pair(NamedTuple):\n a: int\ndef go(x: Pair) -> Pair:\n return x\n", {})], ("go",))
 
 
 def test_what_llvm_refuses_is_told_as_what_it_is() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from abu_calc.dynamics.supports.planar import planar
-from abu_calc.dynamics.supports.receptance import (
+from abu_calc.dynamics.supports.steady_motion import (
     receptance,
     reference_imbalance,
     unbalanced_amplitude,

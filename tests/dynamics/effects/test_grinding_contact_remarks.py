@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from abu_calc.dynamics.effects.grinding_contact import moved, pulls, stopped
 from abu_calc.dynamics.effects.motor import MotorEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
-from abu_calc.dynamics.supports.pressed import moved, pulls, stopped
-from abu_calc.dynamics.supports.receptance import receptance
+from abu_calc.dynamics.supports.steady_motion import receptance
 from abu_calc.dynamics.trajectory import Samples
 from tests.dynamics.scenes import dimensionless, scene_on
 

@@ -1,0 +1,166 @@
+"""Reading of the recordings of a type test: a file that lists them, or recorded files alone."""
+
+import json
+import os
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from abu_calc.features.declare.tables import RecordedFile, RecordedRun, RecordingsFile
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading.document import Document, FileReading, named, open_document, parsed_overrides, validate
+from abu_calc.inputs.reading.kinds import refuse_others
+from abu_calc.inputs.recording import Recording
+from abu_calc.inputs.recording_files import is_recording, read_recording
+
+if TYPE_CHECKING:
+    from abu_calc.inputs.reading.overrides import Override
+
+
+@dataclass(frozen=True)
+class Recordings(FileReading):
+    """A file that lists recordings; `tables` are what stands in it."""
+
+    tables: RecordingsFile
+
+    @property
+    def title(self) -> str:
+        """The machine's name."""
+        return self.tables.type_test.name
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One recorded axis or several of one handle in one run."""
+
+    operator: str
+    number: int
+    handle: str
+    axis: str | None
+    recording: Recording
+    indices: tuple[int, ...]
+    """Axes of the recording that belong to it."""
+    place: Place
+
+
+def read_recordings(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Recordings:
+    """Reads a file that lists recordings; raises InputError with file, line, key and remedy for what is wrong."""
+    return recordings_from(open_document(named(source)), parsed_overrides(overrides))
+
+
+def recordings_from(document: Document, overrides: "Sequence[Override]" = ()) -> Recordings:
+    """The recordings of a document that is open already; raises as `read_recordings` does."""
+    refuse_others(document, "recordings")
+    tables, reading = validate(document, overrides, RecordingsFile, lambda _: RecordingsFile)
+    return Recordings(**vars(reading), tables=tables)
+
+
+def recordings_template() -> str:
+    """Text of a complete file of recordings; it reads back without error."""
+    from abu_calc.inputs.reading.template import template_of
+
+    return template_of("recordings", RecordingsFile)
+
+
+def recordings_schema() -> dict[str, Any]:
+    """The schema of files that list recordings."""
+    from abu_calc.inputs.reading.schema import schema_of
+
+    return schema_of("recordings", RecordingsFile) | {"allOf": [{"$ref": f"#/definitions/{RecordingsFile.__name__}"}]}
+
+
+def of_files(files: Sequence[str], sensitivity: Sequence[str] = ()) -> Recordings:
+    """Recorded files alone, each a run of one operator; or the one file that lists them.
+
+    `sensitivity`: of recorded files alone, for all channels or as CHANNEL=VALUE.
+    """
+    listing = [file for file in files if not is_recording(file)]
+    if len(files) == 1 and listing:
+        if sensitivity:
+            raise InputError(
+                "a file that lists recordings gives the sensitivities itself", place=Place(key="sensitivity"),
+                remedy="Write sensitivity = … into each [[recording]].",
+            )  # fmt: skip
+        return read_recordings(files[0])
+    if listing:
+        raise InputError(
+            "a file that lists recordings stands alone", place=Place(key="recordings"), found=listing[0],
+            remedy="Give it once, or CSV and WAV files alone.",
+        )  # fmt: skip
+    if not files:
+        raise InputError("no recordings", place=Place(key="recordings"), remedy="Name CSV or WAV files.")
+    given = f"sensitivity = {_toml(sensitivity)}\n" if sensitivity else ""
+    text = "".join(f"[[recording]]\nfile = {json.dumps(file)}\n{given}" for file in files)
+    return recordings_from(Document("", text, "", tomllib.loads(text)))
+
+
+def _toml(sensitivity: Sequence[str]) -> str:
+    """Sensitivities of a command line as an entry: one for all, or a table by channel."""
+    pairs = [text.rpartition("=") for text in sensitivity]
+    if len(pairs) == 1 and not pairs[0][1]:
+        return json.dumps(pairs[0][2])
+    return "{ " + ", ".join(f"{json.dumps(name.strip())} = {json.dumps(value)}" for name, _, value in pairs) + " }"
+
+
+def loaded(source: Recordings, entry: RecordedFile, place: Place) -> Recording:
+    """The recording of an entry; an error of the entry's own keys names its place in the list."""
+    path = str(Path(source.file).absolute().parent / entry.file) if source.file else entry.file
+    columns = tuple(map(str, entry.columns or ()))
+    try:
+        return read_recording(
+            path, entry.quantity, entry.scale, columns, sensitivity=_sensitivity(entry, columns),
+            full_scale_mV=entry.full_scale_mV,
+        )  # fmt: skip
+    except InputError as error:
+        if error.place.file is None:
+            raise error.at(place) from None
+        raise
+
+
+def _sensitivity(entry: RecordedFile, columns: Sequence[str]) -> float | str | dict[str, float | str] | None:
+    """Sensitivities by channel where there is a list of them."""
+    given = entry.sensitivity
+    if isinstance(given, tuple):
+        names = columns or [str(k) for k in range(1, len(given) + 1)]
+        if len(names) != len(given):
+            raise InputError(
+                "as many sensitivities as columns are expected", place=Place(key="sensitivity"), found=f"{len(given)}",
+                allowed=f"{len(names)}",
+            )  # fmt: skip
+        return dict(zip(names, given, strict=True))
+    return dict(given) if isinstance(given, Mapping) else given
+
+
+def runs_of(source: Recordings) -> Iterator[Run]:
+    """Every run of the list, a file with several handles as one for each of them."""
+    counts: dict[tuple[str, str], int] = {}
+    for index, entry in enumerate(source.tables.recording):
+        place = Place(source.file or None, key=f"recording[{index}]")
+        recording = loaded(source, entry, place)
+        operator = str(entry.operator)
+        for name, indices in _handles(entry, recording, place).items():
+            counts[operator, name] = counts.get((operator, name), 0) + 1
+            number = counts[operator, name] if entry.run is None else entry.run
+            if entry.axis is not None and len(indices) > 1:
+                raise InputError(
+                    "axis is for a file with one axis", place=place, found=", ".join(recording.names),
+                    remedy="Leave axis out, or list one column.",
+                )  # fmt: skip
+            yield Run(operator, number, name, entry.axis, recording, indices, place)
+
+
+def _handles(entry: RecordedRun, recording: Recording, place: Place) -> dict[str, tuple[int, ...]]:
+    """Axes of each handle of a file; the entry's handle if the columns name none, or if it is one of theirs."""
+    placed = recording.axes_by_handle
+    if entry.handle is None:
+        return {name or "handle": indices for name, indices in placed.items()}
+    if len(placed) == 1:
+        return {entry.handle: next(iter(placed.values()))}
+    if entry.handle not in placed:
+        raise InputError(
+            "the columns name other handles", place=place, found=entry.handle, allowed=", ".join(placed),
+            remedy="List its columns, or leave handle out to take all of them.",
+        )  # fmt: skip
+    return {entry.handle: placed[entry.handle]}

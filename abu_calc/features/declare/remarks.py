@@ -1,0 +1,73 @@
+"""Remarks on a simulated type test: what the declared value leaves out, and where its facts are from."""
+
+import math
+from collections.abc import Iterator
+from typing import Final
+
+from abu_calc.features.declare.records import WithAutobalancer
+from abu_calc.features.declare.simulated_test import SimulatedTest, Spindle
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.type_test import ChosenWheel
+from abu_calc.standards.type_test import uncertainty_source
+
+DOUBTFUL: Final = 0.01
+"""Share of starts without an end that calls for a remark."""
+STRAIGHT: Final = "straight"
+
+
+def remarks(
+    design: Design, wheel: ChosenWheel, spindle: Spindle, imbalance_alone: float, test: SimulatedTest | None,
+    with_: WithAutobalancer | None,
+) -> Iterator[str]:  # fmt: skip
+    """Remarks, those that move the value most first. `imbalance_alone`: a_hv without background [m/s²]."""
+    case = design.case
+    if not case.body.is_rigid:
+        yield (
+            "The machine is a point mass here, which judges the autobalancer too hard: a rigid body has up to 3.4 "
+            "times the break-even eccentricity. Give the moments of inertia and the handles."
+        )
+    if not case.handles:
+        yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."
+    if with_ is not None and with_.shaken_free:
+        yield (
+            "With the spindle horizontal, gravity shakes the balls free of rolling friction: the type test then gives "
+            f"{with_.no_friction_m_per_s2:.3g} m/s², declared {with_.factor * with_.no_friction_m_per_s2:.3g} m/s². "
+            "With the spindle upright, friction holds them."
+        )
+    yield from _background(spindle, imbalance_alone)
+    yield from _sources(design, wheel)
+    if test is not None and test.ends.moving > DOUBTFUL * len(test.turns):
+        yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
+    if test is not None and test.spindle.balls.band:
+        yield (
+            "Balls start at rest in the race at random places. They pass each other as points, and gravity is left "
+            "out. `abu size` judges whether they stall and how soon they settle."
+        )
+
+
+def _background(spindle: Spindle, imbalance_alone: float) -> Iterator[str]:
+    limit = imbalance_alone / math.sqrt(spindle.factor**2 - 1)
+    if spindle.background > limit:
+        yield (
+            f"The background of {spindle.background:.3g} m/s² exceeds {limit:.3g} m/s²: no autobalancer, however "
+            "perfect, lowers this declared value. Compare the values without the factor."
+        )
+    elif not spindle.background:
+        yield (
+            f"The background of motor and gear is left out. Above {limit:.3g} m/s² of it no autobalancer lowers the "
+            "declared value. Measure it with a balanced wheel: type_test.background_a_hv_m_per_s2."
+        )
+
+
+def _sources(design: Design, wheel: ChosenWheel) -> Iterator[str]:
+    layout = design.case.table.machine.layout
+    if layout != STRAIGHT and wheel.status == "secondary":
+        yield (
+            f'The layout is "{layout}", and ISO 28927-4 is for straight grinders. Angle and vertical grinders have '
+            "their own test wheels (ISO 28927-1), which are not built in: set type_test.test_wheel_imbalance_g_mm."
+        )
+    source, status = uncertainty_source()
+    if wheel.status == "secondary":
+        yield f"Test wheels and the factor are from {wheel.source}. K is by {source}: {status}."
+    else:
+        yield f"K is by {source}: {status}."

@@ -1,0 +1,347 @@
+"""The declared vibration value of a machine, without and with the autobalancer: the type test simulated."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Final
+
+import numpy as np
+
+from abu_calc.dynamics.averaging.resting_places import SEED
+from abu_calc.features.declare.records import (
+    Cause,
+    DeclaredAt,
+    HandleValue,
+    Plan,
+    TestWheelRecord,
+    WheelInUse,
+    WithAutobalancer,
+    WithoutAutobalancer,
+)
+from abu_calc.features.declare.remarks import remarks
+from abu_calc.features.declare.simulated_test import (
+    STARTS,
+    BreakEven,
+    SimulatedTest,
+    Spindle,
+    causes,
+    search_break_even,
+    simulated_test,
+)
+from abu_calc.formulas.type_test import MANY, evenly, mean_over_orientations
+from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import GRAVITY, from_si
+from abu_calc.foundation.validity import Range
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.arguments import checked
+from abu_calc.simulation.result import Provenance, Result
+from abu_calc.sizing import size as size_design
+from abu_calc.sizing.actions import SIMULATED
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.type_test import (
+    ChosenWheel,
+    carried,
+    chosen_wheel,
+    declared_check,
+    lower_declared,
+    required,
+    weighted_speed,
+)
+from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels
+
+NUMBER: Final = Range("number of starts", 100, 1_000_000, key="starts")
+NORMAL_95: Final = 1.6449
+"""95 % of a normal distribution lie below its mean and so many standard deviations."""
+
+
+@record
+class DeclareModel(Record):
+    """SI numbers behind a simulated type test."""
+
+    speed_rad_per_s: float
+    weighting: float
+    mass_without_autobalancer_kg: float
+    mass_kg: float
+    effective_mass_kg: float
+    friction_band_m: float
+    race_eccentricity_m: float
+    handles: tuple[str, ...]
+    transmission: tuple[float, ...]
+    """Motion of each handle per motion of the race."""
+    rest: tuple[float, ...]
+    """Motion of each handle per imbalance at the wheel that balls in the race's plane leave [1/kg]."""
+
+
+@record
+class DeclareResult(Result):
+    """A type test, simulated without and with the autobalancer."""
+
+    command: ClassVar[str] = "declare"
+
+    model: DeclareModel
+    test_wheel: TestWheelRecord
+    handle: Annotated[str, Quantity("highest handle", "", 4, "with the autobalancer, if that is known")]
+    body: Annotated[str, Quantity("machine", "", 4, "point mass, or rigid body")]
+    without: WithoutAutobalancer
+    with_: WithAutobalancer | None
+    handles: tuple[HandleValue, ...]
+    break_even_eccentricity_mm: Annotated[
+        float | None, Quantity("break-even race eccentricity", "Δ*", 3, "null: the declared value is lower at none")
+    ]
+    break_even_frictionless_mm: Annotated[float | None, Quantity("the same without friction", "Δ₀", 4)]
+    break_even_reason: Annotated[str | None, Quantity("why there is no break-even eccentricity")]
+    friction_rms_mm: Annotated[float | None, Quantity("displacement that friction leaves, rms", "c_f", 3)]
+    lowers: Annotated[bool, Quantity("the autobalancer lowers the declared value")]
+    causes: tuple[Cause, ...]
+    background_a_hv_m_per_s2: Annotated[float, Quantity("background", "a_hv", 3)]
+    background_limit_m_per_s2: Annotated[
+        float, Quantity("background above which no autobalancer lowers the value", "a_hv", 3)
+    ]
+    wheel_in_use: WheelInUse
+    plan: Plan
+    by_eccentricity: tuple[DeclaredAt, ...]
+    distribution_m_per_s2: Annotated[tuple[float, ...], Quantity("percentiles 0, 2, … 100 of single runs")]
+
+
+@dataclass(frozen=True)
+class _Tested:
+    """Simulations of one design: with the test wheel, with the wheel in use, and the break-even search."""
+
+    test: SimulatedTest
+    in_use: SimulatedTest | None
+    even: BreakEven
+
+
+@checked
+def declare(machine: Machine, starts: int = STARTS, progress: Progress = silent) -> DeclareResult:
+    """Simulate the type test of a machine without and with its autobalancer.
+
+    `starts`: how many starts are simulated; the seed is fixed. Raises InputError with file, line, key and action for
+    what is wrong in the file, among it a wheel diameter without a built-in test wheel.
+    """
+    NUMBER.check(starts)
+    tables = machine.whole("declare")
+    with machine.located():
+        wheel = _wheel(tables)
+        design = size_design(tables)
+        if not weighted_speed(design.case.speed):
+            raise InputError(
+                "W_h is not defined at this speed", place=Place(key="machine.speed_rpm"),
+                found=f"{tables.machine.speed_rpm:g} rpm", allowed="337 … 84600 rpm",
+            )  # fmt: skip
+    spindle = Spindle.of(design.case, design.autobalancer)
+    balancing = _balancing(design, wheel)
+    tested = _tested(design, spindle, wheel, starts, progress) if balancing.status == "pass" else None
+    return _result(machine, design, spindle, wheel, balancing, tested)
+
+
+def _wheel(tables: MachineFile) -> ChosenWheel:
+    """The test wheel; refused for a diameter that has none."""
+    wheel = chosen_wheel(tables)
+    if wheel is not None:
+        return wheel
+    test = tables.type_test
+    given = None if test is None else test.test_wheel_diameter_mm
+    raise InputError(
+        "there is no built-in test wheel of this diameter",
+        place=Place(key="wheel.diameter_mm" if given is None else "type_test.test_wheel_diameter_mm"),
+        found=f"{tables.wheel.diameter_mm if given is None else given:g} mm",
+        allowed=", ".join(f"{from_si(each.diameter, 'mm'):g}" for each in test_wheels()),
+        remedy="Set type_test.test_wheel_imbalance_g_mm, or type_test.test_wheel_diameter_mm to one of these.",
+    )
+
+
+def _balancing(design: Design, wheel: ChosenWheel) -> Check:
+    """ABU433: the region of the speed, and the capacity."""
+    case, candidate = design.case, design.autobalancer
+    need = from_si(required(case, candidate, wheel.imbalance), "g_mm")
+    capacity = from_si(candidate.capacity, "g_mm")
+    if not design.frequency.balancing_possible:
+        message = "Balls do not balance at the rated speed: it is not above the natural frequencies of the suspension"
+        return coded("ABU433", "fail", message, capacity, need, "g·mm", "See ABU101 of `abu size`.", "least")
+    enough = carried(case, candidate, wheel.imbalance)
+    message = (
+        f"The test wheel requires {need:.4g} g·mm, race eccentricity included; the balls carry {capacity:.4g} g·mm"
+    )
+    remedy = None
+    if not enough:
+        remedy = f"Specify more or larger balls, so that their capacity rises to {need:.4g} g·mm or more."
+    return coded("ABU433", verdict(enough), message, capacity, need, "g·mm", remedy, "least")
+
+
+def _tested(design: Design, spindle: Spindle, wheel: ChosenWheel, starts: int, progress: Progress) -> _Tested:
+    eccentricity = design.case.race_eccentricity
+    progress("type test")
+    test = simulated_test(spindle, wheel.imbalance, eccentricity, starts)
+    in_use = None
+    if carried(design.case, design.autobalancer, design.imbalance.value):
+        progress("wheel in use")
+        in_use = simulated_test(spindle, design.imbalance.value, eccentricity, starts)
+    return _Tested(test, in_use, search_break_even(test, starts, progress))
+
+
+def _result(
+    machine: Machine, design: Design, spindle: Spindle, wheel: ChosenWheel, balancing: Check, tested: _Tested | None
+) -> DeclareResult:
+    case, table = design.case, design.case.table
+    bare, in_use = spindle.without(wheel.imbalance), spindle.without(design.imbalance.value)
+    highest = max(bare, key=bare.__getitem__)
+    uncertainty = declared_uncertainty(reproducibility(bare[highest]))
+    test = None if tested is None else tested.test
+    means = {} if test is None else test.means
+    lowers = test is not None and test.declared < bare[highest]
+    factor, gains = spindle.factor, spindle.body.gains
+    used = None if tested is None or tested.in_use is None else max(tested.in_use.means.values())
+    imbalance_alone = math.sqrt(max(bare[highest] ** 2 - spindle.background**2, 0.0))
+    with_ = None if test is None else _with(design, test)
+    return DeclareResult(
+        title=table.machine.name,
+        checks=(balancing, *_comparison(design, wheel, bare[highest], uncertainty, tested, with_)),
+        warnings=(*machine.warnings, *remarks(design, wheel, spindle, imbalance_alone, test, with_)),
+        provenance=Provenance.of(machine),
+        model=DeclareModel(
+            speed_rad_per_s=case.speed,
+            weighting=spindle.gain / case.speed**2,
+            mass_without_autobalancer_kg=case.body.mass,
+            mass_kg=design.system_mass,
+            effective_mass_kg=spindle.body.effective_mass,
+            friction_band_m=spindle.balls.band,
+            race_eccentricity_m=case.race_eccentricity,
+            handles=tuple(gain.name for gain in gains),
+            transmission=tuple(math.sqrt(gain.race) for gain in gains),
+            rest=tuple(math.sqrt(gain.imbalance) for gain in gains),
+        ),
+        test_wheel=TestWheelRecord.read(wheel),
+        handle=highest if test is None else test.highest,
+        body="rigid body" if case.body.is_rigid else "point mass",
+        without=WithoutAutobalancer(handle=highest, a_hv_m_per_s2=bare[highest], K_m_per_s2=uncertainty),
+        with_=with_,
+        handles=tuple(
+            HandleValue(name=name, without_m_per_s2=value, with_m_per_s2=means.get(name))
+            for name, value in bare.items()
+        ),
+        break_even_eccentricity_mm=None if tested is None else _mm(tested.even.simulated),
+        break_even_frictionless_mm=None if tested is None else _mm(tested.even.frictionless),
+        break_even_reason=_no_break_even(tested),
+        friction_rms_mm=None if test is None else from_si(test.friction_rms, "mm"),
+        lowers=lowers,
+        causes=() if test is None else _causes(test),
+        background_a_hv_m_per_s2=spindle.background,
+        background_limit_m_per_s2=imbalance_alone / math.sqrt(factor**2 - 1),
+        wheel_in_use=WheelInUse(
+            imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
+            without_m_per_s2=max(in_use.values()),
+            with_m_per_s2=used,
+        ),
+        plan=Plan(
+            orientations_deg=tuple(from_si(angle, "deg") for angle in spindle.orientations),
+            runs=1 if table.type_test is None else table.type_test.runs,
+            operators=3 if table.type_test is None else table.type_test.operators,
+            starts=0 if test is None else len(test.turns),
+            seed=SEED,
+            moving=0 if test is None else test.ends.moving,
+        ),
+        by_eccentricity=() if tested is None else _by_eccentricity(tested),
+        distribution_m_per_s2=()
+        if test is None
+        else tuple(float(x) for x in np.quantile(test.values[test.highest], np.linspace(0, 1, 51))),
+    )
+
+
+def _mm(length: float | None) -> float | None:
+    return None if length is None else from_si(length, "mm")
+
+
+def _with(design: Design, test: SimulatedTest) -> WithAutobalancer:
+    plan, name, factor = design.case.table.type_test, test.highest, test.spindle.factor
+    runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
+    mean, series = test.means[name], test.deviation_of_series(name, runs)
+    low, middle, high = (float(x) for x in np.quantile(test.values[name], (0.05, 0.5, 0.95)))
+    spread = NORMAL_95 * factor * series / math.sqrt(operators)
+    spindle = test.spindle
+    ideal = max(
+        mean_over_orientations(gain, test.imbalance, test.eccentricity, evenly(MANY), spindle.background / spindle.gain)
+        for gain in spindle.body.gains
+    )
+    return WithAutobalancer(
+        handle=name,
+        a_hv_m_per_s2=mean,
+        standard_error_m_per_s2=test.standard_error(name),
+        p05=low,
+        p50=middle,
+        p95=high,
+        factor=factor,
+        declared_m_per_s2=test.declared,
+        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series)),
+        declared_low_m_per_s2=max(test.declared - spread, 0.0),
+        declared_high_m_per_s2=test.declared + spread,
+        no_friction_m_per_s2=spindle.gain * ideal,
+        shaken_free=_shaken_free(design, spindle),
+    )
+
+
+def _shaken_free(design: Design, spindle: Spindle) -> bool:
+    """True if gravity swings the balls of a horizontal spindle harder than friction holds them: k_r·R_p·Ω²/r < g."""
+    held = spindle.balls.band * spindle.balls.speed**2
+    return design.case.table.machine.spindle_axis == "horizontal" and 0 < held < GRAVITY
+
+
+def _causes(test: SimulatedTest) -> tuple[Cause, ...]:
+    parts = causes(test, test.highest)
+    total = sum(value**2 for _, value in parts)
+    return tuple(
+        Cause(name=name, a_hv_m_per_s2=value, share=value**2 / total if total else 0.0)
+        for name, value in parts
+        if value > 0
+    )
+
+
+def _by_eccentricity(tested: _Tested) -> tuple[DeclaredAt, ...]:
+    test = tested.test
+    points = {**dict(tested.even.tried), test.eccentricity: test.declared}
+    return tuple(
+        DeclaredAt(race_eccentricity_mm=from_si(eccentricity, "mm"), declared_m_per_s2=value)
+        for eccentricity, value in sorted(points.items())
+    )
+
+
+def _no_break_even(tested: _Tested | None) -> str | None:
+    if tested is None:
+        return "The balls cannot balance the test wheel."
+    if tested.even.simulated is not None:
+        return None
+    if tested.even.frictionless is None:
+        return "A race without eccentricity and friction does not lower the declared value either."
+    return "Rolling friction alone keeps the declared value up, even in a race without eccentricity."
+
+
+def _comparison(
+    design: Design, wheel: ChosenWheel, without: float, uncertainty: float, tested: _Tested | None,
+    with_: WithAutobalancer | None,
+) -> Iterator[Check]:  # fmt: skip
+    """ABU431 and ABU432."""
+    if tested is None or with_ is None:
+        reason = "The balls cannot balance the test wheel"
+        yield coded("ABU431", "not-done", reason, None, without, "m/s²")
+        yield coded("ABU432", "not-done", reason, None, uncertainty, "m/s²", bound="least")
+        return
+    declared = tested.test.declared
+
+    def judged(case: Case, candidate: Candidate) -> tuple[float, float]:
+        spindle = Spindle.of(case, candidate)
+        test = simulated_test(spindle, wheel.imbalance, case.race_eccentricity, len(tested.test.turns))
+        return max(spindle.without(wheel.imbalance).values()), test.declared
+
+    yield declared_check(
+        without, declared, SIMULATED,
+        lambda: lower_declared(design.case, design.autobalancer, wheel.imbalance, judged, SIMULATED),
+    )  # fmt: skip
+    change, K = abs(without - declared), max(uncertainty, with_.K_m_per_s2)
+    message = f"The declared value {'falls' if declared < without else 'rises'} by {change:.3g} m/s²; K is {K:.3g} m/s²"
+    yield coded("ABU432", verdict(True, change > K), message, change, K, "m/s²", bound="least")

@@ -1,0 +1,77 @@
+"""Measured levels as rows: of the presets of a factory's machines, or of machine files that others wrote."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from abu_calc.features.factory.at_handles import HandleGeometry
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.measured import MeasuredOctave
+from abu_calc.inputs.read_machine import Machine, read
+from abu_calc.standards.tables import toml_table
+
+Span = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class MeasuredMachine:
+    """A machine with its name in tables, what was measured of it, and the assumed places of its handles; None: none."""
+
+    name: str
+    short: str
+    machine: Machine
+    measured: tuple[MeasuredOctave, ...]
+    geometry: HandleGeometry | None
+
+
+@dataclass(frozen=True)
+class SoftRace:
+    """Machines of which only the outcome and a soft race are known: an assumed machine, friction arms [m]."""
+
+    short: str
+    machine: str
+    friction: Span
+    published: str
+
+
+def factory_machines() -> tuple[MeasuredMachine, ...]:
+    """The machines that Kladiev 1996 measured, in the order of the table."""
+    return tuple(
+        _measured(row["preset"], row["short"], read(row["preset"]), HandleGeometry.of(row))
+        for row in toml_table("factory_machines")["machine"]
+    )
+
+
+def machines_of(sources: Iterable[Machine]) -> tuple[MeasuredMachine, ...]:
+    """Machine files that hold [[measured]]; refused without it."""
+    known = {row["preset"]: row for row in toml_table("factory_machines")["machine"]}
+    machines = []
+    for machine in sources:
+        name = machine.file or machine.title
+        row = known.get(name)
+        short = row["short"] if row else name.replace("\\", "/").rpartition("/")[2].removesuffix(".toml")
+        machines.append(_measured(name, short, machine, HandleGeometry.of(row) if row else None))
+    return tuple(machines)
+
+
+def soft_race() -> SoftRace:
+    """IV-2014 and Sh-2203 of the same act."""
+    row: dict[str, Any] = toml_table("factory_machines")["soft_race"]
+    low, high = row["friction_mm"]
+    return SoftRace(row["short"], row["machine"], (low / 1000, high / 1000), row["published"])
+
+
+def factory_source() -> tuple[str, str]:
+    """The source, and what it says of backgrounds."""
+    table = toml_table("factory_machines")
+    return table["source"], table["background"]
+
+
+def _measured(name: str, short: str, machine: Machine, geometry: HandleGeometry | None) -> MeasuredMachine:
+    table = machine.whole("factory")
+    if not table.measured:
+        raise InputError(
+            "nothing measured in this file", place=Place(machine.file, key="measured"),
+            remedy="Add a table [[measured]] for each level; `abu init FILE` writes one with every key.",
+        )  # fmt: skip
+    return MeasuredMachine(name, short, machine, table.measured, geometry)

@@ -1,0 +1,199 @@
+"""Joints of a bearing: its inner ring on the shaft, its outer ring in the housing."""
+
+from dataclasses import replace
+from typing import Final
+
+from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing
+from abu_calc.features.seats.joint import (
+    CENTRIFUGAL,
+    MEASURED,
+    TEMPERATURE,
+    InterferenceLoss,
+    Joint,
+    ThermalCase,
+    Tube,
+    contact_pressure,
+    inner_ring_diameter,
+    inner_ring_stress,
+    outer_ring_diameter,
+    outer_ring_stress,
+    raceway_change,
+)
+from abu_calc.features.seats.requirement import SERIES_FACTORS, centrifugal_loss, smoothing_loss, temperature_loss
+from abu_calc.standards.balls import seat_material, seat_strength
+from abu_calc.standards.tolerance_classes import (
+    NORMAL_RATIO,
+    DeviationLimits,
+    MakerFits,
+    Seat,
+    maker_fits,
+    part_limits,
+    ring_limits,
+)
+
+ADVISED: Final = {"shaft": "k6", "housing": "H7"}
+"""Classes that stand in until one is advised, where none is given."""
+HIGHEST_RATIO: Final = 0.5
+"""P/C up to which the catalogue's rows and ISO 281 hold."""
+THIN: Final = 0.85
+"""Share of the pressure in a thick steel housing below which one counts as thin-walled or of light alloy; assumed.
+
+A thick housing of aluminium keeps 0.74."""
+_LIGHT: Final = frozenset({"aluminium", "magnesium"})
+_OWN_REFERENCE: Final = frozenset({"cast-iron"})
+"""Materials of thick parts that the catalogue's rows are meant for, beside steel."""
+
+
+def shaft_joint(bearing: SeatedBearing) -> Joint:
+    """The inner ring on the shaft; of a bearing without one, the needles on it."""
+    part, service, bore = bearing.shaft, bearing.service, bearing.inner.diameter
+    steel, own = seat_material("steel"), seat_material(part.material)
+    ring_diameter, hollow = inner_ring_diameter(bore, bearing.outer.diameter), part.other or 0.0
+    shaft, ring = Tube(hollow / bore, own), Tube(bore / ring_diameter, steel)
+    losses = _smoothing(part.roughness)
+    losses += _warmth(bore, warm_parts(bearing, "shaft"))
+    if service.speed is not None:
+        growth = centrifugal_loss(service.speed, bore, ring_diameter, hollow, steel)
+        losses.append(InterferenceLoss(CENTRIFUGAL, growth, "(3+ν)·ρ·Ω²·d·(d₁² − d₀²)/(16·E)"))
+    pressure = contact_pressure(1.0, bore, shaft, ring)
+    solid = Tube(0.0, own if part.material in _OWN_REFERENCE else steel)
+    kept = pressure / contact_pressure(1.0, bore, solid, ring)
+    # The core of a solid shaft is under the pressure itself; a hollow one has its hoop stress at the bore.
+    stress_rate = inner_ring_stress(1.0, bore, shaft, ring)
+    part_rate = pressure * (shaft.hoop_under_pressure_outside if hollow else 1.0)
+    rates = (pressure, stress_rate, raceway_change(pressure, bore, ring), part_rate)
+    if bearing.no_inner_ring:
+        seat = replace(bearing.inner, load="stationary")
+        return replace(
+            _joint("shaft", bearing, part, seat, (), rates, kept),
+            ring_limits=_under_needles(bearing),
+            runs_on_needles=True,
+        )
+    return _joint("shaft", bearing, part, bearing.inner, tuple(losses), rates, kept)
+
+
+def housing_joint(bearing: SeatedBearing) -> Joint:
+    """The outer ring in the housing."""
+    part, outer = bearing.housing, bearing.outer.diameter
+    steel, own = seat_material("steel"), seat_material(part.material)
+    ring = Tube(outer_ring_diameter(bearing.inner.diameter, outer) / outer, steel)
+    housing = Tube(0.0 if part.other is None else outer / part.other, own)
+    losses = _smoothing(part.roughness)
+    losses += _warmth(outer, warm_parts(bearing, "housing"))
+    pressure = contact_pressure(1.0, outer, ring, housing)
+    thick = Tube(0.0, own if part.material in _OWN_REFERENCE else steel)
+    kept = pressure / contact_pressure(1.0, outer, ring, thick)
+    stress_rate = outer_ring_stress(1.0, outer, ring, housing)
+    rates = (pressure, stress_rate, raceway_change(pressure, outer, ring), pressure * housing.hoop_at_bore)
+    return _joint("housing", bearing, part, bearing.outer, tuple(losses), rates, kept)
+
+
+def makers_classes(bearing: SeatedBearing, seat: Seat, thin: bool = False) -> MakerFits | None:
+    """The catalogue's classes of a seat; a type that is not told is taken as ball, a ratio not known as normal load.
+
+    None above half of C if the ring's load rotates: no row is meant for that.
+    """
+    ring, split = (bearing.inner, False) if seat == "shaft" else (bearing.outer, bearing.housing.split)
+    ratio = NORMAL_RATIO if bearing.load_ratio is None else bearing.load_ratio
+    if ratio > HIGHEST_RATIO and ring.load != "stationary":
+        return None
+    thin = bearing.housing.material in _LIGHT if bearing.kind == "drawn-cup" else thin
+    kind = bearing.kind or "ball"
+    return maker_fits(seat, kind, ring.load, ratio, ring.diameter, bearing.bearing_class, split, thin)
+
+
+def warm_parts(
+    bearing: SeatedBearing, seat: Seat, rise: float | None = None
+) -> tuple[tuple[float, float], tuple[float, float]] | None:
+    """Expansion [1/K] and warmth above mounting [K] of the part around and of the part inside; None where no
+    temperature is given. What is not told of the bearing's own warmth is taken as none.
+
+    `rise`: all parts at this temperature above that of mounting, whatever is given.
+    """
+    service, steel = bearing.service, seat_material("steel").expansion
+    other = service.ring_over_shaft if seat == "shaft" else service.housing_over_ring
+    if rise is None and other is None and service.over_mounting is None:
+        return None
+    warmth = (service.over_mounting or 0.0) if rise is None else rise
+    difference = (other or 0.0) if rise is None else 0.0
+    if seat == "shaft":
+        return (steel, warmth), (seat_material(bearing.shaft.material).expansion, warmth - difference)
+    return (seat_material(bearing.housing.material).expansion, warmth + difference), (steel, warmth)
+
+
+def _thermal_cases(bearing: SeatedBearing, seat: Seat, diameter: float) -> tuple[ThermalCase, ...]:
+    """Losses at mounting, at work and at the lowest and highest temperature, as far as they are given."""
+    service = bearing.service
+    working = warm_parts(bearing, seat)
+    cases = [ThermalCase("mounting", 0.0, 0.0)]
+    if working is not None:
+        cases.append(ThermalCase("working", service.over_mounting, temperature_loss(diameter, *working)))
+    for name, rise in zip(("lowest", "highest"), service.extremes or (), strict=False):
+        parts = warm_parts(bearing, seat, rise)
+        assert parts is not None
+        cases.append(ThermalCase(name, rise, temperature_loss(diameter, *parts)))
+    return tuple(cases)
+
+
+def _under_needles(bearing: SeatedBearing) -> DeviationLimits:
+    """Limits of the diameter under the needles after mounting: F8 of drawn-cup bearings, F6 of machined ones.
+
+    Source: NTN's needle roller catalogue (HK, BK in a stiff housing), ISO 1206 (RNA); not verified.
+    """
+    diameter = bearing.inner.diameter
+    if bearing.kind == "drawn-cup":
+        return part_limits("housing", "F8", diameter)
+    lower = part_limits("housing", "F7", diameter).lower
+    return DeviationLimits(lower, lower + part_limits("shaft", "h6", diameter).tolerance)
+
+
+def _warmth(diameter: float, parts: tuple[tuple[float, float], tuple[float, float]] | None) -> list[InterferenceLoss]:
+    return (
+        []
+        if parts is None
+        else [InterferenceLoss(TEMPERATURE, temperature_loss(diameter, *parts), "d·(α₂·ΔT₂ − α₁·ΔT₁)")]
+    )
+
+
+def _joint(
+    seat: Seat,
+    bearing: SeatedBearing,
+    part: MatingPart,
+    ring: Ring,
+    losses: tuple[InterferenceLoss, ...],
+    rates: tuple[float, float, float, float],
+    kept: float,
+) -> Joint:
+    pressure, stress, raceway, own = rates
+    known = bearing.load_ratio is not None and bearing.kind is not None
+    thin = seat == "housing" and kept < THIN
+    return Joint(
+        seat=seat,
+        tolerance_class=part.fit or (MEASURED if part.measured else ADVISED[seat]),
+        ring=ring,
+        ring_limits=ring_limits(
+            bearing.type, "inner" if seat == "shaft" else "outer", bearing.bearing_class, ring.diameter
+        ),
+        radial_load=bearing.service.radial_load,
+        factor=SERIES_FACTORS[bearing.series],
+        losses=losses,
+        pressure_rate=pressure,
+        stress_rate=stress,
+        raceway_rate=raceway,
+        part_rate=own,
+        part_strength=part.strength or seat_strength(part.material),
+        measured=part.measured,
+        split=part.split,
+        maker=makers_classes(bearing, seat, thin) if known else None,
+        pressure_kept=kept,
+        thermal_cases=_thermal_cases(bearing, seat, ring.diameter),
+        short_shares=bearing.short_shares,
+    )
+
+
+def _smoothing(roughness: float | None) -> list[InterferenceLoss]:
+    return (
+        []
+        if roughness is None
+        else [InterferenceLoss("smoothing", smoothing_loss(roughness), "0.4·Rz (DIN 7190-1:2017)")]
+    )

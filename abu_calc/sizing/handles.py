@@ -1,0 +1,182 @@
+"""What an estimated inertia leaves open, and the weighted acceleration at the handles against its limit."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
+from abu_calc.foundation.units import from_si
+from abu_calc.sizing.actions import followed, pins, set_action
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import WHEEL_PLANE, Case
+from abu_calc.sizing.imbalance import find_imbalance
+from abu_calc.sizing.places import LevelPlace, PlaceBand, handle_levels, in_space, place_bands, place_numbers
+from abu_calc.sizing.vibration import idle_vibration, speed_levels, truer_races, worst_residuals
+
+Band = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class BodyBands:
+    """95 % bands that an estimated inertia leaves [low, high]; `level` [dB]: of the highest over the speed range.
+
+    `effective_mass` [kg] at the wheel, with the autobalancer; `imbalance` [kg m]; `places`: of each place of the idle
+    machine, in its order.
+    """
+
+    effective_mass: Band
+    imbalance: Band
+    level: Band | None
+    places: tuple[PlaceBand, ...]
+
+
+def body_bands(case: Case, candidate: Candidate, possible: bool) -> BodyBands | None:
+    """Bands of an estimated body, the autobalancer as it is; None if nothing is estimated."""
+    estimate = case.body.estimate
+    if estimate is None:
+        return None
+
+    def numbers(other: Case) -> list[float]:
+        try:
+            imbalance = find_imbalance(other).value
+        except AbuError:  # near a node of this body, a measured level says nothing
+            return [math.nan] * (3 + 4 * len(case.places))
+        levels = speed_levels(other, imbalance, candidate, (), possible)
+        places = idle_vibration(other, imbalance, candidate, possible).places
+        highest = math.nan if levels is None else levels.highest.level_after
+        mass = other.body.effective_mass(candidate.mass)
+        return [mass, imbalance, highest, *place_numbers(places, case.speed)]
+
+    mass, imbalance, level, *places = estimate.bands(lambda placed: numbers(case.with_body(placed)))
+    return BodyBands(mass, imbalance, None if any(map(math.isnan, level)) else level, place_bands(tuple(places)))
+
+
+@dataclass(frozen=True)
+class HighestTotal:
+    """The highest vector total a_hv [m/s²] over places and speeds: where, and at which speed [rad/s]."""
+
+    name: str
+    speed: float
+    total: float
+
+
+def highest_totals(
+    case: Case, imbalance: float, candidate: Candidate
+) -> tuple[HighestTotal | None, HighestTotal | None]:
+    """The highest a_hv with the autobalancer at the judged speeds, expected and in the worst friction case.
+
+    None if W_h is not defined at one of the speeds.
+    """
+    expected, arranged = list[HighestTotal | None](), list[HighestTotal | None]()
+    for residual in worst_residuals(case, imbalance, candidate):
+        there = replace(case, speed=residual.speed)
+        expected += _totals(there, idle_vibration(there, imbalance, candidate, possible=True).places)
+        if case.body.in_space and case.handles:
+            places = in_space(there, imbalance, candidate, residual.at_race)
+        else:
+            places = handle_levels(there, None, residual.residual, candidate.mass).places
+        arranged += _totals(there, places)
+    return _highest(expected), _highest(arranged)
+
+
+def _totals(case: Case, places: tuple[LevelPlace, ...]) -> Iterator[HighestTotal | None]:
+    for place in places:
+        total = place.total(case.speed, after=True)
+        yield None if total is None else HighestTotal(place.name, case.speed, total)
+
+
+def _highest(totals: list[HighestTotal | None]) -> HighestTotal | None:
+    known = [total for total in totals if total is not None]
+    return max(known, key=lambda total: total.total) if known and len(known) == len(totals) else None
+
+
+def handle_checks(
+    case: Case, imbalance: float, candidate: Candidate, possible: bool, bands: BodyBands | None
+) -> tuple[Check, ...]:
+    """Check of the weighted acceleration at the highest handle; none without a limit in the file."""
+    limit = case.table.limits.a_hv_m_per_s2
+    if limit is None:
+        return ()
+    if not possible:
+        reason = "The acceleration is not known: the balls cannot balance at these speeds"
+        return (coded("ABU404", "not-done", reason, None, limit, "m/s²"),)
+    expected, arranged = highest_totals(case, imbalance, candidate)
+    if expected is None or arranged is None:
+        return (coded("ABU404", "not-done", "W_h is not defined at this speed (5.62 … 1413 Hz)", None, limit, "m/s²"),)
+    high = _band_end(expected, bands, case)
+    notes = [f"{_place(expected)}: expected {_said(expected.total)} (limit {limit:g} m/s²)"]
+    notes.append(f"Worst friction case: {_said(arranged.total)}")
+    if high is not None:
+        notes.append(f"The estimated inertia leaves up to {_said(high)} as expected")
+    if not case.body.is_rigid:
+        notes.append("The machine is a point mass: the value is uncertain by a factor of 2 to 3")
+    elif not case.handles:
+        notes.append("The file names no handle: the value is that of the wheel plane")
+    kept = expected.total <= limit
+    sure = case.body.is_rigid and bool(case.handles)
+    safe = sure and arranged.total <= limit and (high is None or high <= limit)
+    action = None if kept and safe else _remedy(case, candidate, expected, arranged, limit)
+    return (coded("ABU404", verdict(kept, safe), ". ".join(notes), expected.total, limit, "m/s²", action),)
+
+
+def _band_end(expected: HighestTotal, bands: BodyBands | None, case: Case) -> float | None:
+    """Upper end of the band of the highest a_hv [m/s²], in proportion to the speed; None if nothing is estimated."""
+    if bands is None:
+        return None
+    ends = [
+        (band.total_after[1], held.name) for band, held in zip(bands.places, case.places, strict=True)
+        if band.total_after is not None
+    ]  # fmt: skip
+    share = expected.speed / case.speed
+    return max((end * share for end, _ in ends), default=None)
+
+
+def _remedy(
+    case: Case, candidate: Candidate, expected: HighestTotal, arranged: HighestTotal, limit: float
+) -> Action | None:
+    """The first truer race that keeps the limit, expected and in the worst friction case; else what is missing."""
+    kept = expected.total <= limit
+    if kept and arranged.total <= limit:
+        return missing_body(case)
+    before = (arranged if kept else expected).total
+    name = "a_hv in the worst friction case" if kept else "the expected a_hv"
+    for entries in truer_races(case):
+        after = followed(case, {**entries, **pins(candidate)})
+        if after is None:
+            continue
+        totals = highest_totals(*after)
+        total = totals[1] if kept else totals[0]
+        if total is not None and total.total <= limit:
+            return set_action(entries, after.candidate, Moved(name, before, total.total, "m/s²", limit))
+    return Action("No change was found: a quarter of the race's eccentricity and friction does not keep the limit.")
+
+
+def missing_body(case: Case) -> Action:
+    """Keys to specify for levels at handles: those of a body that is missing, of handles, or measured inertias."""
+    if not case.body.is_rigid:
+        return Action(f"Specify {estimate_keys(case)} for an estimate of the inertia, or the inertia itself.")
+    if not case.handles:
+        return Action("Add a [[machine.handle]] for each handle.")
+    return Action(
+        "Measure the inertia by a pendulum: specify machine.inertia_kg_m2 and machine.center_of_mass_from_wheel_mm."
+    )
+
+
+def estimate_keys(case: Case) -> str:
+    """Keys from which the inertia of this layout is estimated, in words."""
+    keys = {"straight": ("length_mm",), "face": ("height_mm",)}.get(
+        case.table.machine.layout, ("length_mm", "height_mm")
+    )
+    return " and ".join(f"machine.{key}" for key in keys)
+
+
+def _place(total: HighestTotal) -> str:
+    place = "Wheel plane" if total.name == WHEEL_PLANE else f'Handle "{total.name}"'
+    return f"{place}, {from_si(total.speed, 'rpm'):.6g} rpm"
+
+
+def _said(total: float) -> str:
+    return f"a_hv = {total:.3g} m/s²"

@@ -1,0 +1,90 @@
+"""`abu declare` as people call it: screens, exit statuses, keys of the result, options that exclude each other."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.runner import abu, once
+from tests.features.declare.machines import S100, S150, written
+from tests.features.declare.recordings import MV, run_file
+
+KEYS = {
+    "test_wheel", "handle", "without", "with", "handles", "break_even_eccentricity_mm", "friction_rms_mm", "lowers",
+}  # fmt: skip
+PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_presets_have_a_screen(preset: str) -> None:
+    seen = once("declare", preset, "--starts", "500")
+    assert seen.status == 0, seen.err
+    assert "declared with" in seen.out and "break-even" in seen.out
+    assert seen.width <= 80 and len(seen.out.splitlines()) <= 48
+
+
+def test_the_document_has_the_fixed_keys(tmp_path: Path) -> None:
+    result = abu("declare", written(tmp_path, S150), "--starts", "500", "--json").document["result"]
+    assert result.keys() >= KEYS
+    assert result["test_wheel"].keys() >= {"diameter_mm", "imbalance_g_mm", "source"}
+    assert result["without"].keys() >= {"a_hv_m_per_s2", "K_m_per_s2"}
+    assert result["with"].keys() >= {
+        "a_hv_m_per_s2", "p05", "p50", "p95", "factor", "declared_m_per_s2", "K_m_per_s2",
+    }  # fmt: skip
+    assert result["handles"][0].keys() >= {"name", "without_m_per_s2", "with_m_per_s2"}
+
+
+def test_balls_that_cannot_balance_end_with_one(tmp_path: Path) -> None:
+    seen = abu("declare", written(tmp_path, S150), "--set", "type_test.test_wheel_imbalance_g_mm=500", "--json")
+    assert seen.status == 1
+    assert seen.document["result"]["with"] is None
+
+
+def test_a_wheel_without_a_test_wheel_ends_with_two(tmp_path: Path) -> None:
+    seen = abu("declare", written(tmp_path, S100), "--set", "wheel.diameter_mm=115")
+    assert seen.status == 2
+    assert "test_wheel_imbalance_g_mm" in seen.err and "Traceback" not in seen.err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (), ("avtovaz-707-222", "--recordings", "a.csv"), ("avtovaz-707-222", "--sensitivity", "10"),
+        ("avtovaz-707-222", "--automatic-balancing"), ("avtovaz-707-222", "--starts", "1"),
+        ("sapropel-screw-rig",), ("mmg-3200k-knife-shaft",), ("nothing.toml",), ("--recordings", "nothing.csv"),
+        ("--recordings", "nothing.toml"), ("--recordings", "avtovaz-707-222"),
+    ],
+)  # fmt: skip
+def test_wrong_options_end_with_two(arguments: tuple[str, ...]) -> None:
+    seen = abu("declare", *arguments)
+    assert seen.status == 2, seen.out
+    assert "Traceback" not in seen.err and "bug" not in seen.err
+
+
+def test_recordings_of_a_command_line(tmp_path: Path) -> None:
+    files = [run_file(tmp_path, f"{run}.csv", 1.0 + 0.01 * run, unit="mV", per_unit=MV) for run in (1, 2, 3)]
+    options = [part for file in files for part in ("--recordings", file)]
+    assert abu("declare", *options).status == 2
+    seen = abu("declare", *options, "--sensitivity", "100 mV/g", "--automatic-balancing", "--json")
+    result = seen.document["result"]
+    assert seen.status == 0 and result["factor"] == 1.3
+    assert {"a_hd_m_per_s2", "K_m_per_s2", "s_R_m_per_s2", "coefficient_of_variation", "runs"} <= result.keys()
+    screen = abu("declare", *options, "--sensitivity", "100 mV/g")
+    assert screen.width <= 80 and len(screen.out.splitlines()) <= 48
+
+
+def test_pages_and_figures(tmp_path: Path) -> None:
+    page, file = tmp_path / "page.html", written(tmp_path, S150)
+    assert abu("declare", file, "--starts", "500", "--output", str(page)).status == 0
+    text = page.read_text(encoding="utf-8")
+    assert text.count("<svg") == 3 and "Causes with the autobalancer" in text
+    measured = tmp_path / "measured.html"
+    runs = [part for run in (1, 2) for part in ("--recordings", run_file(tmp_path, f"{run}.csv", float(run)))]
+    abu("declare", *runs, "--output", str(measured))
+    assert measured.read_text(encoding="utf-8").count("<svg") == 1
+
+
+def test_new_list_of_recordings_reads_back(tmp_path: Path) -> None:
+    path = tmp_path / "list.toml"
+    assert abu("init", "--recordings", str(path)).status == 0
+    assert abu("validate", str(path)).status == 0
+    assert abu("schema", "recordings").status == 0

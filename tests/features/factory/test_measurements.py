@@ -1,0 +1,63 @@
+"""Measured levels as published, and files of others."""
+
+from pathlib import Path
+
+import pytest
+
+import abu_calc
+from abu_calc.features.factory.measurements import factory_machines, machines_of, soft_race
+from abu_calc.foundation.errors import InputError
+
+
+def test_the_rows_are_what_was_published() -> None:
+    """Kladiev 1996, written down a second time: machine, state, octave; without, with, lowered."""
+    told = {
+        ("707-222", "idle", 125.0): ((108, 111), (102, 103), (6, 10)),
+        ("707-222", "loaded", 125.0): ((110, 113), (102, 103), None),
+        ("707-370", "not said", 125.0): (None, (102, 104), (7, 10)),
+        ("707-305", "idle", 31.5): ((109, 113), (98, 100), None),
+        ("707-305", "loaded", 31.5): ((111, 112), (102, 103), None),
+        ("707-305", "idle", 125.0): (None, None, None),
+        ("MSh-230", "loaded", 16.0): (None, None, (18, 19)),
+        ("MSh-230", "loaded", 31.5): (None, None, (12, 16)),
+        ("MSh-230", "loaded", 63.0): (None, None, (8, 9)),
+    }
+    rows = {(machine.short, row.state, row.octave_hz): (row.level_without_db, row.level_db, row.lowered_db)
+            for machine in factory_machines() for row in machine.measured}  # fmt: skip
+    assert rows == told
+
+
+def test_sensors_were_on_the_handles_normal_to_the_worked_surface() -> None:
+    """For face and angle machines that is along the spindle."""
+    for machine in factory_machines():
+        straight = machine.machine.whole().machine.layout == "straight"
+        assert {row.axis for row in machine.measured} == {"y" if straight else "z"}
+        assert {row.place for row in machine.measured} == {"handle"} and machine.geometry is not None
+        assert all(row.source.startswith("Kladiev 1996") and row.remark for row in machine.measured)
+
+
+def test_a_preset_given_as_a_file_is_the_factorys_machine_another_file_has_its_own_name() -> None:
+    preset, own = machines_of(
+        [abu_calc.read("msh-230"), abu_calc.read("avtovaz-707-222").changed({"wheel.mass_kg": 0.5})]
+    )
+    assert preset.short == "MSh-230" and preset.geometry is not None
+    assert own.short == "707-222"
+
+
+def test_a_file_without_measurements_is_refused() -> None:
+    with pytest.raises(InputError) as refused:
+        machines_of([abu_calc.read("swing-arm-grinder")])
+    assert refused.value.place.key == "measured" and "[[measured]]" in str(refused.value)
+
+
+def test_a_file_has_its_own_name(tmp_path: Path) -> None:
+    text = Path(abu_calc.read("msh-230").document.text)
+    file = tmp_path / "mine.toml"
+    file.write_text(str(text), encoding="utf-8")
+    [mine] = machines_of([abu_calc.read(file)])
+    assert (mine.short, mine.geometry) == ("mine", None)
+
+
+def test_soft_races_are_those_of_practice() -> None:
+    soft = soft_race()
+    assert soft.short == "IV-2014, Sh-2203" and soft.friction == pytest.approx((1e-5, 5e-5))
