@@ -20,6 +20,7 @@ from abu_calc.simulation.response import (
     evaluate,
     needed_times,
     settling_times,
+    with_creep,
 )
 
 LOOKS: Final = (0.1875, 0.25, 0.375, 0.5, 0.7)
@@ -43,6 +44,17 @@ RESTING: Final = 0.01
 RISE, FALL = 0.3, 0.1
 """Permitted rise and fall [dB] of the level from the first to the second half of the examined time."""
 
+STEEP_RISE, STEEP_FALL = 1.0, 0.3
+"""The same where balls creep on a way that changes no verdict."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """How far [kg m] the residual imbalance may yet fall and rise while balls creep to where they balance."""
+
+    down: float
+    up: float
+
 
 @dataclass(frozen=True)
 class Early:
@@ -50,12 +62,14 @@ class Early:
 
     `decided(response, creep, rise)`: True if a response can be judged although the residual imbalance may
     change by `creep` [kg m] and the level may rise [dB], both at their recent pace. Its settling time is
-    the latest possible one.
+    the latest possible one. `way(left, response)`: the way that balls which leave so much [kg m] have to where they
+    balance, None if it may change a verdict; `response(creep)` is the run's.
     """
 
     scene: Scene
     at_speed: float
     decided: Callable[[Response, float, float], bool]
+    way: Callable[[complex, Callable[[float], Response]], Way | None] | None = None
 
     @cached_property
     def looks(self) -> tuple[float, ...]:
@@ -72,21 +86,42 @@ class Early:
     def response(self, samples: Samples, creep: float = 0.0) -> Response:
         """Response of a run that may have ended early; its residual imbalance may yet fall by `creep` [kg m]."""
         end = float(samples.t[-1])
-        if end == self.scene.duration:
-            return evaluate(self.scene, samples, creep=creep)
-        if end not in self._courses:
-            self._courses[end] = Course(self.scene)
-            self._courses[end](samples)
-        return evaluate(replace(self.scene, duration=end), samples, self._courses[end].until(end), creep)
+        if end not in self._responses:
+            self._responses[end] = evaluate(replace(self.scene, duration=end), samples, self._course_until(samples))
+        response = self._responses[end]
+        return response if creep == 0 else with_creep(response, self.scene, self._course_until(samples), creep)
+
+    def _course_until(self, samples: Samples) -> Course:
+        """Residual history up to the end of these samples; those that were read before are not read again."""
+        read = self._read[-1]
+        if len(samples.t) > read:
+            self._course(Samples(samples.t[read:], samples.y[:, read:]))
+            self._read.append(len(samples.t))
+        return self._course.until(float(samples.t[-1]))
 
     @cached_property
-    def _courses(self) -> dict[float, Course]:
-        """Residual history of the run up to each time at which it might end."""
+    def _course(self) -> Course:
+        return Course(self.scene)
+
+    @cached_property
+    def _read(self) -> list[int]:
+        """Numbers of samples that were read."""
+        return [0]
+
+    @cached_property
+    def _responses(self) -> dict[float, Response]:
+        """Responses of the run up to each time at which it might end."""
         return {}
 
     def enough(self, samples: Samples) -> bool:
         """True if no further motion will change the judged results."""
         creep, rise = self.moving(samples)
+        if not -STEEP_FALL <= rise <= STEEP_RISE:
+            return False
+        way = self.harmless(samples)
+        if way is not None:
+            earliest, latest = self.response(samples, -min(creep, way.up)), self.response(samples, way.down)
+            return self._alike(earliest.settling_time, latest.settling_time)
         if creep > CREEP * reference_imbalance(self.scene) or not -FALL <= rise <= RISE:
             return False
         latest, earliest = self.response(samples, creep), self.response(samples, -creep)
@@ -105,7 +140,18 @@ class Early:
         end = float(samples.t[-1])
         if end == self.scene.duration:
             return 0.0
-        return 2 * (self.scene.duration - end) / (SEEN * (end - self.at_speed)) * max(self.moving(samples)[1], 0.0)
+        rise = 2 * (self.scene.duration - end) / (SEEN * (end - self.at_speed)) * max(self.moving(samples)[1], 0.0)
+        way = self.harmless(samples)
+        if way is None:
+            return rise
+        return min(rise, 20 * math.log10(1 + way.up / self.response(samples).residual_imbalance))
+
+    def harmless(self, samples: Samples) -> Way | None:
+        """Way to where the balls balance if no verdict can change on it; None else, or if no way is known."""
+        if self.way is None:
+            return None
+        left = complex(self._left(samples.y[:, -1:])[0])
+        return self.way(left, lambda creep: self.response(samples, creep))
 
     def moving(self, samples: Samples) -> tuple[float, float]:
         """Possible further change of the residual imbalance [kg m] and recent rise of the level [dB].

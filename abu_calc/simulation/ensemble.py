@@ -4,7 +4,7 @@
 """
 
 import math
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
@@ -17,14 +17,13 @@ from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.stall import hanging_bounds as bounds_of
-from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.dynamics.trajectory import Samples, Trajectory
-from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent, within
-from abu_calc.simulation.early_stopping import Early
+from abu_calc.simulation.creeping import MARGIN, felt_mass, harmless_way, linger
+from abu_calc.simulation.early_stopping import Early, Way
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
 from abu_calc.simulation.residual_criteria import allowed_imbalance, balances, slip
@@ -47,9 +46,6 @@ TOLERANCE, TIGHTER = 2e-4, 0.1
 A case that decides a check is confirmed by a run at the tighter tolerance.
 """
 
-MARGIN = 1.0
-"""Distance below the permitted level [dB]: a run that may come nearer does not end early."""
-
 WORK, MOST_LOST = 400_000, 3
 """Evaluations of one run, in SciPy's: half a second in compiled code. Machines that balance take a twentieth of that.
 And how many starts at the drag given may be without an answer until no others are tried."""
@@ -63,9 +59,6 @@ STARTS = 30
 
 LONGEST_SETTLING = 3.0
 """Settling times permitted: for so long at full speed a start is followed whose balls are not at rest before."""
-
-LINGERING = 0.1
-"""Share of the imbalance: if balls leave more beyond what they leave balanced, they are not balanced."""
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
@@ -166,8 +159,7 @@ def run_of_start(
     longer: their run is done again, as long as settling may matter.
     """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
-    first, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
-    longest = _followed_until(design, scene, first.outcome, goes_on)
+    first, longest = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
     if longest is None:
         return first
     longer = replace(scene, duration=longest)
@@ -176,57 +168,47 @@ def run_of_start(
     return again._replace(outcome=whole)
 
 
-def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, goes_on: bool) -> float | None:
-    """Time [s] until which a start case is followed whose balls are not at rest at the end of its scene, if any."""
+def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: Early, run: Samples) -> float | None:
+    """Time [s] until which a start case is followed whose balls are not at rest at the end of its scene, if any.
+
+    None, too, if their way to where they balance changes no verdict.
+    """
     limit = design.case.table.limits.settling_time_s
     longest = scene.full_speed + LONGEST_SETTLING * limit
     late = outcome.hanging or (outcome.settling_time or 0.0) > limit
-    goes_on = goes_on or _linger(design, scene, outcome)
-    return longest if goes_on and not late and longest > scene.duration else None
+    if late or longest <= scene.duration or not (early.goes_on(run) or linger(design, scene, outcome)):
+        return None
+    return longest if early.harmless(run) is None else None
 
 
 def followed_until(design: Design, scene: Scene, response: Response, samples: Samples) -> float | None:
     """Time [s] until which a whole run of a design's scene is followed, as its start cases are; None: no longer."""
-    outcome = outcome_of(design, Member("placed", design.case.drag), scene, response)
-    goes_on = Early(scene, scene.full_speed, lambda response, creep, rise: False).goes_on(samples)
-    return _followed_until(design, scene, outcome, goes_on)
+    member = Member("placed", design.case.drag)
+    outcome = outcome_of(design, member, scene, response)
+    return _followed_until(design, scene, outcome, _early(design, member, scene), samples)
 
 
-def _felt(design: Design, scene: Scene) -> float:
-    """Effective mass [kg] for the balls: at the race of a machine in hand, or that of its arm, J_O/l²."""
-    if not scene.name.startswith("swing-arm"):
-        return design.autobalancer.requirement.effective_mass
-    return scene.support.felt_mass + sum(scene.ball_masses)
+def _early(design: Design, member: Member, scene: Scene) -> Early:
+    """Early stopping of a start case's run."""
 
+    def way(left: complex, response: Callable[[float], Response]) -> Way | None:
+        return harmless_way(design, scene, left, lambda creep: outcome_of(design, member, scene, response(creep)))
 
-def _linger(design: Design, scene: Scene, outcome: StartOutcome) -> bool:
-    """True if balls that friction does not hold stand elsewhere than where they balance; sooner or later they leave.
-
-    On a horizontal spindle gravity shakes them loose, see `shaken_drag`. Balanced they leave M Δ, as the race's centre
-    then stands still.
-    """
-    case, autobalancer = design.case, design.autobalancer
-    radius, held = autobalancer.ball_diameter / 2, case.friction_arm > 0
-    if case.table.machine.spindle_axis == "horizontal":
-        held = held and not shaken_drag(
-            case.friction_arm, radius, autobalancer.pitch_radius, scene.speed, case.inertia_factor
-        )
-    balanced = _felt(design, scene) * case.race_eccentricity
-    return not held and abs(outcome.imbalance - balanced) > LINGERING * reference_imbalance(scene)
+    return Early(scene, scene.full_speed, partial(_decided, design, member, scene), way)
 
 
 def _run_of_scene(
     design: Design, member: Member, scene: Scene, tolerance: float, work: int, early_end: bool, wanted: str
-) -> tuple[StartRun, bool]:
-    """One run, and whether the balls were not at rest at its end."""
+) -> tuple[StartRun, float | None]:
+    """One run, and the time [s] until which it must be followed; None: no longer."""
     equations = assemble(scene)
     choice = choose(equations, wanted, tolerance)
-    early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
+    early = _early(design, member, scene)
     times = early.sampling() if early_end else needed_times(scene)
     run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
     outcome = outcome_of(design, member, scene, early.response(run))
     outcome = replace(outcome, work=choice.work(run), rise=early.rising(run))
-    return StartRun(outcome, scene, run), early.goes_on(run)
+    return StartRun(outcome, scene, run), _followed_until(design, scene, outcome, early, run)
 
 
 def _decided(
@@ -238,7 +220,7 @@ def _decided(
     small creep is many decibels.
     """
     outcome, limits = outcome_of(design, member, scene, response), design.case.table.limits
-    if _linger(design, scene, outcome):
+    if linger(design, scene, outcome):
         return False
     if (
         not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip)
@@ -302,7 +284,7 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),
         imbalance=response.residual_imbalance,
-        allowed=allowed_imbalance(design, scene.imbalance, _felt(design, scene)),
+        allowed=allowed_imbalance(design, scene.imbalance, felt_mass(design, scene)),
         ball_angles=response.final.ball_angles,
         velocity=response.velocity_rms,
     )

@@ -7,7 +7,7 @@ from dataclasses import replace
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check, Grade, coded, verdict
 from abu_calc.foundation.units import from_si
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
 from abu_calc.simulation.residual_criteria import balanced_well
 from abu_calc.simulation.scene_of_design import guided
 from abu_calc.simulation.start_cases import OPPOSITE
@@ -65,8 +65,11 @@ def level_check(closed: Check, ensemble: Ensemble | None, change: TriedChange | 
         if closed.status != "fail" or not given.balanced:
             advice = None if change is None else change.action(LOUDEST, lambda outcome: outcome.level, "dB", limit)
         return coded("ABU401", "fail", message, value, limit, "dB", advice or BALANCE)
-    if closed.status == "pass" and loudest.level > limit:
-        message += f". Loudest start case at another drag rate: {_level(loudest, ensemble, limit)}"
+    if closed.status == "pass" and loudest.level + SLACK > limit:
+        if loudest is not given:
+            message += f". Loudest start case at another drag rate: {_level(loudest, ensemble, limit)}"
+        if loudest.level <= limit:
+            message += f". The error of its simulation, {SLACK:g} dB, leaves open whether the limit is kept"
         loud = None if change is None else change.action(LOUDEST, lambda outcome: outcome.level, "dB", limit)
         return coded("ABU401", "warn", message, value, limit, "dB", loud)
     return replace(closed, message=message, value=value)

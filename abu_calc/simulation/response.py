@@ -6,6 +6,7 @@ largest amplitude need.
 
 import math
 from copy import copy
+from dataclasses import replace
 
 import numpy as np
 
@@ -134,6 +135,8 @@ class Response:
     scene: str
     duration: float
     settling_time: float | None
+    settled_imbalance: float
+    """Mean imbalance left in the amplitude window [kg m], from which settling counts."""
     residual_imbalance: float
     axis_amplitude: float
     velocity_rms: float
@@ -183,9 +186,8 @@ def beginning(scene: Scene) -> Array:
     return settling_times(scene)[:BEGINNING]
 
 
-def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, creep: float = 0.0) -> Response:
-    """The results of a run that was sampled at least at `needed_times`; settled where what is left may yet go down by
-    `creep` [kg m].
+def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) -> Response:
+    """The results of a run that was sampled at least at `needed_times`.
 
     Its trajectory holds these, or with a course, which has read them, only those of the amplitude window. Raises
     NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
@@ -202,16 +204,15 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, cr
     place = scene.axis_place(states)
     mean = _mean(scene.axis_place(whole))
     rms = float(np.sqrt(_mean(scene.axis_velocity(whole) ** 2)).max())
-    residuals = course.residuals
     settled = float(_mean(np.abs(scene.total_imbalance(whole[balls])))[0])
     theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
-    time = settling_time(course.times, residuals, settled - creep + SETTLED * reference_imbalance(scene))
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=None if time is None else max(time - scene.full_speed, 0.0),
-        residual_imbalance=float(residuals[-1]),
+        settling_time=_settled_in(scene, course, settled),
+        settled_imbalance=settled,
+        residual_imbalance=float(course.residuals[-1]),
         axis_amplitude=_largest_radius(place, mean),
         velocity_rms=rms,
         level=level_from_velocity(rms) if rms > 0 else None,
@@ -222,6 +223,17 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, cr
         final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
         full_speed=scene.full_speed,
     )
+
+
+def with_creep(response: Response, scene: Scene, course: Course, creep: float) -> Response:
+    """The response of a course if the imbalance left may yet fall by `creep` [kg m]: its settling time is another."""
+    return replace(response, settling_time=_settled_in(scene, course, response.settled_imbalance - creep))
+
+
+def _settled_in(scene: Scene, course: Course, settled: float) -> float | None:
+    """Settling time [s] from full speed on, where so much imbalance [kg m] is left; None: not in time."""
+    time = settling_time(course.times, course.residuals, settled + SETTLED * reference_imbalance(scene))
+    return None if time is None else max(time - scene.full_speed, 0.0)
 
 
 def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalState:

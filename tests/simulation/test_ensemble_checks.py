@@ -6,7 +6,7 @@ import pytest
 
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check, not_simulated
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
+from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
 from abu_calc.simulation.start_cases import ALIKE, Member
 from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing import size
@@ -85,6 +85,16 @@ def test_a_loud_start_at_another_drag_warns() -> None:
     check = level_check(CLOSED, starts)
     assert (check.status, check.value) == ("warn", 105.0)
     assert "112.0 dB (limit 109 dB), spread, drag rate 30 1/s (cold oil)" in check.message
+
+
+def test_a_level_within_its_error_below_the_limit_warns() -> None:
+    """The start case at the given drag rate or at another one; farther below, the level passes."""
+    for drag in (DRAG, 3 * DRAG):
+        near = outcome(Member("spread", drag), level=109.0 - 0.9 * SLACK)
+        check = level_check(CLOSED, Ensemble(DRAG, (outcome(), near), ()))
+        assert check.status == "warn" and "leaves open whether the limit is kept" in check.message
+        far = outcome(Member("spread", drag), level=109.0 - 1.1 * SLACK)
+        assert level_check(CLOSED, Ensemble(DRAG, (outcome(), far), ())).status == "pass"
 
 
 def test_a_scene_that_was_not_simulated_passes_nothing() -> None:

@@ -58,7 +58,9 @@ SPAN: Final = 1e-9
 WIDE_SPAN: Final = 1e-2
 """The same where what brings them back is lost in rounding: it goes with the square."""
 
-FIRST_PHASES, MOST_PHASES = 8, 128
+FIRST_PHASES, PHASES_ON_ARM, MOST_PHASES = 8, 32, 128
+"""Phases of a turn at which A is taken first, on a swing arm, and at most. An arm has some eight harmonics."""
+
 SPEEDS: Final = (0.5, 1.0, 2.0)
 """Shares of the working speed at which A is taken: it is a polynomial of the second degree in the speed."""
 
@@ -259,7 +261,7 @@ class BalancedMotion:
 
     def _resolved(self, speeds: tuple[float, ...]) -> Complex:
         """[speed, harmonic, row, column], of as many phases as its harmonics need."""
-        count = FIRST_PHASES
+        count = PHASES_ON_ARM if self.on_arm else FIRST_PHASES
         while True:
             terms = np.array([self._terms(x, count) for x in speeds])
             sizes = np.abs(terms).max(axis=(0, 2, 3), initial=0.0)

@@ -28,7 +28,6 @@ from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.standards.vibration import octave
 
-
 STILL_DB: Final = 60.0
 """An axis so far below the highest level [dB] has no motion but rounding."""
 

@@ -10,8 +10,11 @@ import pytest
 import abu_calc
 from abu_calc.features.design.start_search import (
     PLACES,
+    SPEED_STEP,
     SPREADS,
     SearchResult,
+    at_near_speeds,
+    at_other_speeds,
     designed,
     exceeded,
     neighbours,
@@ -21,7 +24,7 @@ from abu_calc.features.design.start_search import (
 )
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
 from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
@@ -55,6 +58,35 @@ def test_designed_starts_cover_the_race_without_overlap(name: str) -> None:
         assert len({start.eccentricity for start in starts if bool(start.run_up) is kind}) == 2
 
 
+def test_a_range_is_started_at_both_ends_and_in_the_middle() -> None:
+    """The upper end is the rated speed, which the designed starts have. In the search the speed moves within the
+    range.
+    """
+    found = design("late-between-speeds")
+    low, high = found.case.speed_range
+    starts = list(at_other_speeds(found))
+    assert found.case.speed == high and {start.speed for start in starts} == {low, (low + high) / 2}
+    assert len(set(starts)) == len(starts) == 2 * (SPREADS + SPREADS // 3)
+    near = [start.speed for start in at_near_speeds(starts[0], found)]
+    assert len(near) == 1 and near[0] is not None and low < near[0] < high
+    assert [start.speed for start in at_near_speeds(next(designed(found)), found)] == pytest.approx(
+        [high - SPEED_STEP * (high - low)]
+    )
+    for single in ("avtovaz-707-222", "motor-no-load-speed"):
+        machine = design(single)
+        assert not list(at_other_speeds(machine))
+        assert not [start for first in designed(machine) for start in at_near_speeds(first, machine)]
+
+
+def test_a_level_within_its_error_of_the_limit_warns() -> None:
+    """A run below the limit by less than the error of a simulated level does not prove that the limit is kept."""
+    found, check = design("avtovaz-707-222"), Check("ABU401", "", "pass", "as listed", 1.0, 2.0, "dB", None)
+    limit = found.case.level_limit
+    assert with_searched(check, SearchResult((outcome(0.1, level=limit - 1.1 * SLACK),)), found).status == "pass"
+    told = with_searched(check, SearchResult((outcome(0.1, level=limit - 0.9 * SLACK),)), found)
+    assert told.status == "warn" and "1 of 1 further start cases may be too loud" in told.message
+
+
 def test_neighbours_are_near_and_other() -> None:
     found = design("late-run-up-hands")
     for start in designed(found):
@@ -69,7 +101,7 @@ def test_the_search_is_the_same_whatever_the_workers() -> None:
     assert alone == together and len(alone.outcomes) >= DESIGNED
 
 
-@pytest.mark.parametrize("name", ["late-bunched-elsewhere", "late-run-up-hands"])
+@pytest.mark.parametrize("name", ["late-bunched-elsewhere", "late-run-up-hands", "late-between-speeds"])
 def test_what_the_listed_starts_miss_warns_and_can_be_repeated(name: str) -> None:
     """By the very options that the report prints, with the very time it says; the action is no such command."""
     file = str(MACHINES / f"{name}.toml")
