@@ -35,11 +35,11 @@ def two_motions(of: Design, z: float, at_race: float) -> tuple[float, float]:
     mass = of.case.body.mass + of.autobalancer.mass
     r = of.case.race_place[2]
 
-    def G(p: float, q: float) -> float:
+    def moved(p: float, q: float) -> float:
         return 1 / mass + p * q / J
 
-    rest = of.imbalance.value * (G(z, WHEEL) - G(z, r) * G(r, WHEEL) / G(r, r))
-    return abs(at_race * G(z, r) / G(r, r)), abs(rest)
+    rest = of.imbalance.value * (moved(z, WHEEL) - moved(z, r) * moved(r, WHEEL) / moved(r, r))
+    return abs(at_race * moved(z, r) / moved(r, r)), abs(rest)
 
 
 def level(of: Design, displacement: float) -> float:

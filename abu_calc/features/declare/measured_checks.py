@@ -31,13 +31,16 @@ class Calibrated(NamedTuple):
 
 
 def measured_checks(
-    series: Sequence[Series], runs: Sequence[tuple[str, int, bool, str | None]], channels: Sequence[Calibrated]
+    series: Sequence[Series],
+    runs: Sequence[tuple[str, int, str | None]],
+    overloads: Sequence[str],
+    channels: Sequence[Calibrated],
 ) -> tuple[Check, ...]:
-    """`runs`: name, number of axes, overload, and why the value is not known, of each run."""
+    """`runs`: name, number of axes, and why the value is not known, of each run; `overloads`: names of channels."""
     return (
-        *_spread(series), _whole(series, [(name, axes) for name, axes, _, _ in runs]), *_calibration(channels),
-        _overload([name for name, _, overload, _ in runs if overload]),
-        _weighted([(name, reason) for name, _, _, reason in runs if reason]),
+        *_spread(series), _whole(series, [(name, axes) for name, axes, _ in runs]), *_calibration(channels),
+        _overload(overloads),
+        _weighted([(name, reason) for name, _, reason in runs if reason]),
     )  # fmt: skip
 
 
@@ -109,12 +112,12 @@ def _calibration(channels: Sequence[Calibrated]) -> Iterator[Check]:
     yield coded("ABU443", verdict(error <= CALIBRATED), message, 100 * error, 100 * CALIBRATED, "%", remedy)
 
 
-def _overload(runs: Sequence[str]) -> Check:
+def _overload(channels: Sequence[str]) -> Check:
     """ABU444."""
     message = "No recording stays at its largest value"
-    if runs:
-        message = f"Cut off at the largest value: {_listed(runs)}"
-    return coded("ABU444", verdict(not runs), message)
+    if channels:
+        message = f"Cut off at the largest value: {_listed(channels)}"
+    return coded("ABU444", verdict(not channels), message)
 
 
 def _weighted(runs: Sequence[tuple[str, str]]) -> Check:

@@ -138,7 +138,29 @@ def test_an_overload_fails(tmp_path: Path) -> None:
     path = listed(tmp_path)
     run_file(tmp_path, "operator0-run1.csv", 2.0, limit=8.0)
     check = next(check for check in evaluated(path).checks if check.code == "ABU444")
-    assert check.status == "fail" and "operator A, run 1" in check.message
+    assert check.status == "fail" and "operator A, run 1, front, a" in check.message
+
+
+def test_a_clipped_wav_file_fails_and_names_its_channel(tmp_path: Path) -> None:
+    """Other commands refuse such a file; a type test keeps the other runs and says which one to repeat."""
+    _, values = wave(1.0, seconds=1.5)
+    for run, gain in ((1, 1.0), (2, 40.0)):
+        both = np.column_stack([values, gain * values])
+        samples = np.clip(both / 50 * 32767, -32768, 32767).astype("<i2")
+        with wave_files.open(str(tmp_path / f"{run}.wav"), "wb") as file:
+            file.setnchannels(2)
+            file.setsampwidth(2)
+            file.setframerate(RATE)
+            file.writeframes(samples.tobytes())
+    path = tmp_path / "list.toml"
+    entries = (f'[[recording]]\nfile = "{run}.wav"\nscale = 50.0\nquantity = "acceleration"\n' for run in (1, 2))
+    path.write_text("\n".join(entries), encoding="utf-8")
+    result = evaluated(str(path))
+    check = next(check for check in result.checks if check.code == "ABU444")
+    assert (result.status, check.status) == ("fail", "fail")
+    assert "run 2, handle, channel 2" in check.message and "channel 1" not in check.message
+    assert [run.overload for run in result.runs] == [False, True]
+    assert [axis.overload for axis in result.runs[1].axes] == [False, True]
 
 
 def test_runs_that_scatter_fail(tmp_path: Path) -> None:
