@@ -38,6 +38,8 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
     rate = rate_of(table, time, columns[time])
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
     picked = _picked(table, columns, time, asked, simulated=simulated)
+    if asked.scale is None:
+        _refuse_unknown_units(table, [columns[k] for k in picked])
     sensors = [_sensor(table, columns[k], k + 1 - (k > time), asked) for k in picked]
     _all_used(path, asked, [columns[k].name for k in picked], sensors, remarks)
     quantity = _quantity(path, [columns[k] for k in picked], sensors, asked, remarks)
@@ -65,6 +67,17 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
         handles=handles,
         clipped=[name for name, cut in clipped if cut is not None],
     )
+
+
+def _refuse_unknown_units(table: Lines, columns: Sequence[RecordingColumn]) -> None:
+    """Refuse a column whose brackets hold a unit that is not known: its numbers would be taken for SI."""
+    for column in columns:
+        if column.unknown_unit:
+            raise InputError(
+                "a column with a unit that is not known", place=Place(table.path, table.head, column.name),
+                found=column.unknown_unit, allowed="m/s², mm/s², g, mm/s, m/s, µm, mm, mV, V and the like",
+                remedy="Convert the column, or give --scale: SI per unit of the file (Python: scale=).",
+            )  # fmt: skip
 
 
 def _handles(table: Lines, columns: Sequence[RecordingColumn], remarks: list[str]) -> tuple[str, ...]:

@@ -151,7 +151,7 @@ def declare_recordings(
             [Series(each.operator, each.handle, each.runs, each.mean_m_per_s2, each.standard_deviation_m_per_s2)
              for each in series],
             [(_name(run), len(run.axes), run.why_not) for run in runs],
-            _overloads(runs, channels),
+            _overloads(runs, channels), tuple(_doubles(measured)),
             [Calibrated(channel.name, channel.file, channel.ratio) for channel in channels],
         ),
         warnings=(*source.warnings, *_remarks(measured, factor)),
@@ -296,6 +296,16 @@ def _handles(series: Sequence[MeasuredSeries]) -> Iterator[MeasuredHandle]:
 
 def _name(run: MeasuredRun) -> str:
     return f"operator {run.operator}, run {run.run}, {run.handle}"
+
+
+def _doubles(measured: Sequence[_Measured]) -> Iterator[str]:
+    """Runs that hold the same samples as one before them: they count as runs, but were measured once."""
+    known: dict[tuple[tuple[str, tuple[int, ...]], ...], MeasuredRun] = {}
+    for each in measured:
+        samples = tuple((part.recording.sha256, part.indices) for part in each.parts)
+        first = known.setdefault(samples, each.record)
+        if first is not each.record:
+            yield f"{_name(each.record)}: the same recording as {_name(first)}"
 
 
 def _overloads(runs: Iterable[MeasuredRun], calibration: Iterable[MeasuredChannel]) -> list[str]:

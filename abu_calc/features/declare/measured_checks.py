@@ -34,11 +34,13 @@ def measured_checks(
     series: Sequence[Series],
     runs: Sequence[tuple[str, int, str | None]],
     overloads: Sequence[str],
+    doubles: Sequence[str],
     channels: Sequence[Calibrated],
 ) -> tuple[Check, ...]:
-    """`runs`: name, number of axes, and why the value is not known, of each run; `overloads`: names of channels."""
+    """`runs`: name, number of axes, and why the value is not known, of each run; `overloads`: names of channels;
+    `doubles`: runs that repeat a recording."""
     return (
-        *_spread(series), _whole(series, [(name, axes) for name, axes, _ in runs]), *_calibration(channels),
+        *_spread(series), _whole(series, [(name, axes) for name, axes, _ in runs], doubles), *_calibration(channels),
         _overload(overloads),
         _weighted([(name, reason) for name, _, reason in runs if reason]),
     )  # fmt: skip
@@ -73,7 +75,7 @@ def _scatters_little(series: Series) -> bool:
     return _variation(series) < rules.variation or (series.deviation or 0.0) < rules.deviation
 
 
-def _whole(series: Sequence[Series], axes: Sequence[tuple[str, int]]) -> Check:
+def _whole(series: Sequence[Series], axes: Sequence[tuple[str, int]], doubles: Sequence[str]) -> Check:
     """ABU442."""
     rules, faults = series_rules(), list[str]()
     for handle in dict.fromkeys(each.handle for each in series):
@@ -86,6 +88,7 @@ def _whole(series: Sequence[Series], axes: Sequence[tuple[str, int]]) -> Check:
     faults += fewer[:MOST_NAMED] + (
         [f"{len(fewer) - MOST_NAMED} more runs with fewer axes"] if len(fewer) > MOST_NAMED else []
     )
+    faults += [_listed(doubles)] if doubles else []
     message = f"Each handle has {rules.operators} operators or more with {rules.runs} runs or more, three axes each"
     remedy = "Measure what is missing, so that the value is that of a whole type test." if faults else None
     return coded("ABU442", verdict(True, not faults), ". ".join(faults) or message, remedy=remedy)

@@ -163,6 +163,26 @@ def test_a_clipped_wav_file_fails_and_names_its_channel(tmp_path: Path) -> None:
     assert [axis.overload for axis in result.runs[1].axes] == [False, True]
 
 
+def test_a_recording_listed_twice_warns(tmp_path: Path) -> None:
+    """Its series would scatter by nothing."""
+    run_file(tmp_path, "a.csv", 2.0)
+    path = tmp_path / "list.toml"
+    path.write_text('[[recording]]\nfile = "a.csv"\n' * 2, encoding="utf-8")
+    check = next(check for check in evaluated(str(path)).checks if check.code == "ABU442")
+    assert check.status == "warn"
+    assert "run 2, handle: the same recording as operator 1, run 1" in check.message
+
+
+def test_a_unit_that_is_not_known_is_refused(tmp_path: Path) -> None:
+    """Inches per second squared are no metres."""
+    run_file(tmp_path, "a.csv", 2.0)
+    text = (tmp_path / "a.csv").read_text(encoding="utf-8").split("\n", 1)
+    (tmp_path / "a.csv").write_text("t_s,ax [in/s2],ay [in/s2],az [in/s2]\n" + text[1], encoding="utf-8")
+    with pytest.raises(InputError, match="unit that is not known") as caught:
+        declare_recordings([str(tmp_path / "a.csv")])
+    assert caught.value.place.line == 1
+
+
 def test_runs_that_scatter_fail(tmp_path: Path) -> None:
     path = listed(tmp_path)
     run_file(tmp_path, "operator1-run3.csv", 5.0)
