@@ -258,7 +258,7 @@ def _figure(result: CompareResult, quantity: _Compared, rows: dict[str, Differen
     limit = _limit(result, quantity.code, unit)
     values = [*(bar.value for bar in bars), *([limit[0]] if limit else [])]
     axis = Axis.around(quantity.axis, values) if unit == "dB" else Axis(quantity.axis, 0.0, max(values) or 1.0)
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in bars) + (f"; {limit[1]}" if limit else "")
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in bars) + (f"; {limit[1]}" if limit else "")
     yield Figure(quantity.name, "title", Bars(quantity.title, text, axis, bars, limit), quantity.caption)
 
 

@@ -106,7 +106,7 @@ class DataGap(Record):
 
     @property
     def movement(self) -> float:
-        """How far the results move between the ends, by the one that moves most: 1 for 3 dB or a factor of 2."""
+        """Movement of the result that moves most between the ends: 1 for 3 dB or a factor of 2."""
         levels = [abs(high - low) / ALIKE_DB for low, high in (self.level_db, self.worst_friction_level_db)]
         low_time, high_time = self.settling_time_s or (None, None)
         ratio = math.log(high_time / low_time) / math.log(ALIKE_FACTOR) if low_time and high_time else 0.0

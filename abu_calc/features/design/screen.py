@@ -113,7 +113,7 @@ def about(result: SizeResult) -> list[Block]:
 
 
 def make(result: SizeResult) -> list[Block]:
-    """What to make or buy, in a few rows."""
+    """Parts to make or buy, in a few rows."""
     abu, section = result.autobalancer, result.section
     title = "Make" if result.status == "pass" else "Best found"
     share = f"{number(100 * abu.mass_fraction, 2)} % of the machine"
