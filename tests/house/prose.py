@@ -117,6 +117,7 @@ def violations(text: str, place: str, *, repeats: bool = True) -> Iterator[Viola
             if (
                 repeats
                 and words > 5
+                and sentence[0].isupper()  # else a cell of a table, wrapped
                 and sentence in seen
                 and not (sentence.startswith(REPEATING) or LEGEND.search(sentence))
             ):
