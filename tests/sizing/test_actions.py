@@ -82,9 +82,9 @@ def parsed(entries: tuple[str, ...]) -> dict[str, object]:
     return {override.key: override.value for override in parse_overrides(list(entries))}
 
 
-@pytest.mark.parametrize(("imbalance", "grade"), [(65.0, "fail"), (77.0, "warn"), (150.0, "pass")])
+@pytest.mark.parametrize(("imbalance", "grade"), [(70.0, "fail"), (92.0, "warn"), (150.0, "pass")])
 def test_a_gain_that_cannot_be_measured_is_no_pass(imbalance: float, grade: str) -> None:
-    """With 1.7 dB, 0.4 dB and -0.9 dB of gain, the level is not, hardly and well lowered."""
+    """The lighter the imbalance, the less the balls lower the level: PASS needs a gain that an instrument shows."""
     check = check_of(size(machine(wheel__imbalance_g_mm=imbalance)), "ABU402")
     assert check.value is not None and check.limit is not None
     gain = check.limit - check.value
