@@ -111,7 +111,7 @@ def of_size(bore: float, outer: float, width: float, kind: Kind | None = None) -
     """
     wanted = tuple(round(from_si(size, "mm"), 6) for size in (bore, outer, width))
     names = _by_size().get(wanted, ())
-    return next((found for found in map(bearing, names) if kind in (None, found.kind)), None)
+    return next((entry for entry in map(bearing, names) if kind in (None, entry.kind)), None)
 
 
 @cache
@@ -124,7 +124,7 @@ def _by_size() -> dict[tuple[float, ...], tuple[str, ...]]:
         size = tuple(round(from_si(length, "mm"), 6) for length in (entry.bore, entry.outer, entry.inner_width))
         if name not in names.setdefault(size, []):
             names[size].append(name)
-    return {size: tuple(found) for size, found in names.items()}
+    return {size: tuple(designations) for size, designations in names.items()}
 
 
 def next_size(designation: str, seat: Seat) -> Dimensions | None:
