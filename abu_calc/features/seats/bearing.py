@@ -116,7 +116,8 @@ class SeatedBearing:
     `type` by whose table its rings are toleranced, `kind` what it is (None: not told), `ratings` where they are known;
     `remarks`: what was taken from where the table does not say it; `designation` ISO's, where it is known. `entry`: the
     row of the makers' catalogue; `no_inner_ring`: the needles run on the shaft. `position` along the spindle from the
-    wheel's centre [m]; `short_shares` of pairs above which a seat warns, and fails.
+    wheel's centre [m]; `short_shares` of pairs above which a seat warns, and fails. `taken_as`: the bearing that stands
+    for sizes without a type, in a sentence.
     """
 
     name: str
@@ -138,6 +139,7 @@ class SeatedBearing:
     no_inner_ring: bool = False
     position: float | None = None
     short_shares: tuple[float, float] = (0.01, 0.05)
+    taken_as: str | None = None
 
     def __post_init__(self) -> None:
         for share in self.short_shares:

@@ -1,5 +1,6 @@
 """Bearing seats judged: interference, probability of clearance, what is required, what is permitted."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -44,7 +45,10 @@ def check_fit(machine: Machine) -> CheckFitResult:
     return CheckFitResult(
         title=machine.tables.machine.name,
         checks=tuple(check for bearing in judged for check in bearing.checks),
-        warnings=machine.warnings,
+        warnings=(
+            *machine.warnings,
+            *_taken(judged),
+        ),
         # The other tables of a whole machine play no part here.
         provenance=replace(
             provenance, defaults=tuple(default for default in provenance.defaults if default[0].startswith("bearing["))
@@ -52,6 +56,14 @@ def check_fit(machine: Machine) -> CheckFitResult:
         seats=tuple(seat for bearing in judged for seat in seat_results(bearing)),
         judged=judged,
     )
+
+
+def _taken(judged: tuple[BearingSeats, ...]) -> Iterator[str]:
+    """Sentences on bearings taken for sizes without a type, each once, with its bearings if it is not of all."""
+    sentences = dict.fromkeys(each.bearing.taken_as for each in judged if each.bearing.taken_as)
+    for sentence in sentences:
+        names = [each.bearing.name for each in judged if each.bearing.taken_as == sentence]
+        yield sentence if len(names) == len(judged) else f"{'; '.join(names)}: {sentence}"
 
 
 def judged_seats(machine: Machine) -> tuple[BearingSeats, ...]:
