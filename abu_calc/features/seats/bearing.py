@@ -155,6 +155,11 @@ class SeatedBearing:
             raise InputError("the band of interference must ascend", place=Place(key="asked_interference_um"))
 
     @property
+    def drawn_cup(self) -> bool:
+        """True for drawn-cup needle bearings: the housing gives the cup its shape and holds it."""
+        return self.kind == "drawn-cup"
+
+    @property
     def equivalent_loads(self) -> tuple[float, float] | None:
         """Equivalent dynamic and static load [N]; None without a radial load or ratings.
 

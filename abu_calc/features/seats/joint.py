@@ -142,6 +142,13 @@ MEASURED: Final = "measured"
 _FOR_HALVES: Final = frozenset("FGHJ")
 
 
+BEYOND_ROWS: Final = {
+    "shaft": "No tabulated class makes up for the hollow shaft",
+    "housing": "The housing is thinner than the catalogue's row supposes",
+}
+"""Reasons why a catalogue's row gives no class for a seat."""
+
+
 class InterferenceBound(NamedTuple):
     """A bound on the interference [m] and the criterion that sets it."""
 
@@ -191,7 +198,8 @@ class Joint:
     [Pa/m], `raceway_rate` change of the raceway's diameter [1]; `part_strength` [Pa]. `maker`: the catalogue's classes
     for this seat and load, None where it has none or C is not known; `split` of a housing in halves. `pressure_kept`:
     share of the pressure that a solid shaft or a thick housing would give; `thermal_cases` at which the seat is judged;
-    `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: a shaft without inner ring.
+    `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: a shaft without inner ring;
+    `cup_classes`: the makers' for the housing of a drawn cup.
     """
 
     seat: Seat
@@ -213,6 +221,7 @@ class Joint:
     thermal_cases: tuple[ThermalCase, ...] = (ThermalCase("mounting", 0.0, 0.0),)
     short_shares: tuple[float, float] = (0.01, 0.05)
     runs_on_needles: bool = False
+    cup_classes: tuple[str, ...] = ()
 
     @property
     def diameter(self) -> float:
@@ -384,13 +393,22 @@ class Joint:
         part = InterferenceBound(
             self.part_strength / self.part_rate, f"hoop stress {strength} of the {self.seat} (Lamé)"
         )
-        return min(ring, part, key=lambda bound: bound.value)
+        lower = min(ring, part, key=lambda bound: bound.value)
+        return lower if self._of_cup is None else max(lower, self._of_cup, key=lambda bound: bound.value)
+
+    @cached_property
+    def _of_cup(self) -> InterferenceBound | None:
+        """Largest interference of the makers' classes for a drawn cup, whose thin shell they press by intent."""
+        if not self.cup_classes:
+            return None
+        most = max(self.with_class(name).interference.largest for name in self.cup_classes)
+        return InterferenceBound(most, f"the makers' {' and '.join(self.cup_classes)} for drawn cups")
 
     @property
     def permitted(self) -> InterferenceBound:
         """The stress limit, or the d/1000 of the catalogues where that is less."""
         catalogue = InterferenceBound(self.diameter / 1000, "d/1000 (bearing catalogues)")
-        return min(self.stress_limit, catalogue, key=lambda bound: bound.value)
+        return self._of_cup or min(self.stress_limit, catalogue, key=lambda bound: bound.value)
 
     @property
     def tightest(self) -> float:

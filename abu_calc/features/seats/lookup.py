@@ -191,7 +191,11 @@ def _ratings(
             f"{_both(listed)} are estimated from the sizes of the {kind} bearing, within {ESTIMATE_ERROR[kind]:.0%}."
         )
         if entry is None:
-            missing = f"No catalogue here has {size.designation}" if size.designation else "No catalogue bearing has these sizes"
+            missing = (
+                f"No catalogue here has {size.designation}"
+                if size.designation
+                else "No catalogue bearing has these sizes"
+            )
             source = f"{missing}: {source}"
     elif listed is not None and entry is not None:
         source = f"{_both(listed)} are those of {entry.designation} ({entry.source})."
