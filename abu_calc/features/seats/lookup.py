@@ -44,7 +44,7 @@ def from_table(table: "BearingTable") -> SeatedBearing:
     like = size if size.designation else of_size(size.bore, size.outer, size.inner_width, table.bearing_type)
     inner_chamfer, outer_chamfer = _chamfers(table, like)
     group = _agreed("internal_clearance", table.internal_clearance, identity.group, table)
-    _check_group(group, identity, table)
+    _check_group(group, identity._replace(kind=identity.kind or (like.kind if like else None)))
     accuracy = _agreed("bearing_class", table.bearing_class, identity.accuracy, table) or "0"
     entry = catalogue_bearing(like.designation) if like else None
     ratings, rated = _ratings(table, size, entry)
@@ -172,7 +172,7 @@ def _taken_as(table: "BearingTable", size: Dimensions, like: Dimensions | None) 
     if not kinds:
         return f"{taken}, which has these sizes."
     others = (f"{', '.join(each.designation for each in same_size if each.kind == kind)} ({kind})" for kind in kinds)
-    return f"{taken}. Of the same sizes: {'; '.join(others)}. Specify bearing_type."
+    return f"{taken}. Other bearings have these sizes: {'; '.join(others)}. Specify bearing_type."
 
 
 def _ratings(
@@ -191,12 +191,8 @@ def _ratings(
             f"{_both(listed)} are estimated from the sizes of the {kind} bearing, within {ESTIMATE_ERROR[kind]:.0%}."
         )
         if entry is None:
-            missing = (
-                f"No catalogue here has {size.designation}"
-                if size.designation
-                else "No catalogue bearing has these sizes"
-            )
-            source = f"{missing}: {source}"
+            missing = f"No ratings of {size.designation} are" if size.designation else "No bearing of these sizes is"
+            source = f"{missing} in the catalogues here: {source}"
     elif listed is not None and entry is not None:
         source = f"{_both(listed)} are those of {entry.designation} ({entry.source})."
     else:
@@ -222,7 +218,7 @@ def _agreed(key: str, given: str | None, named: str | None, table: "BearingTable
     return given if given is not None else named
 
 
-def _check_group(group: str | None, identity: _Found, table: "BearingTable") -> None:
+def _check_group(group: str | None, identity: _Found) -> None:
     if group is None:
         return
     if identity.kind is None:

@@ -276,7 +276,8 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
         others = f", also {', '.join(named)}" if named else ""
         notes.append(
             f"{source_of(bearing.kind)}: {joint.maker.classes[0]}{others} for a {bearing.kind} bearing, "
-            f"P/C = {bearing.load_ratio:.2g}, load {joint.ring.load}, seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
+            f"P/C = {bearing.load_ratio:.2g}, load {joint.ring.load}, "
+            f"seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
         )
         if best not in (None, *joint.maker.classes, *joint.maker.special):
             notes.append(_moved(joint, best or ""))

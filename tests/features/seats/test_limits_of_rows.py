@@ -121,3 +121,20 @@ def test_a_drawn_cup_wants_the_press_of_its_makers() -> None:
     assert split.housing.recommended_fit is None and "one-piece" in (check(split, "ABU611").remedy or "")
     turning = judged("HK1010", radial_load_kN=0.7, housing_fit="N6", **OUTER)
     assert "NTN" in check(turning, "ABU611").message
+
+
+def test_the_group_told_for_sizes_without_a_type_may_be_specified() -> None:
+    first = by_sizes(25, 52, 15, None, radial_load_kN=0.7)  # type: ignore[arg-type]
+    again = by_sizes(25, 52, 15, None, radial_load_kN=0.7, internal_clearance=first.group_to_order)  # type: ignore[arg-type]
+    assert first.group_to_order == "CN" and check(again, "ABU621").status != "fail"
+
+
+@pytest.mark.parametrize("named", ["suffix", "key"])
+def test_class_6x_of_tapered_bearings_has_the_seats_of_class_0(named: str) -> None:
+    """ISO 492: 6X narrows the width of the rings alone."""
+    usual = judged("32205", radial_load_kN=1.0)
+    name, changes = ("32205 P6X", {}) if named == "suffix" else ("32205", {"bearing_class": "6X"})
+    finer = judged(name, radial_load_kN=1.0, **changes)
+    for one, other in zip(usual.seats, finer.seats, strict=True):
+        assert (one.recommended_fit, one.ring_limits) == (other.recommended_fit, other.ring_limits)
+        assert (one.form, one.requirements) == (other.form, other.requirements)
