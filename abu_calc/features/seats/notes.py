@@ -201,7 +201,6 @@ def seat_notes(
         *_kept(joint),
         *_differs(joint, own, rule),
         *_load(bearing, joint, intensity),
-        *((bearing.taken_as,) if bearing.taken_as else ()),
         *bearing.remarks,
         *_advised(bearing, joint, own, given),
         *_sorting(joint, asked, selection),

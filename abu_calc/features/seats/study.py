@@ -1,11 +1,10 @@
 """Bearing seats judged: interference, probability of clearance, what is required, what is permitted."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, ClassVar
 
 from abu_calc.features.seats.records import SeatResult, seat_results
-from abu_calc.features.seats.seats import BearingSeats, seat_bearings
+from abu_calc.features.seats.seats import BearingSeats, seat_bearings, types_taken
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import record
 from abu_calc.inputs.read_machine import Machine
@@ -47,7 +46,7 @@ def check_fit(machine: Machine) -> CheckFitResult:
         checks=tuple(check for bearing in judged for check in bearing.checks),
         warnings=(
             *machine.warnings,
-            *_taken(judged),
+            *types_taken(judged),
         ),
         # The other tables of a whole machine play no part here.
         provenance=replace(
@@ -56,14 +55,6 @@ def check_fit(machine: Machine) -> CheckFitResult:
         seats=tuple(seat for bearing in judged for seat in seat_results(bearing)),
         judged=judged,
     )
-
-
-def _taken(judged: tuple[BearingSeats, ...]) -> Iterator[str]:
-    """Sentences on bearings taken for sizes without a type, each once, with its bearings if it is not of all."""
-    sentences = dict.fromkeys(each.bearing.taken_as for each in judged if each.bearing.taken_as)
-    for sentence in sentences:
-        names = [each.bearing.name for each in judged if each.bearing.taken_as == sentence]
-        yield sentence if len(names) == len(judged) else f"{'; '.join(names)}: {sentence}"
 
 
 def judged_seats(machine: Machine) -> tuple[BearingSeats, ...]:
