@@ -26,11 +26,12 @@ from abu_calc.sizing.budget import (
     accuracy_budget,
     displacement_level,
     judged_speeds,
+    loudest_displacement,
     loudest_transmission,
 )
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import EQUAL_SPEEDS, WHEEL_PLANE, Case
-from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels, in_space
+from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels, in_space, settled_levels
 
 _friction = lru_cache(maxsize=64)(worst_friction)
 """Worst friction, cached: races that differ only in their eccentricity have the same."""
@@ -38,9 +39,9 @@ _friction = lru_cache(maxsize=64)(worst_friction)
 
 @dataclass(frozen=True)
 class WorstResidual:
-    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad].
+    """Displacements 0–peak of the race [m] at one speed [rad/s]; `angles`: where the balls then stand [rad].
 
-    `at_race`: the residual without what a race off the wheel's plane leaves at the wheel.
+    `at_race`: the residual without what a race off the wheel's plane leaves at the loudest place.
     """
 
     speed: float
@@ -66,7 +67,10 @@ def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> 
     friction = max(held.displacement, usual.rolling_friction)
     parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.capacity_shortfall
     at_race = math.fsum(parts)
-    return WorstResidual(speed, friction, held.angles, at_race + usual.plane_offset, at_race)
+    if not case.race_offset:
+        return WorstResidual(speed, friction, held.angles, at_race, at_race)
+    loudest = loudest_displacement(case, imbalance, candidate.mass, at_race, in_line=True)
+    return WorstResidual(speed, friction, held.angles, loudest / loudest_transmission(case, candidate.mass), at_race)
 
 
 CURVE_STEPS = 6
@@ -110,7 +114,7 @@ def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible:
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
     budget = _budget(case, imbalance, candidate, case.speed) if possible else None
-    levels = handle_levels(case, before, budget.residual if budget else None, candidate.mass)
+    levels = settled_levels(case, before, budget.at_race if budget else None, imbalance, candidate.mass)
     if not (case.body.in_space and case.handles):
         return levels
     return replace(levels, places=in_space(case, imbalance, candidate, budget.at_race if budget else None))

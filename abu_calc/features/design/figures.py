@@ -152,10 +152,10 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
         return
     limit = (budget.permitted_um, f"permitted {micrometres(budget.permitted_um)}") if budget.permitted_um else None
     axis = Axis(
-        "displacement at the wheel, 0–peak [µm]", 0.0, max(max(bar.value for bar in rows), limit[0] if limit else 0)
+        "displacement of the race, 0–peak [µm]", 0.0, max(max(bar.value for bar in rows), limit[0] if limit else 0)
     )
     text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
-    caption = "Displacements that remain at the wheel after the balls settle, by cause, and their sums."
+    caption = "Displacements of the race that remain after the balls settle, by cause, and their sums."
     caption += " The expected residual should end left of the dashed line." if limit else ""
     yield Figure("budget", "accuracy-budget", Bars("Residual-displacement budget", text, axis, rows, limit), caption)
 
