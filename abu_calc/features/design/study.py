@@ -198,7 +198,12 @@ def size(
             *lost,
         ),
         warnings=merged(
-            *machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work, loads, bound)
+            *machine.warnings,
+            *_types_taken(seats),
+            *tried.warnings,
+            *design.warnings,
+            *remarks,
+            *_under_load(work, loads, bound),
         ),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
@@ -267,6 +272,14 @@ def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
     from abu_calc.features.seats.seats import seat_bearings
 
     return seat_bearings(tables.bearing)
+
+
+def _types_taken(seats: "tuple[BearingSeats, ...]") -> Iterator[str]:
+    """Sentences on bearings that were taken for sizes without a type."""
+    if seats:
+        from abu_calc.features.seats.seats import types_taken
+
+        yield from types_taken(seats)
 
 
 def _with_lives(

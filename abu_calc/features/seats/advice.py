@@ -210,7 +210,7 @@ def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
     """
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
     inner, outer = (
-        None if overloaded(bearing) and joint.must_grip else advised(joint, start, makers_classes(bearing, joint.seat))
+        None if _hopeless(bearing, joint) else advised(joint, start, makers_classes(bearing, joint.seat))
         for joint in (shaft, housing)
     )
     group = None
@@ -239,7 +239,16 @@ def _with_neighbours(
         text = f"no operating clearance is left in {of_all(share, 'bearings')} of group {group}"
         return text if share > _share_to_order(*pair) else None
 
-    return SeatAdvice(best, neighbours(best, start, too_tight) if best else ())
+    if best is None or (bearing.drawn_cup and best.seat == "housing"):  # a drawn cup need not move
+        return SeatAdvice(best, ())
+    return SeatAdvice(best, neighbours(best, start, too_tight))
+
+
+def _hopeless(bearing: SeatedBearing, joint: Joint) -> bool:
+    """True if no class helps: the load is above C0, or a split housing should hold a drawn cup."""
+    if joint.seat == "housing" and bearing.drawn_cup and bearing.housing.split:
+        return True
+    return overloaded(bearing) and joint.must_grip
 
 
 def overloaded(bearing: SeatedBearing) -> bool:
