@@ -21,7 +21,7 @@ MOST_AXES: Final = 3
 class Recording:
     """Samples [SI] of a quantity at `rate` [1/s]: axis by axis, in their order in the file, with their names.
 
-    `told`: what a reader must know of how the file was taken; `simulated`: whether it is a trajectory of a simulation.
+    `remarks`: facts that a reader must know of how the file was taken; `simulated`: whether a simulation made it.
     `handles`: the handle that each axis is measured at; "": the file names none.
     """
 
@@ -31,7 +31,7 @@ class Recording:
     names: tuple[str, ...]
     samples: tuple[NDArray[np.float64], ...]
     rate: float
-    told: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
     simulated: bool = False
     handles: tuple[str, ...] = ()
     clipped: tuple[str, ...] = ()

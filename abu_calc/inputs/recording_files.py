@@ -101,7 +101,7 @@ def _handles(table: Lines, columns: Sequence[RecordingColumn], remarks: list[str
 
 def _sensor(table: Lines, column: RecordingColumn, number: int, asked: RecordingOptions) -> Sensitivity | None:
     """Sensitivity of a column in volts; None for one in units of motion. Refused if it is missing or not asked for."""
-    own = next((one for one in asked.sensitivities if one.channel in (column.name, str(number))), None)
+    own = next((given for given in asked.sensitivities if given.channel in (column.name, str(number))), None)
     sensor = sensitivity_of(asked.sensitivities, column.name, number)
     if column.volts is None or asked.scale is not None:
         if own is not None:
@@ -167,8 +167,8 @@ def _quantity(
     path: str, columns: Sequence[RecordingColumn], sensors: Sequence[Sensitivity | None], asked: RecordingOptions,
     remarks: list[str],
 ) -> MotionQuantity:  # fmt: skip
-    told = [*(sensor.quantity for sensor in sensors if sensor is not None), *(column.quantity for column in columns)]
-    quantities = list(dict.fromkeys(quantity for quantity in told if quantity is not None))
+    given = [*(sensor.quantity for sensor in sensors if sensor is not None), *(column.quantity for column in columns)]
+    quantities = list(dict.fromkeys(quantity for quantity in given if quantity is not None))
     if asked.quantity is not None and quantities in ([], [asked.quantity]):
         return asked.quantity
     if asked.quantity is not None or len(quantities) > 1:

@@ -142,7 +142,7 @@ class _MakerRow(NamedTuple):
     to: float
     over: float
     to_mm: float
-    found: MakerFits
+    fits: MakerFits
 
 
 def maker_fits(
@@ -174,7 +174,7 @@ def maker_fits(
     for like in _same_rows(kind):
         for row in _maker_rows().get((seat, accuracy, like, asked), ()):
             if row.over < size <= row.to_mm and (row.above < ratio <= row.to or ratio <= row.above == 0):
-                fits = _for_thin(row.found) if thin and (load != "stationary" or kind == "drawn-cup") else row.found
+                fits = _for_thin(row.fits) if thin and (load != "stationary" or kind == "drawn-cup") else row.fits
                 return _for_split(fits) if split else fits
     return None
 

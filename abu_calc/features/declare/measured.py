@@ -319,7 +319,7 @@ def _remarks(measured: Sequence[_Measured], factor: float) -> Iterator[str]:
     told: dict[str, dict[str, None]] = {}
     for each in measured:
         for part in each.parts:
-            for remark in part.recording.told:
+            for remark in part.recording.remarks:
                 told.setdefault(remark, {})[Path(part.recording.file).name] = None
     for remark, files in told.items():
         names = list(files)

@@ -81,7 +81,7 @@ def test_svg_is_well_formed_alike_each_time_and_its_texts_are_texts(name: str) -
     told = set(re.findall(r"#[0-9a-f]{6}", file))
     assert told <= {*(color[:7] for color in colors().values()), "#ffffff", "#000000"}, told
     if isinstance(one.shown, Bars):
-        assert {row.told for row in one.shown.rows} | {row.name for row in one.shown.rows} <= set(texts)
+        assert {row.text for row in one.shown.rows} | {row.name for row in one.shown.rows} <= set(texts)
     if isinstance(one.shown, Plot):
         assert {line.name for line in one.shown.legend} <= set(texts)
 
@@ -130,7 +130,7 @@ def test_large_imbalances_are_written_as_tables_have_them() -> None:
     shown = caught(cast(RotorView, view), np.array([100.0, 5800.0]))
     assert [one.name for one in shown.legend] == ["speed, of 5800 rpm", "imbalance left, of 1136 g·mm"]
     rest = settling(cast(RotorView, view), 12345.6)
-    assert rest.told == "From 1136 g·mm at the start to 12.00 g·mm at 1 s"
+    assert rest.summary == "From 1136 g·mm at the start to 12.00 g·mm at 1 s"
     assert rest.limit is not None and rest.limit[1] == "permitted 12350 g·mm"
 
 
