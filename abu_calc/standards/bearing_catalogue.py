@@ -115,7 +115,7 @@ def of_size(bore: float, outer: float, width: float, kind: Kind | None = None) -
 def all_of_size(bore: float, outer: float, width: float) -> tuple[Dimensions, ...]:
     """All tabulated bearings of this bore, outside diameter and inner ring width [m], ball bearings first.
 
-    >>> [found.designation for found in all_of_size(0.080, 0.140, 0.033)]
+    >>> [entry.designation for entry in all_of_size(0.080, 0.140, 0.033)]
     ['32216', 'NU2216', '22216']
     """
     wanted = tuple(round(from_si(size, "mm"), 6) for size in (bore, outer, width))

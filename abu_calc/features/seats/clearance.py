@@ -126,13 +126,13 @@ def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Jo
         mean=(start.smallest + start.largest) / 2 - taken - mounting.warmth,
         below_zero_probability=mounting.share_below(group),
         by_temperature=mounting.warmth,
-        group_to_choose=_lighter(mounting, group) if group in PRELOADED else mounting.group_to_choose,
+        group_to_choose=lighter_group(mounting, group) if group in PRELOADED else mounting.group_to_choose,
         axial=mounting.axial,
         preload=_preload(mounting, probable) if mounting.axial else None,
     )
 
 
-def _lighter(mounting: Mounting, group: str) -> str | None:
+def lighter_group(mounting: Mounting, group: str) -> str | None:
     """The heaviest group of preload, lighter than a group, that stays below its limit; else one that keeps clearance.
 
     The group itself if it stays below.

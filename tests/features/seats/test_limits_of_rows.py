@@ -5,8 +5,10 @@ from typing import Any
 import pytest
 
 from abu_calc.features.seats.checks import life_checks
+from abu_calc.features.seats.records import seat_results
 from abu_calc.features.seats.seats import BearingSeats
 from abu_calc.features.seats.study import check_fit
+from abu_calc.features.seats.view import advice_lines
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read
 from tests.features.seats.test_verdicts import by_sizes, judged
@@ -138,3 +140,26 @@ def test_class_6x_of_tapered_bearings_has_the_seats_of_class_0(named: str) -> No
     for one, other in zip(usual.seats, finer.seats, strict=True):
         assert (one.recommended_fit, one.ring_limits) == (other.recommended_fit, other.ring_limits)
         assert (one.form, one.requirements) == (other.form, other.requirements)
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "told"),
+    [("30208", "CN", "CN"), ("30208", "C2", "C2"), ("7208B", "CB", "CB"), ("7208B", "GB", "CB"), ("30208", None, None)],
+)
+def test_the_group_of_a_pair_is_told_with_its_classes_and_none_fails(
+    name: str, given: str | None, told: str | None
+) -> None:
+    """A pair keeps its group if its seats allow it: the report never says that none keeps clearance."""
+    first = judged(name, radial_load_kN=5.0, internal_clearance=given)
+    assert first.group_to_order == told
+    fits = {"shaft_fit": first.shaft.recommended_fit, "housing_fit": first.housing.recommended_fit}
+    again = judged(name, radial_load_kN=5.0, internal_clearance=told, **fits)
+    assert "fail" not in [each.status for each in again.checks]
+    text = "\n".join(str(block) for block in advice_lines(seat_results(first)))
+    assert "no tabulated clearance group" not in text
+    assert told is None or f"clearance {told}" in text
+
+
+def test_an_overloaded_bearing_is_not_told_of_clearance() -> None:
+    first = judged("6205", radial_load_kN=14.0, internal_clearance="CN")
+    assert "clearance" not in str(advice_lines(seat_results(first))[0])
