@@ -158,7 +158,8 @@ def test_starts_are_those_of_the_ensemble() -> None:
     slowest = [one for one in views if not one.why]
     assert [one.settling_time_s for one in slowest] == [times[one.start, one.drag_per_s] for one in slowest]
     for one in views:
-        assert one.view.level_db[-1] == pytest.approx(one.level_db, abs=0.5)
+        # A start whose balls creep where no verdict can change is not followed to its end: its level may still move.
+        assert one.view.level_db[-1] == pytest.approx(one.level_db, abs=1.0)
         assert len(one.view.t_s) <= 250
     assert ensemble.level_db.worst == max(one.level_db for one in views)
 
