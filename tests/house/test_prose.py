@@ -75,7 +75,7 @@ def test_reports_of_many_random_machines(part: int) -> None:
     assert found_in(texts) == []
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @pytest.mark.parametrize("part", range(6))
 def test_reports_of_plausible_machines(part: int, tmp_path: Path) -> None:
     """60 machines of all families, each screen and whole report; simulations end after a few seconds."""
