@@ -85,7 +85,7 @@ _ROLLERS: Final = (1.5859, ((0.4, 1.3993, 0.054381), (1.0, 1.2348, 0.19087), (ma
 def life_modification(kind: Kind, kappa: float, contaminated_ratio: float) -> float:
     """
     >>> round(life_modification("ball", 1.0, 0.1), 2), life_modification("ball", 0.05, 0.1)
-    (1.09, 0.1)
+    (2.43, 0.1)
     """
     rollers = kind in ROLLERS
     top, rows = _ROLLERS if rollers else _BALLS
