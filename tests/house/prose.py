@@ -46,7 +46,7 @@ BANNED: Final = {
 }
 """Words and phrases that the glossary replaces, where they have no other meaning in these texts."""
 HEADLESS: Final = re.compile(r"(?:What|Of|Where|Who)\s")
-REPEATING: Final = ("Assumed:", "Cost:", "Range:", "Left out:", "Action: See the action of")
+REPEATING: Final = ("All ", "Assumed:", "Cost:", "Range:", "Left out:", "Action: See the action of")
 """Beginnings of sentences that may repeat: computing times, ranges of formulas, effects left out of scenes."""
 SENTENCE: Final = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 ONE_OF_MANY: Final = re.compile(

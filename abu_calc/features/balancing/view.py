@@ -202,7 +202,7 @@ def _tolerance(result: BalanceResult) -> list[Block]:
         return []
     rows = tuple(
         (tolerance.planes.removesuffix("s") if name == "single" else name,
-         *(f"{number(_permitted(result, name, what), 3)} g·mm" for what in ("_now", "_rest", "")))
+         *(f"{number(_permitted(result, name, what), 4)} g·mm" for what in ("_now", "_rest", "")))
         for name, _ in result.planes
     )  # fmt: skip
     words = f"ISO 21940-11: {number(tolerance.whole_g_mm)} g·mm in all, {tolerance.rule}."
