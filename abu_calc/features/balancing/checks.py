@@ -178,7 +178,8 @@ def _trials(balancing: Found) -> Iterator[Check]:
     )
     yield coded(
         "ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),
-        "vector change of a reading by the weaker trial mass, of that reading without it", value, TELLS[0], None, remedy, "least",
+        "vector change of a reading by the weaker trial mass, of that reading without it",
+        value, TELLS[0], None, remedy, "least",
     )  # fmt: skip
 
 

@@ -33,7 +33,7 @@ _SPAN = Range("distance of the bearings", 0.0, 1e3, "m", open_low=True)
         "more than the whole weight."
     ),
     checked=(_SPAN,),
-    source="ISO 21940-11:2016, allocation to tolerance planes; the limits of overhung rotors as in ISO 1940-1:2003, unverified",
+    source="ISO 21940-11:2016, allocation to tolerance planes; limits of overhung rotors: ISO 1940-1:2003, unverified",
 )
 def tolerance_shares(permitted: float, left: float, right: float) -> tuple[float, float]:
     """Shares of the left and the right bearing; `left`, `right`: from each bearing to the centre of mass, negative if
