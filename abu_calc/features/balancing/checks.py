@@ -41,7 +41,7 @@ LIGHTER: Final = "Allow lighter weights or other places: masses that nearly canc
 def balance_checks(balancing: Found, taken: Sequence[Taken]) -> tuple[Check, ...]:
     """Checks that there are numbers for."""
     return (
-        *_planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing),
+        *_planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), *_sure(balancing),
         *_permitted(balancing), *_agree(balancing), *_trials(balancing), *_metal(balancing), *_convention(taken),
         *_coefficients(balancing), *_room(balancing), *_discrete(balancing),
     )  # fmt: skip
@@ -105,8 +105,21 @@ def _rpm(speed: float) -> str:
     return f"{from_si(speed, 'rpm'):.0f} rpm"
 
 
-def _sure(balancing: Found) -> Check:
+def _sure(balancing: Found) -> Iterator[Check]:
+    """Check of a correction; a rotor within its tolerance that needs none has no such check."""
     share = balancing.error_share
+    if balancing.below:
+        tolerance = balancing.tolerance
+        if tolerance is None or any(
+            2 * rest > permitted
+            for rest, permitted in zip(balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True)
+        ):
+            yield coded(
+                "ABU1004", "not-done", "the imbalance is below the errors of these runs: no correction can be trusted",
+                100 * share, 100 * SURE[0], "%",
+                "Leave the rotor as it is, or measure with smaller errors. Specify tolerance.balance_grade.",
+            )  # fmt: skip
+        return
     remedy = None
     if share >= 1:
         remedy = LIGHTER
@@ -115,7 +128,7 @@ def _sure(balancing: Found) -> Check:
             "Measure and correct once more after this correction: the remaining vibration falls from "
             f"{100 * share:.1f} to {100 * share**2:.1f} % (calculated with the same errors)."
         )
-    return coded(
+    yield coded(
         "ABU1004", verdict(share <= SURE[1], share <= SURE[0]),
         "vibration that errors of readings, rig and correction leave, rms, of that now", 100 * share,
         100 * SURE[0], "%", remedy,
@@ -131,7 +144,9 @@ def _permitted(balancing: Found) -> Iterator[Check]:
         balancing.planes, balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True
     ):
         remedy = None
-        if 2 * rest > permitted and any(balancing.leftover):
+        if 2 * rest > permitted and balancing.below:
+            remedy = "Measure with smaller errors: no correction can be trusted with these."
+        elif 2 * rest > permitted and any(balancing.leftover):
             left = from_si(sum(map(abs, balancing.leftover)), "g_mm")
             remedy = f"Allow places and weights that leave less: limits and stock leave {left:.4g} g·mm (ABU1012)."
         elif 2 * rest > permitted and balancing.error_share >= 1:
@@ -226,7 +241,7 @@ def _discrete(balancing: Found) -> Iterator[Check]:
     """Check of masses that are limited or in stock."""
     making = balancing.making
     depth = making.drill is not None and making.drill.limited
-    if not (making.stock or making.per_place is not None or depth):
+    if balancing.below or not (making.stock or making.per_place is not None or depth):
         return
     value = max(
         (abs(left) / abs(Q) for left, Q in zip(balancing.leftover, balancing.target, strict=True) if Q), default=0.0

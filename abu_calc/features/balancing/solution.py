@@ -30,6 +30,8 @@ FARTHER: Final = 1.6
 """Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
 HOPELESS: Final = 1.0
 """Vibration left, of that before, from which on the correction may do more harm than good: no number is given."""
+FINE: Final = 0.1
+"""Error of an imbalance over the trial mass up to which the imbalance is measured well."""
 MUCH: Final = 10.0
 """Such a part whose size is of no interest."""
 ROUNDING: Final = 1e-9
@@ -48,6 +50,8 @@ class Found:
     sigma: Deviations
     solution: Solution
     by: Sequence[ErrorContribution]
+    below: bool
+    """True if the imbalance is below its errors: no correction is proposed."""
     placed: Spread
     """Changes by the errors of the correction itself, mass by mass."""
     spread: Spread
@@ -88,7 +92,9 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
     answer = _answer(case, method_of(case), sigma, replaced)
     service, making = _service_speed(file, case), making_of(file)
     radii = tuple(to_si(radius, "mm") for radius in file.radii_mm)
-    shares = [_shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)]
+    shares: list[tuple[MassShare, ...]] = [
+        () if answer.below else _shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)
+    ]
     leftover = tuple(_leftover(*each) for each in zip(answer.target, shares, radii, strict=True))
     placed = placing([_pieces(*each) for each in zip(shares, radii, strict=True)], sigma)
     errors = [*(change.imbalance for change in answer.by), *placed]
@@ -99,6 +105,7 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         solution=answer.solution,
         by=answer.by,
         placed=placed,
+        below=answer.below,
         spread=spread,
         target=answer.target,
         leftover=leftover,
@@ -122,6 +129,17 @@ class _Answer:
     solution: Solution
     target: Vector
     by: Sequence[ErrorContribution]
+    below: bool = False
+
+
+def _finely_measured(case: Balancing, method: Method, by: Sequence[ErrorContribution]) -> bool:
+    """Tell whether trial masses measure the imbalance well, so that it is small and not unknown."""
+    if method not in ("trial masses", "runs without phase") or case.roll is not None:
+        return False
+    return all(
+        size(change.imbalance[plane] for change in by) <= FINE * max(abs(run.placed[plane]) for run in case.runs)
+        for plane in range(case.planes)
+    )
 
 
 def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[TrialMass, ...]) -> _Answer:
@@ -136,6 +154,8 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
         by = [*changes(case, method, sigma), *_of_fitted(case, replaced, sigma)]
         spread = [*(change.imbalance for change in by), *placing([(Q,) for Q in target], sigma)]
         share = _rest_share(solution, spread)
+        if share > HOPELESS and not replaced and _finely_measured(case, method, by):
+            return _Answer(solution, target, by, below=True)
         if share > HOPELESS:
             raise NotTrustworthyError(_hopeless(case, share))
     except NotTrustworthyError:

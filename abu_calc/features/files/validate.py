@@ -102,9 +102,7 @@ def _named(stored: "Stored") -> str:
 def validate(
     files: Annotated[
         list[str],
-        typer.Argument(
-            metavar="FILE", help="Files of machines, scenes, readings or coefficients, or names of presets."
-        ),
+        typer.Argument(metavar="FILE", help="Files of any kind that abu reads, or names of presets."),
     ],
     set_: Overrides = None,
 ) -> Outcome:
