@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, get_args
 
 import typer
 
-from abu_calc.cli.help import OUTPUT, SectionedCommand
+from abu_calc.cli.help import OUTPUT, HelpAll, SectionedCommand
 from abu_calc.cli.output import Delivery, asked_figures, deliver, figure_option
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, OutputError, Place
@@ -130,13 +130,14 @@ def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) 
 Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")]
 Overrides = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Replace one entry of the file by a TOML value; repeatable."),
+    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Replace one entry by a TOML value; repeatable."),
 ]
 
 
 def _output_option(formats: Iterable[str]) -> Any:
     """The option --output with the formats that one command writes."""
-    text = f"Also write the result. The suffix sets the format: {', '.join(formats)}."
+    *others, last = formats
+    text = f"Also write the result as {', '.join(others)}{' or ' if others else ''}{last}."
     return Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help=text, rich_help_panel=OUTPUT)]
 
 
@@ -171,7 +172,7 @@ def _walled(
         typer.Option(
             "--patience",
             metavar="S",
-            help="Simulate for at most this many seconds. Checks that need more time are NOT EVALUATED.",
+            help="Longest simulation; open checks are NOT EVALUATED.",
         ),
     ] = None,
 ) -> None:
@@ -187,15 +188,18 @@ def add_command(
     *,
     formats: tuple[str, ...] = (),
     simulates: bool = False,
+    seldom: Iterable[str] = (),
 ) -> None:
     """Register a command whose function returns an Outcome, with the shared options behind its own.
 
     `more`: options from a table, which the function takes as `**` keywords; `drawn`: suffixes of its drawing's files;
     `formats`: those of --output, for commands whose result is a text of its own; `simulates`: whether the command has
-    the option --patience.
+    the option --patience; `seldom`: panels and options that `--help` lists by name and `--help-all` explains.
     """
     named = inspect.signature(function, eval_str=True).parameters.values()
     own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
+    listed = frozenset(seldom)
+    helped = [Parameter("help_all", Parameter.KEYWORD_ONLY, default=False, annotation=HelpAll)] if listed else []
     walled = dict(inspect.signature(_walled, eval_str=True).parameters) if simulates else {}
     shared = _shared_by(name, drawn, formats)
     options = {key: option for key, each in (own | walled).items() if (option := _option(each))}
@@ -213,7 +217,7 @@ def add_command(
 
     parameters = [
         parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-        for parameter in (*own.values(), *walled.values(), *shared.values())
+        for parameter in (*own.values(), *walled.values(), *shared.values(), *helped)
         if parameter.name != "how"
     ]
     run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
@@ -221,7 +225,7 @@ def add_command(
     run.__doc__ = function.__doc__
     app.command(
         name,
-        cls=SectionedCommand,
+        cls=type("Command", (SectionedCommand,), {"seldom": listed}),
         short_help=inspect.cleandoc(run.__doc__ or "").partition("\n")[0],
         rich_help_panel=group_of(name),
     )(run)

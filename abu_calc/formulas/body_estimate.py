@@ -70,7 +70,7 @@ class BodyEstimate:
 
 
 def estimate_source() -> str:
-    """Where the shapes are from, in words."""
+    """Source of the shapes, in words."""
     table = toml_table("body_estimates")
     return f"{table['source']}; {table['edition']}, not measured"
 

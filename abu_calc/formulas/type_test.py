@@ -70,7 +70,7 @@ class HandleGain:
 
     @classmethod
     def of(cls, body: TypeTestBody, handle: HandleMotion) -> "HandleGain":
-        """With V = (d − g_rw·U)/g_rr the handle moves by −(A_hw U + A_hr V)."""
+        """Gain of a handle, which moves by −(A_hw U + A_hr V) with V = (d − g_rw·U)/g_rr."""
         Q = [-motion / body.race_by_race for motion in handle.by_race]
         P = [-wheel - q * body.race_by_wheel for wheel, q in zip(handle.by_wheel, Q, strict=True)]
         return cls(

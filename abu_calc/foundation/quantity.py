@@ -184,7 +184,7 @@ def _holding(sources: tuple[object, ...], attribute: str) -> list[int]:
 
 
 def _conversion(kind: type[Record], field: "Field[Any]", unit: str) -> Callable[[Any], object] | None:
-    parts = list(_parts(field.type))
+    parts = list(parts_of_type(field.type))
     inner = next((part for part in parts if isinstance(part, type) and issubclass(part, Record)), None)
     factor, decimals, optional = SI_PER_UNIT.get(unit, 1.0), kind.decimals.get(unit), NoneType in parts
     if inner is None and factor == 1 and not optional:
@@ -205,11 +205,11 @@ def _conversion(kind: type[Record], field: "Field[Any]", unit: str) -> Callable[
     return converted
 
 
-def _parts(hint: Any) -> Iterator[Any]:
+def parts_of_type(hint: Any) -> Iterator[Any]:
     """A type and all that it is made of."""
     yield hint
     for part in get_args(hint):
-        yield from _parts(part)
+        yield from parts_of_type(part)
 
 
 def as_plain(value: object) -> Any:

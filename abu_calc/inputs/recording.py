@@ -21,7 +21,7 @@ MOST_AXES: Final = 3
 class Recording:
     """Samples [SI] of a quantity at `rate` [1/s]: axis by axis, in their order in the file, with their names.
 
-    `told`: what a reader must know of how the file was taken; `simulated`: whether it is a trajectory of a simulation.
+    `remarks`: facts that a reader must know of how the file was taken; `simulated`: whether a simulation made it.
     `handles`: the handle that each axis is measured at; "": the file names none.
     """
 
@@ -31,9 +31,10 @@ class Recording:
     names: tuple[str, ...]
     samples: tuple[NDArray[np.float64], ...]
     rate: float
-    told: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
     simulated: bool = False
     handles: tuple[str, ...] = ()
+    clipped: tuple[str, ...] = ()
 
     @property
     def duration(self) -> float:
@@ -64,6 +65,7 @@ class RecordingOptions:
     sensitivities: tuple[Sensitivity, ...] = ()
     handles: tuple[tuple[str, tuple[str, ...]], ...] = ()
     full_scale: float | None = None
+    keep_clipped: bool = False
 
     @property
     def asked_channels(self) -> tuple[str, ...]:
@@ -77,7 +79,7 @@ class RecordingOptions:
 
 def recording(
     path: str, content: bytes, quantity: MotionQuantity, axes: Sequence[tuple[str, NDArray[np.float64]]], rate: float,
-    remarks: Sequence[str] = (), *, simulated: bool = False, handles: Sequence[str] = (),
+    remarks: Sequence[str] = (), *, simulated: bool = False, handles: Sequence[str] = (), clipped: Sequence[str] = (),
 ) -> Recording:  # fmt: skip
     """Recording of the data read; refused with more than three axes at a place, or with one that stands still."""
     names, samples = tuple(name for name, _ in axes), tuple(values for _, values in axes)
@@ -103,7 +105,9 @@ def recording(
             remedy="A sensor that is not connected? Leave the channel out: --channels (Python: channels=).",
         )  # fmt: skip
     digest = hashlib.sha256(content).hexdigest()
-    return Recording(path, digest, quantity, names, samples, rate, tuple(remarks), simulated, tuple(handles))
+    return Recording(
+        path, digest, quantity, names, samples, rate, tuple(remarks), simulated, tuple(handles), tuple(clipped)
+    )
 
 
 def chosen(path: str, names: Sequence[str], channels: Sequence[str]) -> list[int]:

@@ -39,6 +39,8 @@ AXIS_WORDS: Final = frozenset({"x", "y", "z", "ax", "ay", "az", "vx", "vy", "vz"
 _NOT_HANDLES: Final = (
     "signal sensor channel ch column axis vibration датчик канал виброускорение виброскорость ускорение скорость"
 )
+IMPERIAL: Final = frozenset({"in", "inch", "ips", "mil", "mils", "ft", "db"})
+"""Units in brackets that are not read: imperial ones, and levels."""
 NO_HANDLE: Final = frozenset({*WORDS, *_NOT_HANDLES.split()})
 """Words of a column's name that name no handle."""
 BRACKETS: Final = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")
@@ -49,7 +51,7 @@ class RecordingColumn:
     """A column by its name: its quantity (None: not known), time or not, SI per unit (None: no unit is named).
 
     `volts`: volts per unit of a column that needs a sensitivity; `handle`: where it was measured, "" if it names none;
-    `names_axis`: whether its last word is an axis.
+    `names_axis`: whether its last word is an axis; `unknown_unit`: text in brackets that is no unit of this table.
     """
 
     name: str
@@ -59,6 +61,7 @@ class RecordingColumn:
     volts: float | None = None
     handle: str = ""
     names_axis: bool = False
+    unknown_unit: str = ""
 
     @property
     def may_be_axis(self) -> bool:
@@ -84,7 +87,14 @@ def column_of(name: str) -> RecordingColumn:
     if first in TIMES or unit.lower() in TIME:
         return RecordingColumn(name, None, True, TIME.get(unit.lower()))
     quantity, size = known or (WORDS.get(first) or (WORDS.get(last) if last in AXIS_WORDS else None), None)
-    return RecordingColumn(name, quantity, False, size, VOLTS.get(unit), _handle(words), last in AXIS_WORDS)
+    volts = VOLTS.get(unit)
+    unknown = unit if match and size is None and volts is None and _is_unit(unit) else ""
+    return RecordingColumn(name, quantity, False, size, volts, _handle(words), last in AXIS_WORDS, unknown)
+
+
+def _is_unit(text: str) -> bool:
+    """True for text in brackets that can only be a unit, as it is a quotient or an imperial one."""
+    return "/" in text or text.lower() in IMPERIAL
 
 
 def _handle(words: list[str]) -> str:

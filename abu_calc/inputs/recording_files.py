@@ -38,6 +38,8 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
     rate = rate_of(table, time, columns[time])
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
     picked = _picked(table, columns, time, asked, simulated=simulated)
+    if asked.scale is None:
+        _refuse_unknown_units(table, [columns[k] for k in picked])
     sensors = [_sensor(table, columns[k], k + 1 - (k > time), asked) for k in picked]
     _all_used(path, asked, [columns[k].name for k in picked], sensors, remarks)
     quantity = _quantity(path, [columns[k] for k in picked], sensors, asked, remarks)
@@ -54,7 +56,28 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
                 "that is clipped reads too low."
             )
     handles = asked.handle_names() or _handles(table, [columns[k] for k in picked], remarks)
-    return recording(path, content, quantity, axes, rate, remarks, simulated=simulated, handles=handles)
+    return recording(
+        path,
+        content,
+        quantity,
+        axes,
+        rate,
+        remarks,
+        simulated=simulated,
+        handles=handles,
+        clipped=[name for name, cut in clipped if cut is not None],
+    )
+
+
+def _refuse_unknown_units(table: Lines, columns: Sequence[RecordingColumn]) -> None:
+    """Refuse a column whose brackets hold a unit that is not known: its numbers would be taken for SI."""
+    for column in columns:
+        if column.unknown_unit:
+            raise InputError(
+                "a column with a unit that is not known", place=Place(table.path, table.head, column.name),
+                found=column.unknown_unit, allowed="m/s², mm/s², g, mm/s, m/s, µm, mm, mV, V and the like",
+                remedy="Convert the column, or give --scale: SI per unit of the file (Python: scale=).",
+            )  # fmt: skip
 
 
 def _handles(table: Lines, columns: Sequence[RecordingColumn], remarks: list[str]) -> tuple[str, ...]:
@@ -78,7 +101,7 @@ def _handles(table: Lines, columns: Sequence[RecordingColumn], remarks: list[str
 
 def _sensor(table: Lines, column: RecordingColumn, number: int, asked: RecordingOptions) -> Sensitivity | None:
     """Sensitivity of a column in volts; None for one in units of motion. Refused if it is missing or not asked for."""
-    own = next((one for one in asked.sensitivities if one.channel in (column.name, str(number))), None)
+    own = next((given for given in asked.sensitivities if given.channel in (column.name, str(number))), None)
     sensor = sensitivity_of(asked.sensitivities, column.name, number)
     if column.volts is None or asked.scale is not None:
         if own is not None:
@@ -144,8 +167,8 @@ def _quantity(
     path: str, columns: Sequence[RecordingColumn], sensors: Sequence[Sensitivity | None], asked: RecordingOptions,
     remarks: list[str],
 ) -> MotionQuantity:  # fmt: skip
-    told = [*(sensor.quantity for sensor in sensors if sensor is not None), *(column.quantity for column in columns)]
-    quantities = list(dict.fromkeys(quantity for quantity in told if quantity is not None))
+    given = [*(sensor.quantity for sensor in sensors if sensor is not None), *(column.quantity for column in columns)]
+    quantities = list(dict.fromkeys(quantity for quantity in given if quantity is not None))
     if asked.quantity is not None and quantities in ([], [asked.quantity]):
         return asked.quantity
     if asked.quantity is not None or len(quantities) > 1:
@@ -210,14 +233,16 @@ def wav_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
         remarks.append("The samples are taken for accelerations; --quantity velocity says otherwise.")
     if len(picked) > 1 and not asked.handles:
         remarks.append(f"The {len(picked)} channels are taken for axes of one place.")
+    clipped = list[str]()
     axes = [
         (
             column.name,
-            _full_scale(path, column.name, columns[k], rate) * _unit(column, sensor, quantity, asked, remarks),
+            _full_scale(path, column.name, columns[k], rate, clipped if asked.keep_clipped else None)
+            * _unit(column, sensor, quantity, asked, remarks),
         )
         for k, column, sensor in zip(picked, described, sensors, strict=True)
     ]
-    return recording(path, content, quantity, axes, float(rate), remarks, handles=asked.handle_names())
+    return recording(path, content, quantity, axes, float(rate), remarks, handles=asked.handle_names(), clipped=clipped)
 
 
 def _read(path: str, content: bytes) -> tuple[int, NDArray[Any]]:
@@ -235,8 +260,13 @@ def _read(path: str, content: bytes) -> tuple[int, NDArray[Any]]:
     return rate, np.asarray(data)
 
 
-def _full_scale(path: str, name: str, values: NDArray[Any], rate: int) -> NDArray[np.float64]:
-    """Samples as shares of full scale; refused where they are cut off there, or are no numbers."""
+def _full_scale(
+    path: str, name: str, values: NDArray[Any], rate: int, clipped: list[str] | None
+) -> NDArray[np.float64]:
+    """Samples as shares of full scale; refused where they are no numbers, or are cut off there.
+
+    `clipped` takes the names of channels that are cut off; None: they are refused.
+    """
     kind = str(values.dtype)
     zero, full = WHOLE.get(kind, (0.0, 1.0))
     samples = (values.astype(float) - zero) / full
@@ -246,7 +276,9 @@ def _full_scale(path: str, name: str, values: NDArray[Any], rate: int) -> NDArra
     step = 1 / full if kind in WHOLE else 2.0**-23
     limit = 1 - 1.5 * step if kind in WHOLE else 1.0
     cut = flat_tops(samples, step) if float(np.abs(samples).max()) >= limit else None
-    if cut is not None:
+    if cut is not None and clipped is not None:
+        clipped.append(name)
+    elif cut is not None:
         raise InputError(
             "the recording is clipped: the signal stays at full scale, so its levels would be too low",
             place=Place(path, key=name), found=f"first at {cut / rate:.6g} s", remedy="Record again with less gain.",
@@ -268,13 +300,15 @@ def read_recording(
     sensitivity: float | str | Sequence[float | str] | Mapping[str, float | str] | None = None,
     handles: Mapping[str, Sequence[str]] | None = None,
     full_scale_mV: float | None = None,
+    keep_clipped: bool = False,
 ) -> Recording:
     """Reads a CSV (time, and up to three columns of a motion for each handle) or a WAV file.
 
     `scale`: m/s² (velocity: m/s, displacement: m) per unit of the file, for WAV per full scale. `channels`: names or
     numbers, from 1, of the columns or channels to take. `sensitivity`: of sensors recorded in V or mV, in mV per m/s²
     or a text with its unit, for all or by channel. `handles`: the channels at each handle; without them columns such
-    as "front_ax_m_per_s2" name their handle. `full_scale_mV`: of a WAV file with sensitivities. Raises InputError
+    as "front_ax_m_per_s2" name their handle. `full_scale_mV`: of a WAV file with sensitivities. `keep_clipped`: a WAV
+    file that is clipped is read, and `clipped` names its channels; without it the file is refused. Raises InputError
     with file, line and column for what is wrong.
     """
     path, content = _content(file)
@@ -291,7 +325,9 @@ def read_recording(
             )  # fmt: skip
     placed = tuple((name, tuple(axes)) for name, axes in (handles or {}).items())
     full_scale = None if full_scale_mV is None else full_scale_mV / 1000
-    asked = RecordingOptions(known, scale, tuple(channels), sensitivities(sensitivity), placed, full_scale)
+    asked = RecordingOptions(
+        known, scale, tuple(channels), sensitivities(sensitivity), placed, full_scale, keep_clipped
+    )
     is_wav = content[:4] in (b"RIFF", b"RIFX", b"RF64") or Path(path).suffix.lower() == ".wav"
     _options_agree(asked, is_wav=is_wav)
     return wav_recording(path, content, asked) if is_wav else csv_recording(path, content, asked)

@@ -12,7 +12,7 @@ from abu_calc.standards.tolerance_classes import RingLoad
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 BearingKind = Literal["ball", "angular-contact", "cylindrical", "tapered", "spherical", "needle", "drawn-cup"]
 ClearanceGroup = Literal["C2", "CN", "C3", "C4", "C5", "CA", "CB", "CC", "GA", "GB", "GC"]
-_CLASSES: Final = {"NORMAL": "0", "P0": "0", "PN": "0", "P6": "6", "P5": "5", "P4": "4", "P2": "2"}
+_CLASSES: Final = {"NORMAL": "0", "P0": "0", "PN": "0", "P6": "6", "P6X": "6X", "P5": "5", "P4": "4", "P2": "2"}
 
 
 def _class_as_iso_has_it(value: object) -> object:
@@ -123,11 +123,14 @@ class RollingBearing(Table):
         default="stationary",
         description="Load on the outer ring: rotating, stationary or indeterminate. Default: {default}.",
     )
-    bearing_class: Annotated[Literal["0", "6", "5", "4", "2"], BeforeValidator(_class_as_iso_has_it)] | None = Field(
-        default=None,
-        description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, '
-        'P4, P2, which may be written so, too). Default: by the designation\'s suffix, else "0".',
-        examples=["0"],
+    bearing_class: Annotated[Literal["0", "6", "6X", "5", "4", "2"], BeforeValidator(_class_as_iso_has_it)] | None = (
+        Field(
+            default=None,
+            description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, '
+            'P4, P2, which may be written so, too); "6X" of tapered ones. Default: by the designation\'s suffix, else '
+            '"0".',
+            examples=["0"],
+        )
     )
     internal_clearance: ClearanceGroup | None = Field(
         default=None,

@@ -43,7 +43,7 @@ def sensitivities(
         values = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
         pairs = [_pair(value) for value in values]
     made = tuple(_sensitivity(channel, value) for channel, value in pairs)
-    names = [one.channel for one in made]
+    names = [sensitivity.channel for sensitivity in made]
     for name in names:
         if names.count(name) > 1:
             raise InputError(
@@ -55,7 +55,7 @@ def sensitivities(
 
 def sensitivity_of(given: Sequence[Sensitivity], name: str, number: int) -> Sensitivity | None:
     """The sensitivity of a channel by its name or its number from 1; else that of all channels; None without one."""
-    by_channel = {one.channel: one for one in given}
+    by_channel = {sensitivity.channel: sensitivity for sensitivity in given}
     return by_channel.get(name) or by_channel.get(str(number)) or by_channel.get(None)
 
 

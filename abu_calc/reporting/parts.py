@@ -98,12 +98,17 @@ PASTED: Final = 74
 
 
 def paste_lines(overrides: Sequence[str]) -> list[Paragraph]:
-    """Entries as options of a command line that can be pasted: every line but the last goes on in the next."""
+    """Entries as options of a command line that can be pasted: every line but the last goes on in the next.
+
+    Each option stands in the first line that has room for it, so that the lines are few.
+    """
     lines = list[str]()
     for entry in overrides:
         option = f"--set {shlex.quote(entry)}"
-        if lines and len(lines[-1]) + len(option) < PASTED:
-            lines[-1] += f" {option}"
+        for k, line in enumerate(lines):
+            if len(line) + len(option) < PASTED:
+                lines[k] += f" {option}"
+                break
         else:
             lines.append(option)
     return [Paragraph(line if line is lines[-1] else f"{line} \\", indent=4) for line in lines]

@@ -147,12 +147,18 @@ def many(count: int, name: str, plural: str | None = None) -> str:
     return f"{count} {name if count == 1 else plural or f'{name}s'}"
 
 
+ONE_LINE: Final = 78
+"""Most letters of a list of codes that are written out."""
+
+
 def _passed(checks: Iterable[Check]) -> str:
     """The codes of the checks that passed, in a line; how often, where several things were checked."""
     codes = Counter(check.code for check in checks if check.status == "pass")
     names = [code if times == 1 else f"{code} ({times})" for code, times in sorted(codes.items())]
-    short = [name if k == 0 else name.removeprefix("ABU") for k, name in enumerate(names)]
-    return f"Passed: {' '.join(short) or 'none'}."
+    text = f"Passed checks: {', '.join(names) or 'none'}."
+    if len(text) <= ONE_LINE:
+        return text
+    return f"Passed checks: {names[0]}, {', '.join(name.removeprefix('ABU') for name in names[1:])}."
 
 
 def _next(result: Result, more: Sequence[str]) -> str:

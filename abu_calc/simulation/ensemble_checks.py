@@ -38,8 +38,8 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, change: TriedChan
         return tuple(coded(code, "not-done", UNCARRIED, remedy=CARRY) for code in JUDGED)
     checks = list[Check]()
     for judged in (_balances, _settles, _none_stalls):
-        told = next((check.code for check in checks if check.remedy), None)
-        checks.append(judged(design, ensemble, change, told))
+        earlier = next((check.code for check in checks if check.remedy), None)
+        checks.append(judged(design, ensemble, change, earlier))
     return tuple(checks)
 
 
@@ -83,12 +83,12 @@ def _level(outcome: StartOutcome, ensemble: Ensemble, limit: float) -> str:
     return f"{decibels(outcome.level, limit)} (limit {limit:g} dB), {_named(outcome, ensemble)}"
 
 
-def _see(told: str | None) -> str | None:
-    """Reference to the check that tells the action."""
-    return None if told is None else f"See the action of {told}."
+def _see(earlier: str | None) -> str | None:
+    """Reference to the earlier check that gives the action."""
+    return None if earlier is None else f"See the action of {earlier}."
 
 
-def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, told: str | None) -> Check:
+def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, earlier: str | None) -> Check:
     given = ensemble.given
     failing = [outcome for outcome in given if not outcome.balanced]
     worst = max(given, key=lambda outcome: outcome.imbalance, default=None)
@@ -112,7 +112,7 @@ def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, to
     return coded("ABU701", status, ". ".join(sentences), value, limit, "g·mm", action)
 
 
-def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, told: str | None) -> Check:
+def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, earlier: str | None) -> Check:
     limit = design.case.table.limits.settling_time_s
     status = _grade(ensemble, lambda outcome: outcome.settling_time_or_inf <= limit)
     if status == "fail" and balanced_well(design) and all(outcome.balanced for outcome in ensemble.given):
@@ -131,7 +131,7 @@ def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, tol
     elif any(outcome.member.run_up for outcome in ensemble.given):
         sentences.append("Settling counts from full speed, after the run-up")
     value = None if late is None or math.isinf(late.settling_time_or_inf) else late.settling_time_or_inf
-    action: Action | str | None = _see(told)
+    action: Action | str | None = _see(earlier)
     if action is None and change is not None:
         action = change.action(SLOWEST, lambda outcome: outcome.settling_time_or_inf, "s", limit)
     return coded("ABU702", status, ". ".join(sentences), value, limit, "s", None if status == "pass" else action)
@@ -142,7 +142,7 @@ def _time(outcome: StartOutcome, ensemble: Ensemble) -> str:
     return f"{_named(outcome, ensemble)}, {'never' if math.isinf(time) else f'{time:#.3g} s'}"
 
 
-def _none_stalls(design: Design, ensemble: Ensemble, change: TriedChange | None, told: str | None) -> Check:
+def _none_stalls(design: Design, ensemble: Ensemble, change: TriedChange | None, earlier: str | None) -> Check:
     status = _grade(ensemble, lambda outcome: not outcome.hanging)
     message = "No ball stalls in any start case"
     if ensemble.hanging:
@@ -150,7 +150,7 @@ def _none_stalls(design: Design, ensemble: Ensemble, change: TriedChange | None,
         message = f"Balls stall in {count}: {_first(ensemble.hanging, ensemble)}"
     for lost in ensemble.lost[:1]:
         message += f". No answer from {_words(lost.member.name, lost.member.drag, ensemble.drag)}"
-    action: Action | str | None = _see(told)
+    action: Action | str | None = _see(earlier)
     if action is None and change is not None:
         action = change.counting(STALLED, lambda outcome: outcome.hanging, "")
     return coded("ABU704", status, message, float(len(ensemble.hanging)), 0.0, "start cases",

@@ -7,8 +7,10 @@ from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.simulation.ensemble import simulate_members
 from abu_calc.simulation.ensemble_results import Ensemble
-from abu_calc.simulation.vibration_records import Compared, compared, level_where_measured
+from abu_calc.simulation.vibration_records import Compared, compared, measured_place
+from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.place_response import place_response
 from abu_calc.sizing.places import level_at_loudest
 
 
@@ -33,9 +35,17 @@ def predicted_level(design: Design, ensemble: Ensemble | None) -> float | None:
 def compared_starts(design: Design, ensemble: Ensemble | None) -> Compared | None:
     """[measured_after] beside the predicted level at its place; None without a measurement."""
     moved = None if ensemble is None else predicted_displacement(design, ensemble)
-    if moved is not None:
-        moved = math.hypot(moved, design.autobalancer.budget.plane_offset)
-    return compared(design.case, level_where_measured(design, moved))
+    return compared(design.case, _level_where_measured(design, moved))
+
+
+def _level_where_measured(design: Design, at_race: float | None) -> float | None:
+    """Level [dB] at the place of [measured_after] of a displacement 0–peak [m] of the race; None without either."""
+    case, table = design.case, design.case.table.measured_after
+    if table is None or table.shown is None or not at_race:
+        return None
+    response = place_response(case, measured_place(case, table.shown)[1], design.autobalancer.mass)
+    there = response.loudest(at_race, design.imbalance.value)
+    return displacement_level(there, case.speed, case.background_level) if there else None
 
 
 def starts_for_measurement(design: Design, progress: Progress = silent) -> Ensemble | None:

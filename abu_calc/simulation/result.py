@@ -98,7 +98,7 @@ class Result(Record):
     def _named(self, text: str) -> str:
         """A text whose commands name the file of this result."""
         file = self.provenance.file
-        return text if file is None else COMMAND.sub(lambda found: found[1] + shlex.quote(file), text)
+        return text if file is None else COMMAND.sub(lambda match: match[1] + shlex.quote(file), text)
 
     @property
     def status(self) -> Status:

@@ -72,7 +72,7 @@ def _plane(case: Case, candidate: Candidate) -> tuple[Check, ...]:
     near = rest <= permitted
     message = (
         f"The race is off the wheel's plane. The balls carry {candidate.requirement.plane_ratio:.3f} times the "
-        "imbalance, and the wheel keeps this displacement"
+        "imbalance, and the loudest place keeps a motion as by this displacement of the race"
     )
     action = None if near else _nearer(case, candidate)
     return (coded("ABU205", verdict(near), message, rest, permitted, "µm", action),)
@@ -83,14 +83,14 @@ NEARER = (0.75, 0.5, 0.25, 0.0)
 
 
 def _nearer(case: Case, candidate: Candidate) -> Action:
-    """The farthest place of the race, of those tried, at which the wheel keeps a permitted displacement."""
+    """The farthest place of the race, of those tried, at which the loudest place keeps a permitted displacement."""
     before = from_si(candidate.budget.plane_offset, "um")
     for share in NEARER:
         changed = {"autobalancer.plane_offset_mm": round(share * case.autobalancer.plane_offset_mm, 2)}
         after = followed(case, {**changed, **pins(candidate)})
         if after is not None and after.candidate.budget.plane_offset <= after.candidate.budget.permitted:
             left, limit = after.candidate.budget.plane_offset, after.candidate.budget.permitted
-            moved = Moved("the displacement that the wheel keeps", before, from_si(left, "um"), "µm",
+            moved = Moved("the displacement that the loudest place keeps", before, from_si(left, "um"), "µm",
                           from_si(limit, "um"))  # fmt: skip
             return set_action(changed, after.candidate, moved)
     return Action("Bring the race nearer to the wheel.")

@@ -2,23 +2,26 @@
 
 import math
 from bisect import bisect_left
+from dataclasses import replace
 
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
-from abu_calc.sizing.capacity import Requirement, plane_ratio
+from abu_calc.sizing.capacity import Requirement
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.place_response import place_response
 
 FAN_STEPS = 512
 
 
 @dataclass(frozen=True)
 class ResidualBudget:
-    """Displacements 0–peak at the wheel [m] that stay when the balls have settled, and what the limit permits.
+    """Displacements 0–peak of the race [m] that stay when the balls have settled, and what the limit permits.
 
-    `speed`: at which [rad/s]; `rolling_friction` of balls fanned evenly, which is typical.
+    `speed`: at which [rad/s]; `rolling_friction` of balls fanned evenly, which is typical. `plane_offset`: what a race
+    off the wheel's plane leaves at the loudest place, as the displacement of the race that moves this place as much.
     """
 
     speed: float
@@ -32,13 +35,12 @@ class ResidualBudget:
 
     @property
     def residual(self) -> float:
-        """Expected residual displacement: the root of the sum of squares, plus what the balls cannot carry."""
-        parts = self.race_eccentricity, self.rolling_friction, self.race_ovality, self.plane_offset
-        return math.hypot(*parts) + self.capacity_shortfall
+        """Expected residual displacement: `at_race` and that of the plane offset, as the root of the sum of squares."""
+        return math.hypot(self.at_race, self.plane_offset)
 
     @property
     def at_race(self) -> float:
-        """The same without the displacement that a race off the wheel's plane leaves at the wheel."""
+        """Expected displacement of the race: the root of the sum of squares, plus what the balls cannot carry."""
         parts = self.race_eccentricity, self.rolling_friction, self.race_ovality
         return math.hypot(*parts) + self.capacity_shortfall
 
@@ -89,13 +91,13 @@ def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float,
 
 
 @formula(
-    "Permitted displacement at the wheel, 0–peak, at which every handle keeps the limit",
+    "Permitted displacement of the race, 0–peak, at which every handle keeps the limit",
     "√2·v/Ω",
     "m",
     shown="um",
     where=(
         "v is the velocity of the limit. The program first subtracts the background as energy. It then divides by the "
-        "largest motion of a handle per motion of the wheel."
+        "largest motion of a handle per motion of the race."
     ),
     source="Kladiev 1996 (limit)",
 )
@@ -108,8 +110,8 @@ def permitted_displacement(case: Case, added_mass: float, speed: float) -> float
 
 
 def loudest_transmission(case: Case, added_mass: float) -> float:
-    """Largest motion of a handle per motion of the wheel [1]."""
-    return max(case.body.transmission(held.place, added_mass) for held in case.judged_places)
+    """Largest motion of a handle per motion of the race [1]."""
+    return max(place_response(case, held.place, added_mass).transmission for held in case.judged_places)
 
 
 def accuracy_budget(
@@ -127,16 +129,29 @@ def accuracy_budget(
     carried = imbalance * abs(need.plane_ratio)
     band = friction_band(case.friction_arm, balls.pitch_radius, balls.radius, angles)
     missing = max(0.0, carried - balls.capacity) / need.effective_mass
-    return ResidualBudget(
+    budget = ResidualBudget(
         speed=speed,
         race_eccentricity=case.race_eccentricity,
         rolling_friction=min(band, (balls.count * balls.moment + carried) / need.effective_mass),
         race_ovality=ovality_residual(balls.lobes) * (speed / case.speed_range[1]) ** 2,
-        plane_offset=plane_residual(case, imbalance, need.added_mass),
+        plane_offset=0.0,
         capacity_shortfall=missing * resonance_factor(case.suspension, speed, need.effective_mass) if missing else 0.0,
         permitted=permitted_displacement(case, need.added_mass, speed),
         resting_angles=angles,
     )
+    if not case.race_offset:
+        return budget
+    loudest = loudest_displacement(case, imbalance, need.added_mass, budget.at_race)
+    moved = loudest / loudest_transmission(case, need.added_mass)
+    return replace(budget, plane_offset=math.sqrt(max(moved**2 - budget.at_race**2, 0.0)))
+
+
+def loudest_displacement(
+    case: Case, imbalance: float, added_mass: float, at_race: float, *, in_line: bool = False
+) -> float:
+    """Displacement 0–peak [m] of the loudest limited place, where the race keeps the displacement `at_race` [m]."""
+    responses = (place_response(case, held.place, added_mass) for held in case.judged_places)
+    return max(response.loudest(at_race, imbalance, in_line=in_line) for response in responses)
 
 
 def budget_where_worst(
@@ -169,26 +184,6 @@ def judged_speeds(case: Case) -> tuple[float, ...]:
 )
 def ovality_residual(lobes: float) -> float:
     return 2 * lobes
-
-
-@formula(
-    "Displacement that remains at the wheel if balls in another plane have stilled the race",
-    "U·(1/M + a_w²/J_c) − V·(1/M + a_w·a_r/J_c), V = U·(plane ratio)",
-    "m",
-    shown="um",
-    where=(
-        "For a body in space the inertances A_pq of wheel and race take these places. The louder axis counts, as the "
-        "forward whirl that moves the wheel as much."
-    ),
-    assumed="as for the plane ratio",
-    source="derived",
-)
-def plane_residual(case: Case, imbalance: float, added_mass: float) -> float:
-    body, ratio = case.body, plane_ratio(case, added_mass)
-    by_imbalance = body.body.acceleration(body.wheel, body.wheel, added=added_mass)
-    by_balls = body.body.acceleration(body.wheel, case.race_place, added=added_mass)
-    rest = max(abs(wheel - ratio * race) for wheel, race in zip(by_imbalance[:2], by_balls[:2], strict=True))
-    return imbalance * rest / body.transmission(body.wheel, added_mass)
 
 
 @formula(

@@ -13,7 +13,7 @@ from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import WHEEL_PLANE, Case
 from abu_calc.sizing.imbalance import find_imbalance
-from abu_calc.sizing.places import LevelPlace, PlaceBand, handle_levels, in_space, place_bands, place_numbers
+from abu_calc.sizing.places import LevelPlace, PlaceBand, in_space, place_bands, place_numbers, settled_levels
 from abu_calc.sizing.vibration import idle_vibration, speed_levels, truer_races, worst_residuals
 
 Band = tuple[float, float]
@@ -77,7 +77,7 @@ def highest_totals(
         if case.body.in_space and case.handles:
             places = in_space(there, imbalance, candidate, residual.at_race)
         else:
-            places = handle_levels(there, None, residual.residual, candidate.mass).places
+            places = settled_levels(there, None, residual.at_race, imbalance, candidate.mass, in_line=True).places
         arranged += _totals(there, places)
     return _highest(expected), _highest(arranged)
 

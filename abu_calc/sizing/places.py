@@ -5,7 +5,7 @@ place moves as a fixed multiple of the wheel.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -23,8 +23,9 @@ from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si, velocity_from_level
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import displacement_level
+from abu_calc.sizing.budget import displacement_level, loudest_displacement
 from abu_calc.sizing.case import WHEEL_PLANE, Case, hand_axes
+from abu_calc.sizing.place_response import place_response
 from abu_calc.standards.vibration import hand
 
 AXES = ("x", "y", "z")
@@ -91,33 +92,65 @@ def weighted_axes(axes: Iterable[Levels], speed: float, *, after: bool) -> tuple
         return None
 
 
+Displacements = Callable[[Vector], Sequence[float]]
+"""Displacements 0–peak [m] of the axes of a place."""
+
+
 def handle_levels(case: Case, before: float | None, after: float | None, added_mass: float) -> VibrationLevels:
     """Levels at every place of forward whirls of the wheel [m] at the rated speed, None: not known."""
+
+    def moved(place: Vector) -> list[float]:
+        whirl = case.body.inertance(case.body.wheel, case.body.wheel, added_mass)
+        return [(after or 0.0) * (axis / whirl) for axis in case.body.axes(place, added_mass)]
+
+    lowered = before is not None and after is not None and after < before
+    return _levels(case, before, None if after is None else moved, added_mass, lowered)
+
+
+def settled_levels(
+    case: Case, before: float | None, at_race: float | None, imbalance: float, added_mass: float,
+    *, in_line: bool = False,
+) -> VibrationLevels:  # fmt: skip
+    """Levels at every place where balls have settled, by the displacement `at_race` [m] of the race, None: not known.
+
+    `before`: forward whirl of the wheel without the autobalancer [m]; `in_line`: what a race off the wheel's plane
+    leaves adds up with it, else both are added as squares.
+    """
+
+    def moved(place: Vector) -> Vector:
+        return place_response(case, place, added_mass).displacements(at_race or 0.0, imbalance, in_line=in_line)
+
+    lowered = False
+    if before is not None and at_race is not None:
+        lowered = max(moved(case.body.wheel)[:2]) < before * case.body.transmission(case.body.wheel)
+    return _levels(case, before, None if at_race is None else moved, added_mass, lowered)
+
+
+def _levels(
+    case: Case, before: float | None, after: Displacements | None, added_mass: float, lowered: bool
+) -> VibrationLevels:
     places = tuple(_moved(case, held.name, held.place, before, after, added_mass) for held in case.places)
     limited = places
     if case.body.in_space and case.handles:
         limited = (_moved(case, WHEEL_PLANE, case.body.wheel, before, after, added_mass),)
     worst = Levels(_loudest(each.levels.before for each in limited), _loudest(each.levels.after for each in limited))
     judged = max(limited, key=lambda place: place.levels.after or -math.inf).name
-    return VibrationLevels(places, worst, before is not None and after is not None and after < before, judged)
+    return VibrationLevels(places, worst, lowered, judged)
 
 
 def _moved(
-    case: Case, name: str, place: Vector, before: float | None, after: float | None, added_mass: float
+    case: Case, name: str, place: Vector, before: float | None, after: Displacements | None, added_mass: float
 ) -> LevelPlace:
-    """Levels of a place that moves in proportion to the wheel."""
+    """Levels of a place that without the autobalancer moves in proportion to the wheel."""
     body, wheel = case.body, case.body.wheel
-    shares = [
-        [axis / body.inertance(wheel, wheel, mass) for axis in body.axes(place, mass)] for mass in (0, added_mass)
-    ]
+    bare = [axis / body.inertance(wheel, wheel) for axis in body.axes(place)]
+    settled = (None,) * len(AXES) if after is None else [_level(case, moved) for moved in after(place)]
 
-    def level(moved: float | None, share: float) -> float | None:
-        return None if moved is None else _level(case, moved * share)
+    def level(share: float) -> float | None:
+        return None if before is None else _level(case, before * share)
 
-    axes = tuple(Levels(level(before, bare), level(after, fitted)) for bare, fitted in zip(*shares, strict=True))
-    loudest = Levels(
-        level(before, body.transmission(place)), level(after, body.transmission(place, added_mass))
-    )  # fmt: skip
+    axes = tuple(Levels(level(share), settled_level) for share, settled_level in zip(bare, settled, strict=True))
+    loudest = Levels(level(body.transmission(place)), _loudest(settled[: 2 if place == wheel else 3]))
     inertance = body.loudest_axis(place, added_mass)
     return LevelPlace(name, 1 / inertance if inertance else None, loudest, axes, place)
 
@@ -199,12 +232,10 @@ def place_bands(bands: tuple[tuple[float, float], ...]) -> tuple[PlaceBand, ...]
 def level_at_loudest(case: Case, candidate: Candidate, displacement: float) -> float:
     """The level [dB] at the loudest limited place of a displacement 0–peak [m] of the race, idle.
 
-    What rests at a wheel off the race's plane is added as squares.
+    What a race off the wheel's plane leaves is added as squares.
     """
-    at_wheel = math.hypot(displacement, candidate.budget.plane_offset)
-    return max(
-        _level(case, at_wheel * case.body.transmission(held.place, candidate.mass)) for held in case.judged_places
-    )
+    imbalance = candidate.requirement.imbalance_part
+    return _level(case, loudest_displacement(case, imbalance, candidate.mass, displacement))
 
 
 def _level(case: Case, displacement: float) -> float:

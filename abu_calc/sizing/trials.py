@@ -57,8 +57,8 @@ def remedy(case: Case, present: Candidate, changes: Iterator[Change], required: 
     """
     tried, partly = [], None
     for change in changes:
-        found = followed(_unpinned_case(case) if change.free else case, change.entries)
-        after = None if found is None else followed(case, {**change.entries, **pins(found.candidate)})
+        free = followed(_unpinned_case(case) if change.free else case, change.entries)
+        after = None if free is None else followed(case, {**change.entries, **pins(free.candidate)})
         if after is None:
             continue
         shown = {**change.entries, **pins(after.candidate)} if change.free else change.entries

@@ -26,11 +26,12 @@ from abu_calc.sizing.budget import (
     accuracy_budget,
     displacement_level,
     judged_speeds,
+    loudest_displacement,
     loudest_transmission,
 )
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import EQUAL_SPEEDS, WHEEL_PLANE, Case
-from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels, in_space
+from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels, in_space, settled_levels
 
 _friction = lru_cache(maxsize=64)(worst_friction)
 """Worst friction, cached: races that differ only in their eccentricity have the same."""
@@ -38,9 +39,9 @@ _friction = lru_cache(maxsize=64)(worst_friction)
 
 @dataclass(frozen=True)
 class WorstResidual:
-    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad].
+    """Displacements 0–peak of the race [m] at one speed [rad/s]; `angles`: where the balls then stand [rad].
 
-    `at_race`: the residual without what a race off the wheel's plane leaves at the wheel.
+    `at_race`: the residual without what a race off the wheel's plane leaves at the loudest place.
     """
 
     speed: float
@@ -66,7 +67,10 @@ def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> 
     friction = max(held.displacement, usual.rolling_friction)
     parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.capacity_shortfall
     at_race = math.fsum(parts)
-    return WorstResidual(speed, friction, held.angles, at_race + usual.plane_offset, at_race)
+    if not case.race_offset:
+        return WorstResidual(speed, friction, held.angles, at_race, at_race)
+    loudest = loudest_displacement(case, imbalance, candidate.mass, at_race, in_line=True)
+    return WorstResidual(speed, friction, held.angles, loudest / loudest_transmission(case, candidate.mass), at_race)
 
 
 CURVE_STEPS = 6
@@ -110,7 +114,7 @@ def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible:
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
     budget = _budget(case, imbalance, candidate, case.speed) if possible else None
-    levels = handle_levels(case, before, budget.residual if budget else None, candidate.mass)
+    levels = settled_levels(case, before, budget.at_race if budget else None, imbalance, candidate.mass)
     if not (case.body.in_space and case.handles):
         return levels
     return replace(levels, places=in_space(case, imbalance, candidate, budget.at_race if budget else None))
@@ -243,11 +247,24 @@ def vibration_checks(
         allowed = {"ABU401": limit, "ABU402": before}
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     message = "The idle level with the autobalancer must be below the level without it"
+    measurable = _measurably_lower(idle)
+    if idle.lowered and not measurable:
+        message += f". It is lower by less than {LEAST_GAIN:g} dB, which no measurement tells from none"
     return (
         _level_check(case, candidate, levels, loudest_place(idle), band),
-        coded("ABU402", verdict(idle.lowered), message, after, before, "dB",
-              None if idle.lowered else _lower(case, candidate, after)),
+        coded("ABU402", verdict(idle.lowered, measurable), message, after, before, "dB",
+              None if measurable else _lower(case, candidate, after)),
     )  # fmt: skip
+
+
+LEAST_GAIN: Final = 1.0
+"""Reduction of the idle level [dB] that a measurement tells from none (engineering practice, unverified)."""
+
+
+def _measurably_lower(idle: VibrationLevels) -> bool:
+    """True if the wheel moves less with the autobalancer, and the level falls by as much as can be measured."""
+    before, after = idle.worst.before, idle.worst.after
+    return idle.lowered and before is not None and after is not None and before - after >= LEAST_GAIN
 
 
 def loudest_place(vibration: VibrationLevels) -> str:
@@ -350,13 +367,13 @@ def level_of(after: Followed, *, worst: bool) -> float:
 
 
 def _lower(case: Case, candidate: Candidate, level: float) -> Action:
-    """A truer race with which the autobalancer lowers the idle level; else that none is needed."""
+    """A truer race with which the autobalancer lowers the idle level by what can be measured; else none is needed."""
     if candidate.budget.capacity_shortfall:
         return Action("See the action of ABU201.")
     for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
         idle = None if after is None else idle_vibration(*after, possible=True)
-        if after is not None and idle is not None and idle.lowered and idle.worst.after is not None:
+        if after is not None and idle is not None and idle.worst.after is not None and _measurably_lower(idle):
             moved = Moved("the idle level with the autobalancer", level, idle.worst.after, "dB", idle.worst.before)
             return set_action(entries, after.candidate, moved)
     return Action("The wheel is balanced better than balls can balance it: no autobalancer is needed.")

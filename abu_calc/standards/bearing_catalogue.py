@@ -100,7 +100,7 @@ def bearing(designation: str) -> Dimensions:
 
 
 def of_size(bore: float, outer: float, width: float, kind: Kind | None = None) -> Dimensions | None:
-    """The first tabulated bearing of this bore, outside diameter and inner ring width [m], radial ones first.
+    """The first tabulated bearing of this bore, outside diameter and inner ring width [m], ball bearings first.
 
     `kind`: of this type alone. Source: ISO 15:2017, ISO 355:2019, the makers' catalogues.
 
@@ -109,9 +109,18 @@ def of_size(bore: float, outer: float, width: float, kind: Kind | None = None) -
     >>> of_size(0.050, 0.090, 0.020, "cylindrical").designation
     'NU210'
     """
+    return next((entry for entry in all_of_size(bore, outer, width) if kind in (None, entry.kind)), None)
+
+
+def all_of_size(bore: float, outer: float, width: float) -> tuple[Dimensions, ...]:
+    """All tabulated bearings of this bore, outside diameter and inner ring width [m], ball bearings first.
+
+    >>> [entry.designation for entry in all_of_size(0.080, 0.140, 0.033)]
+    ['32216', 'NU2216', '22216']
+    """
     wanted = tuple(round(from_si(size, "mm"), 6) for size in (bore, outer, width))
-    names = _by_size().get(wanted, ())
-    return next((found for found in map(bearing, names) if kind in (None, found.kind)), None)
+    entries = [bearing(name) for name in _by_size().get(wanted, ())]
+    return tuple(sorted(entries, key=lambda size: not size.deep_groove))
 
 
 @cache
@@ -124,7 +133,7 @@ def _by_size() -> dict[tuple[float, ...], tuple[str, ...]]:
         size = tuple(round(from_si(length, "mm"), 6) for length in (entry.bore, entry.outer, entry.inner_width))
         if name not in names.setdefault(size, []):
             names[size].append(name)
-    return {size: tuple(found) for size, found in names.items()}
+    return {size: tuple(designations) for size, designations in names.items()}
 
 
 def next_size(designation: str, seat: Seat) -> Dimensions | None:

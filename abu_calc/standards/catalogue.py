@@ -166,8 +166,8 @@ def _row(row: tuple[str, ...]) -> CatalogueBearing:
     reference_speed, limiting_speed = (
         None if speed is None else to_si(speed, "rpm") for speed in (reference, limiting)
     )
-    found = next(kind_ for kind_ in KINDS if kind_ == kind)
+    known_kind = next(known for known in KINDS if known == kind)
     return CatalogueBearing(
-        name, found, bore, outer, width, chamfer, outer_width, outer_chamfer, ratings, reference_speed, limiting_speed,
-        f0, e, Y, Y0, _MAKERS[maker], maker != "SKF",
+        name, known_kind, bore, outer, width, chamfer, outer_width, outer_chamfer, ratings, reference_speed,
+        limiting_speed, f0, e, Y, Y0, _MAKERS[maker], maker != "SKF",
     )  # fmt: skip

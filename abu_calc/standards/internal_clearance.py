@@ -91,6 +91,19 @@ def pair_preload(clearance: float, bore: float) -> float | None:
     return last.preload * float((clearance / last.clearance) ** _HERTZ)
 
 
+def preload_limits(group: str, bore: float) -> tuple[float, float] | None:
+    """Preload [N] of a mounted pair of a group above which it warns, and fails; None where no preload is tabulated.
+
+    The most of the next heavier group before mounting, and twice the most of the heaviest; assumed.
+    """
+    groups = groups_of("angular-contact")
+    heavier, heaviest = (
+        pair_preload(internal_clearance("angular-contact", each, bore).smallest, bore)
+        for each in (groups[max(groups.index(group) - 1, 0)], groups[0])
+    )
+    return None if heavier is None or heaviest is None else (heavier, 2 * heaviest)
+
+
 @cache
 def _preloads(bore_mm: float) -> tuple[_Point, ...] | None:
     rows = [row for row in csv_rows("pair_preload") if float(row[0]) < bore_mm <= float(row[1])]

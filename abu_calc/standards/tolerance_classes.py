@@ -119,6 +119,7 @@ def _look_up(rows: list[_Row], size: float, what: str, remedy: str) -> Deviation
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
 
 SOURCE: Final = "SKF General Catalogue 2006"
+_CUPS: Final = "NTN's needle roller catalogue"
 NORMAL_RATIO: Final = 0.08
 """P/C that stands in where the load or C is not known: the table's row for normal loads (over 0.05 up to 0.1)."""
 
@@ -141,7 +142,7 @@ class _MakerRow(NamedTuple):
     to: float
     over: float
     to_mm: float
-    found: MakerFits
+    fits: MakerFits
 
 
 def maker_fits(
@@ -173,7 +174,7 @@ def maker_fits(
     for like in _same_rows(kind):
         for row in _maker_rows().get((seat, accuracy, like, asked), ()):
             if row.over < size <= row.to_mm and (row.above < ratio <= row.to or ratio <= row.above == 0):
-                fits = _for_thin(row.found) if thin and (load != "stationary" or kind == "drawn-cup") else row.found
+                fits = _for_thin(row.fits) if thin and (load != "stationary" or kind == "drawn-cup") else row.fits
                 return _for_split(fits) if split else fits
     return None
 
@@ -195,6 +196,11 @@ def _for_thin(fits: MakerFits) -> MakerFits:
 def _for_split(fits: MakerFits) -> MakerFits | None:
     kept = [name for name in (*fits.classes, *fits.special) if name.rstrip("0123456789") in _FOR_SPLIT]
     return MakerFits(tuple(kept), (), fits.note) if kept else None
+
+
+def source_of(kind: Kind | None) -> str:
+    """Catalogue whose rows `maker_fits` has for a type; a type that is not told is taken as ball."""
+    return _CUPS if kind == "drawn-cup" else SOURCE
 
 
 @cache

@@ -89,7 +89,7 @@ class SeriesRules:
 
 @cache
 def series_rules() -> SeriesRules:
-    """What makes a whole type test. Source: ISO 28927 series, unverified."""
+    """Rules of a whole type test. Source: ISO 28927 series, unverified."""
     table = toml_table("test_wheels")["series"]
     return SeriesRules(table["runs"], table["operators"], table["variation"], table["deviation"])
 

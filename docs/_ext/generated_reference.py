@@ -55,8 +55,13 @@ def commands() -> str:
     from abu_calc.registry import FEATURES
 
     helped = ((feature.name, run(f"{feature.name} --help").stdout) for feature in FEATURES)
-    sections = (f"## abu {name}\n\n```text\n{text.rstrip()}\n```\n" for name, text in helped)
-    opening = "# Commands\n\nThis page is the output of `abu --help` and of `abu COMMAND --help`.\n"
+    # A command that lists some of its options by name explains them on request.
+    whole = ((name, run(f"{name} --help-all").stdout if "--help-all" in text else text) for name, text in helped)
+    sections = (f"## abu {name}\n\n```text\n{text.rstrip()}\n```\n" for name, text in whole)
+    opening = (
+        "# Commands\n\nThis page is the output of `abu --help`, and of `abu COMMAND --help` or, if a command has it, "
+        "of `--help-all`.\n"
+    )
     return "\n".join((opening, f"```text\n{run('--help').stdout.rstrip()}\n```\n", *sections))
 
 

@@ -40,6 +40,16 @@ def test_help_is_not_cut_at_80_columns() -> None:
         told = abu(command, "--help").out
         assert max(map(len, told.splitlines())) <= 80, command
         assert not re.search(r"[a-z,]\.\.\.", told), command
+        assert len(told.splitlines()) <= 48, command
+
+
+def test_help_all_explains_every_option_that_help_lists_by_name() -> None:
+    short, whole = abu("check-fit", "--help").out, abu("check-fit", "--help-all").out
+    named = re.search(r"(?s)More options, explained by --help-all:\n(.*?)\n\n", short)
+    assert named is not None and len(whole.splitlines()) > 48
+    names = re.findall(r"--[\w-]+", named[1])
+    assert len(names) > 20 and all(re.search(rf"(?m)^  (-q, )?{name} .*\w", whole) for name in names)
+    assert {*re.findall(r"--[\w-]+", short)} == {*re.findall(r"(?m)^  (?:-\w, )?(--[\w-]+)", whole)}
 
 
 @pytest.mark.parametrize(("words", "expected"), [("abu si", "simulate"), ("abu size --acc", "--accuracy")])

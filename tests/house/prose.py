@@ -89,7 +89,8 @@ def paragraphs(text: str) -> Iterator[str]:
 def _is_table(line: str) -> bool:
     """True for rows of a table (gaps between columns), formulas, commands and values."""
     body = MARKED.sub("", line).strip()
-    return bool(re.search(r"\S {2,}\S", body)) or " = " in body or body.startswith(("abu ", "$ ", "[", "{", '"', "|"))
+    code = ("abu ", "$ ", "--set ", "[", "{", '"', "|")
+    return bool(re.search(r"\S {2,}\S", body)) or " = " in body or body.startswith(code)
 
 
 def _indent(line: str) -> int:
@@ -116,6 +117,7 @@ def violations(text: str, place: str, *, repeats: bool = True) -> Iterator[Viola
             if (
                 repeats
                 and words > 5
+                and sentence[0].isupper()  # else a cell of a table, wrapped
                 and sentence in seen
                 and not (sentence.startswith(REPEATING) or LEGEND.search(sentence))
             ):
@@ -174,7 +176,10 @@ def static_texts() -> Iterator[tuple[str, str]]:
 
     yield "abu --help", abu("--help").out
     for command in COMMANDS:
-        yield f"abu {command} --help", abu(command, "--help").out.partition("Output:")[0]
+        text = abu(command, "--help").out
+        if "--help-all" in text:
+            text = abu(command, "--help-all").out
+        yield f"abu {command} --help", text.partition("Output:")[0]
     yield "abu effects", abu("effects").out
     for subject in (*STEPS, *CHECK_CODES, *(name for name, _ in REGISTRY)):
         yield f"abu explain {subject}", abu("explain", subject).out

@@ -9,6 +9,7 @@ from hypothesis import Phase, given, seed, settings
 from tests.cli.runner import abu
 from tests.house.prose import error_texts, found_in, screens, static_texts, violations
 from tests.sizing.test_case import machines
+from tests.studies.random_machines import family_of, machine_text
 
 MACHINES = sorted((Path(__file__).parents[1] / "machines").glob("*.toml"))
 
@@ -72,6 +73,21 @@ def test_reports_of_many_random_machines(part: int) -> None:
 
     read()
     assert found_in(texts) == []
+
+
+@pytest.mark.hard
+@pytest.mark.parametrize("part", range(6))
+def test_reports_of_plausible_machines(part: int, tmp_path: Path) -> None:
+    """60 machines of all families, each screen and whole report; simulations end after a few seconds."""
+    file, texts = tmp_path / "machine.toml", list[tuple[str, str]]()
+    for number in range(10 * part, 10 * part + 10):
+        family = family_of(number)
+        file.write_text(machine_text(number, family), encoding="utf-8")
+        for more in ((), ("--full",)):
+            seen = abu("size", str(file), "--patience", "8", *more)
+            assert seen.width <= 80 and (more or len(seen.out.splitlines()) <= 48), (number, family)
+            texts.append((f"abu size {number} ({family}) {' '.join(more)}", f"{seen.out}\n\n{seen.err}"))
+    assert len(texts) == 20 and found_in(texts) == []
 
 
 @pytest.mark.slow

@@ -194,6 +194,14 @@ FULL: dict[str, dict[str, str]] = {
         "source": '"own measurement"',
         "remark": '"Two sensors."',
     },
+    "[type_test]": {
+        "test_wheel_diameter_mm": "150.0",
+        "test_wheel_imbalance_g_mm": "65.0",
+        "orientations": "5",
+        "runs": "2",
+        "operators": "3",
+        "background_a_hv_m_per_s2": "0.5",
+    },
     "[limits]": {"vibration_level_db": "109.0", "a_hv_m_per_s2": "2.5", "settling_time_s": "1.0"},
 }
 

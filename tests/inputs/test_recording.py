@@ -13,7 +13,7 @@ WAVE = np.sin(np.arange(200) / 7.3)
 
 def test_a_recording_knows_its_length_and_its_file() -> None:
     made = recording("r.csv", b"bytes", "velocity", [("x", WAVE), ("y", 2 * WAVE)], 50.0, ["by hand"])
-    assert (made.duration, made.names, made.told) == (4.0, ("x", "y"), ("by hand",))
+    assert (made.duration, made.names, made.remarks) == (4.0, ("x", "y"), ("by hand",))
     assert made.sha256 == hashlib.sha256(b"bytes").hexdigest()
 
 

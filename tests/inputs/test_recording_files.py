@@ -48,7 +48,7 @@ def largest(found: Recording) -> float:
 def test_names_tell_quantity_and_unit(tmp_path: Path, head: str, quantity: str, size: float) -> None:
     found = read_recording(written(tmp_path, table(head)))
     assert (found.quantity, found.rate) == (quantity, pytest.approx(RATE, rel=1e-9))
-    assert largest(found) == pytest.approx(size, rel=1e-6) and not found.told
+    assert largest(found) == pytest.approx(size, rel=1e-6) and not found.remarks
 
 
 @pytest.mark.parametrize(("text", "told"), [
@@ -59,7 +59,7 @@ def test_names_tell_quantity_and_unit(tmp_path: Path, head: str, quantity: str, 
 def test_what_is_taken_for_granted_is_told(tmp_path: Path, text: str, told: str) -> None:
     found = read_recording(written(tmp_path, text))
     assert largest(found) == pytest.approx(3.0, rel=1e-6)
-    assert any(told in one for one in found.told)
+    assert any(told in one for one in found.remarks)
 
 
 @pytest.mark.parametrize("text", [
@@ -183,7 +183,7 @@ def test_a_voltage_is_turned_into_motion_by_its_own_sensitivity(tmp_path: Path) 
     assert found.quantity == "acceleration" and found.axes_by_handle == {"front": (0, 1, 2), "rear": (3, 4, 5)}
     tops = [float(np.abs(values).max()) for values in found.samples]
     assert tops == pytest.approx([0.3, 0.3, 0.9, 1.2, 1.5, 0.18 * 9.80665], rel=1e-6)
-    assert "Sensitivity 10 mV per m/s²: front_ax_mV, front_az_mV, rear_ax_mV, rear_ay_mV." in found.told
+    assert "Sensitivity 10 mV per m/s²: front_ax_mV, front_az_mV, rear_ax_mV, rear_ay_mV." in found.remarks
     velocity = read_recording(written(tmp_path, table("t_s,x [V]")), sensitivity="20 mV/(mm/s)")
     assert velocity.quantity == "velocity" and largest(velocity) == pytest.approx(0.150, rel=1e-6)
 
@@ -234,7 +234,7 @@ def test_handles_that_cannot_be_are_refused(tmp_path: Path, asked: dict[str, obj
 
 def test_two_columns_without_axes_are_told_to_be_one_place(tmp_path: Path) -> None:
     file = written(tmp_path, table("t_s,front [m/s²],rear [m/s²]", [row + "," + row.split(",")[1] for row in ROWS]))
-    assert any("axes of one place" in remark for remark in read_recording(file).told)
+    assert any("axes of one place" in remark for remark in read_recording(file).remarks)
 
 
 def test_a_column_that_names_no_handle_beside_others_is_refused(tmp_path: Path) -> None:
@@ -279,7 +279,7 @@ def test_samples_of_24_bits(tmp_path: Path) -> None:
 def test_channels_of_a_wav_are_axes(tmp_path: Path) -> None:
     both = written(tmp_path, wav(np.stack([TONE, TONE / 2], axis=1).astype("float32")), "r.wav")
     found = read_recording(both, "acceleration", 10.0)
-    assert found.names == ("channel 1", "channel 2") and any("axes" in one for one in found.told)
+    assert found.names == ("channel 1", "channel 2") and any("axes" in one for one in found.remarks)
     assert read_recording(both, "acceleration", 10.0, ["2"]).names == ("channel 2",)
     four = written(tmp_path, wav(np.stack([TONE] * 4, axis=1).astype("float32")), "four.wav")
     assert "three axes" in str(refused(four, scale=1.0))
@@ -315,7 +315,7 @@ def test_a_sine_up_to_full_scale_is_not_clipped(tmp_path: Path, hertz: int) -> N
 
 def test_a_table_that_is_cut_off_is_told(tmp_path: Path) -> None:
     rows = [f"{t:.4f},{x:.5f}" for t, x in zip(T, np.clip(WAVE, -2, 2), strict=True)]
-    assert any("clipped" in one for one in read_recording(written(tmp_path, table("t_s,v [m/s]", rows))).told)
+    assert any("clipped" in one for one in read_recording(written(tmp_path, table("t_s,v [m/s]", rows))).remarks)
 
 
 @pytest.mark.parametrize("content", [b"RIFF", b"RIFF1234WAVEjunk", wav(TONE.astype("float32"))[:300], b"not a wav"])

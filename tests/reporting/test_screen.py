@@ -58,7 +58,7 @@ def test_the_verdict_counts_checks_and_warnings() -> None:
 
 def test_passed_checks_stand_in_one_line_and_the_first_open_one_is_explained() -> None:
     text = as_text(one_screen(sample("pass", "fail", "pass"), [Heading("sample")]))
-    assert "Passed: ABU401 403." in text and "`abu explain ABU402`" in text
+    assert "Passed checks: ABU401, ABU403." in text and "`abu explain ABU402`" in text
     assert "Passed" not in as_text(one_screen(sample(), [Heading("sample")]))
 
 

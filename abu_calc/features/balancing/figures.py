@@ -235,7 +235,7 @@ def _bars(
 ) -> Iterator[Figure]:  # fmt: skip
     most = max([*(bar.value for bar in rows), *([limit[0]] if limit else [])], default=0.0)
     if most > 0:
-        text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
+        text = "; ".join(f"{bar.name} {bar.text}" for bar in rows) + (f"; {limit[1]}" if limit else "")
         yield Figure(name, section, Bars(title, text, Axis(axis, 0.0, most), rows, limit), caption)
 
 

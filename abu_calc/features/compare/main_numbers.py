@@ -28,7 +28,7 @@ STARTS: Final = "ensemble.settling_by_start"
 MEDIAN: Final = "ensemble.settling_time_s.typical"
 SLOWEST: Final = "ensemble.settling_time_s.worst"
 DRAG: Final = "autobalancer.rolling_drag_per_s"
-"""Key of the files: the drag rate as given, or its default."""
+"""Key of the files: the drag rate in force: as given, or its default."""
 COUNT: Final = "ensemble.members"
 BOUND: Final = "vibration_loaded.bound.lower_bound"
 
@@ -91,7 +91,7 @@ def _settling(result: CompareResult, designs: Designs) -> list[_NumbersLine]:
     given = [_slowest_as_given(designs, k) for k in machines]
     return [
         line("Median of the start cases", designs[MEDIAN]),
-        line("Slowest start case, drag rate as given", given),
+        line("Slowest start case, drag rate in force", given),
         line("Slowest start case, any oil", designs[SLOWEST]),
         *_limit(result, "ABU702"),
     ]

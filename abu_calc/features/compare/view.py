@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 
+from abu_calc.features.compare.labels import label_of
 from abu_calc.features.compare.main_numbers import main_blocks
 from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part, checks_named
 from abu_calc.foundation.checks import Check
@@ -23,7 +24,7 @@ from abu_calc.reporting.screen import many, verdict_line
 
 SECTIONS: Final[dict[Part, str]] = {
     "check": "Checks: grade, value (limit)",
-    "design": "Designs, by the paths of the JSON result",
+    "design": "Results of the designs",
     "file": "Entries of the files",
 }
 NOTHING: Final = "Nothing differs."
@@ -81,7 +82,8 @@ def _mark(row_alike: bool, marked: bool) -> str:
 
 
 def _cells(row: Difference, marked: bool) -> tuple[str, ...]:
-    return f"{_mark(row.alike, marked)}{row.path}", *written_alike(row.values)
+    label = label_of(row.path, row.unit) if row.part == "design" else row.path
+    return f"{_mark(row.alike, marked)}{label}", *written_alike(row.values)
 
 
 def _checks(result: CompareResult, rows: Sequence[Difference], marked: bool) -> list[tuple[str, ...]]:
@@ -258,7 +260,7 @@ def _figure(result: CompareResult, quantity: _Compared, rows: dict[str, Differen
     limit = _limit(result, quantity.code, unit)
     values = [*(bar.value for bar in bars), *([limit[0]] if limit else [])]
     axis = Axis.around(quantity.axis, values) if unit == "dB" else Axis(quantity.axis, 0.0, max(values) or 1.0)
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in bars) + (f"; {limit[1]}" if limit else "")
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in bars) + (f"; {limit[1]}" if limit else "")
     yield Figure(quantity.name, "title", Bars(quantity.title, text, axis, bars, limit), quantity.caption)
 
 

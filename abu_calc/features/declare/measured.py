@@ -16,14 +16,12 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, Stage, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.inputs.recording import MOST_AXES, Recording, flat_tops
+from abu_calc.inputs.recording import MOST_AXES, Recording
 from abu_calc.inputs.recording_columns import QUANTITIES
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.standards.type_test import balancing_factor, declared_uncertainty, reproducibility, uncertainty_source
 
-STEPS_OF_CREST: Final = 400
-"""Share of a signal's range within which a crest is cut off, not rounded."""
 MOST_NAMED: Final = 3
 
 
@@ -33,6 +31,7 @@ class MeasuredAxis(Record):
 
     name: Annotated[str, Quantity("axis")]
     a_hw_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_h", 4)]
+    overload: Annotated[bool, Quantity("stays at its largest value")]
 
 
 @record
@@ -83,6 +82,7 @@ class MeasuredChannel(Record):
     acceleration_m_per_s2: Annotated[float | None, Quantity("measured, rms", "", 4)]
     true_m_per_s2: Annotated[float, Quantity("calibrator, rms", "", 4)]
     ratio: Annotated[float | None, Quantity("measured over calibrator", "", 4)]
+    overload: Annotated[bool, Quantity("stays at its largest value")]
 
 
 @record
@@ -150,7 +150,8 @@ def declare_recordings(
         checks=measured_checks(
             [Series(each.operator, each.handle, each.runs, each.mean_m_per_s2, each.standard_deviation_m_per_s2)
              for each in series],
-            [(_name(run), len(run.axes), run.overload, run.why_not) for run in runs],
+            [(_name(run), len(run.axes), run.why_not) for run in runs],
+            _overloads(runs, channels), tuple(_doubles(measured)),
             [Calibrated(channel.name, channel.file, channel.ratio) for channel in channels],
         ),
         warnings=(*source.warnings, *_remarks(measured, factor)),
@@ -195,7 +196,7 @@ def _record(key: tuple[str, int, str], group: Sequence[Run]) -> MeasuredRun:
     names = [name for run in group for name in _axis_names(run)]
     _refuse_doubles(key, group, names)
     weighting = hand_arm_filter()
-    values, reasons, overload = list[float | None](), list[str](), False
+    values, reasons, overload = list[float | None](), list[str](), list[bool]()
     for run in group:
         for index in run.indices:
             samples = run.recording.samples[index]
@@ -203,16 +204,19 @@ def _record(key: tuple[str, int, str], group: Sequence[Run]) -> MeasuredRun:
             reason = why_not(signal, weighting)
             values.append(None if reason else _rms(signal, weighting))
             reasons += [reason] if reason else []
-            overload = overload or flat_tops(samples, float(np.ptp(samples)) / STEPS_OF_CREST, run=4) is not None
+            overload.append(run.recording.names[index] in run.recording.clipped)
     known = [value for value in values if value is not None]
     return MeasuredRun(
         operator=operator,
         run=number,
         handle=handle,
         a_hv_m_per_s2=math.hypot(*known) if len(known) == len(values) else None,
-        axes=tuple(MeasuredAxis(name=name, a_hw_m_per_s2=value) for name, value in zip(names, values, strict=True)),
+        axes=tuple(
+            MeasuredAxis(name=name, a_hw_m_per_s2=value, overload=over)
+            for name, value, over in zip(names, values, overload, strict=True)
+        ),
         duration_s=min(run.recording.duration for run in group),
-        overload=overload,
+        overload=any(overload),
         why_not=reasons[0] if reasons else None,
     )
 
@@ -255,6 +259,7 @@ def _calibration(source: Recordings) -> Iterator[MeasuredChannel]:
                 acceleration_m_per_s2=value,
                 true_m_per_s2=true,
                 ratio=None if value is None else value / true,
+                overload=name in recording.clipped,
             )
 
 
@@ -293,12 +298,28 @@ def _name(run: MeasuredRun) -> str:
     return f"operator {run.operator}, run {run.run}, {run.handle}"
 
 
+def _doubles(measured: Sequence[_Measured]) -> Iterator[str]:
+    """Runs that hold the same samples as one before them: they count as runs, but were measured once."""
+    known: dict[tuple[tuple[str, tuple[int, ...]], ...], MeasuredRun] = {}
+    for each in measured:
+        samples = tuple((part.recording.sha256, part.indices) for part in each.parts)
+        first = known.setdefault(samples, each.record)
+        if first is not each.record:
+            yield f"{_name(each.record)}: the same recording as {_name(first)}"
+
+
+def _overloads(runs: Iterable[MeasuredRun], calibration: Iterable[MeasuredChannel]) -> list[str]:
+    """Names of the channels that stay at their largest value, of runs and calibrator runs."""
+    names = [f"{_name(run)}, {axis.name}" for run in runs for axis in run.axes if axis.overload]
+    return names + [f"calibrator run {channel.file}, {channel.name}" for channel in calibration if channel.overload]
+
+
 def _remarks(measured: Sequence[_Measured], factor: float) -> Iterator[str]:
     """Remarks of the reader once each with the number of files, and where K is from."""
     told: dict[str, dict[str, None]] = {}
     for each in measured:
         for part in each.parts:
-            for remark in part.recording.told:
+            for remark in part.recording.remarks:
                 told.setdefault(remark, {})[Path(part.recording.file).name] = None
     for remark, files in told.items():
         names = list(files)

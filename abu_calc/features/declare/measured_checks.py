@@ -31,13 +31,18 @@ class Calibrated(NamedTuple):
 
 
 def measured_checks(
-    series: Sequence[Series], runs: Sequence[tuple[str, int, bool, str | None]], channels: Sequence[Calibrated]
+    series: Sequence[Series],
+    runs: Sequence[tuple[str, int, str | None]],
+    overloads: Sequence[str],
+    doubles: Sequence[str],
+    channels: Sequence[Calibrated],
 ) -> tuple[Check, ...]:
-    """`runs`: name, number of axes, overload, and why the value is not known, of each run."""
+    """`runs`: name, number of axes, and why the value is not known, of each run; `overloads`: names of channels;
+    `doubles`: runs that repeat a recording."""
     return (
-        *_spread(series), _whole(series, [(name, axes) for name, axes, _, _ in runs]), *_calibration(channels),
-        _overload([name for name, _, overload, _ in runs if overload]),
-        _weighted([(name, reason) for name, _, _, reason in runs if reason]),
+        *_spread(series), _whole(series, [(name, axes) for name, axes, _ in runs], doubles), *_calibration(channels),
+        _overload(overloads),
+        _weighted([(name, reason) for name, _, reason in runs if reason]),
     )  # fmt: skip
 
 
@@ -70,7 +75,7 @@ def _scatters_little(series: Series) -> bool:
     return _variation(series) < rules.variation or (series.deviation or 0.0) < rules.deviation
 
 
-def _whole(series: Sequence[Series], axes: Sequence[tuple[str, int]]) -> Check:
+def _whole(series: Sequence[Series], axes: Sequence[tuple[str, int]], doubles: Sequence[str]) -> Check:
     """ABU442."""
     rules, faults = series_rules(), list[str]()
     for handle in dict.fromkeys(each.handle for each in series):
@@ -83,6 +88,7 @@ def _whole(series: Sequence[Series], axes: Sequence[tuple[str, int]]) -> Check:
     faults += fewer[:MOST_NAMED] + (
         [f"{len(fewer) - MOST_NAMED} more runs with fewer axes"] if len(fewer) > MOST_NAMED else []
     )
+    faults += [_listed(doubles)] if doubles else []
     message = f"Each handle has {rules.operators} operators or more with {rules.runs} runs or more, three axes each"
     remedy = "Measure what is missing, so that the value is that of a whole type test." if faults else None
     return coded("ABU442", verdict(True, not faults), ". ".join(faults) or message, remedy=remedy)
@@ -109,12 +115,12 @@ def _calibration(channels: Sequence[Calibrated]) -> Iterator[Check]:
     yield coded("ABU443", verdict(error <= CALIBRATED), message, 100 * error, 100 * CALIBRATED, "%", remedy)
 
 
-def _overload(runs: Sequence[str]) -> Check:
+def _overload(channels: Sequence[str]) -> Check:
     """ABU444."""
     message = "No recording stays at its largest value"
-    if runs:
-        message = f"Cut off at the largest value: {_listed(runs)}"
-    return coded("ABU444", verdict(not runs), message)
+    if channels:
+        message = f"Cut off at the largest value: {_listed(channels)}"
+    return coded("ABU444", verdict(not channels), message)
 
 
 def _weighted(runs: Sequence[tuple[str, str]]) -> Check:

@@ -129,6 +129,6 @@ def _bars(result: MeasuredDeclareResult) -> Iterator[Figure]:
     axis = Axis.around("weighted acceleration a_hv [m/s²]", ends, zero=True)
     value = result.a_hd_m_per_s2
     limit = None if value is None else (value, f"a_hd {number(value, 3)} m/s²")
-    text = "; ".join(f"{bar.name}: {bar.told}" for bar in rows)
+    text = "; ".join(f"{bar.name}: {bar.text}" for bar in rows)
     caption = "Mean of each operator at each handle, with one standard deviation of the runs on either side."
     yield Figure("series", "series", Bars("Series", text, axis, rows, limit), caption)

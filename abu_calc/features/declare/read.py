@@ -111,7 +111,7 @@ def loaded(source: Recordings, entry: RecordedFile, place: Place) -> Recording:
     try:
         return read_recording(
             path, entry.quantity, entry.scale, columns, sensitivity=_sensitivity(entry, columns),
-            full_scale_mV=entry.full_scale_mV,
+            full_scale_mV=entry.full_scale_mV, keep_clipped=True,
         )  # fmt: skip
     except InputError as error:
         if error.place.file is None:

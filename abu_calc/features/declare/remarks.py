@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from abu_calc.features.declare.records import WithAutobalancer
-from abu_calc.features.declare.simulated_test import SimulatedTest, Spindle
+from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.type_test import ChosenWheel
 from abu_calc.standards.type_test import uncertainty_source

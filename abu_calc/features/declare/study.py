@@ -18,7 +18,7 @@ from abu_calc.features.declare.records import (
     WithoutAutobalancer,
 )
 from abu_calc.features.declare.remarks import remarks
-from abu_calc.features.declare.simulated_test import (
+from abu_calc.features.declare.type_test_simulation import (
     STARTS,
     BreakEven,
     SimulatedTest,

@@ -178,7 +178,7 @@ def _bars(result: DeclareResult) -> Iterator[Figure]:
     limit = result.without.a_hv_m_per_s2, f"declared without: {_told(result.without.a_hv_m_per_s2)}"
     highest = [*(bar.value for bar in rows), *(bar.span[1] for bar in rows if bar.span)]
     axis = Axis.around("weighted acceleration a_hv [m/s²]", highest, zero=True)
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in rows)
     caption = (
         "Weighted acceleration at each handle in the type test, and the declared value with the autobalancer, which "
         "90 % of type tests give within the span. It should stay left of the dashed line."

@@ -89,7 +89,7 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     limit = _limit(result, "ABU401")
     values = [*(bar.value for bar in known), *([limit[0]] if limit else [])]
     axis = Axis.around("velocity level, idle [dB]", values)
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in known) + (f"; {limit[1]}" if limit else "")
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in known) + (f"; {limit[1]}" if limit else "")
     caption = "Velocity level at each place, idle, at the rated speed, dB re 5e-8 m/s rms."
     where = f", {vibration.place}," if beside else ""
     caption += f" The expected level (circle){where} should stand left of the dashed limit." if limit else ""
@@ -152,10 +152,10 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
         return
     limit = (budget.permitted_um, f"permitted {micrometres(budget.permitted_um)}") if budget.permitted_um else None
     axis = Axis(
-        "displacement at the wheel, 0–peak [µm]", 0.0, max(max(bar.value for bar in rows), limit[0] if limit else 0)
+        "displacement of the race, 0–peak [µm]", 0.0, max(max(bar.value for bar in rows), limit[0] if limit else 0)
     )
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
-    caption = "Displacements that remain at the wheel after the balls settle, by cause, and their sums."
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in rows) + (f"; {limit[1]}" if limit else "")
+    caption = "Displacements of the race that remain after the balls settle, by cause, and their sums."
     caption += " The expected residual should end left of the dashed line." if limit else ""
     yield Figure("budget", "accuracy-budget", Bars("Residual-displacement budget", text, axis, rows, limit), caption)
 
@@ -307,7 +307,7 @@ def _costs(result: SizeResult) -> Iterator[Figure]:
     if not rows or rows[0].value <= 0:
         return
     axis = Axis("level rises by [dB]", min(0.0, rows[-1].value), rows[0].value)
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in rows)
     caption = "Rise of the expected level if one tolerance of the drawing is used up, the others as budgeted."
     yield Figure("costs", "for-the-drawing", Bars("Cost of each tolerance", text, axis, rows), caption)
 

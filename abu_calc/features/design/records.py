@@ -132,7 +132,7 @@ class AutobalancerRecord(Record):
 
 @record
 class AccuracyBudget(Record):
-    """Displacements 0–peak at the wheel that stay when the balls have settled; None: without bound."""
+    """Displacements 0–peak of the race that stay when the balls have settled; None: without bound."""
 
     optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
 

@@ -4,12 +4,12 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
-from abu_calc.features.design.data_gaps import DataGap
+from abu_calc.features.design.data_gaps import DRAG, RANGES, DataGap
 from abu_calc.features.design.records import AutobalancerRecord, Vibration
 from abu_calc.features.design.section_drawing import legend, section_lines
 from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
-from abu_calc.features.swing_arm.view import arm_bounds, arm_line
+from abu_calc.features.swing_arm.view import arm_bounds, arm_line, short_advice
 from abu_calc.foundation.checks import Check
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, level_text, number
 from abu_calc.reporting.parts import RANK, WORD, file_of, paste_lines, unlike, value_and_limit
@@ -33,6 +33,11 @@ MOST_HANDLES: Final = 2
 LEAST_SHOWN: Final = 0.005
 """Weighted acceleration [m/s²] that two decimals still show."""
 
+WITHOUT: Final = "Idle, without autobalancer"
+EXPECTED: Final = "  expected, manufacture and friction"
+LOUDER: Final = "LOUDER THAN WITHOUT"
+"""Labels of cases of the idle level, and the grade of a case under load."""
+
 LONGEST_NAME: Final = 10
 """Letters of a handle's name in the table."""
 
@@ -51,7 +56,8 @@ class Case(NamedTuple):
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The report on one screen: tables first, then actions, then notes as far as there is room."""
-    about = [Heading(title_with_speed(result)), verdict_line(result), *small_benefit(result), *arm_change(result)]
+    about = [Heading(title_with_speed(result)), verdict_line(result), *small_benefit(result)]
+    about += arm_line(short_advice(result.swing_arm.advice)) if result.swing_arm else []
     tables = numbers_that_matter(result)
     body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
     groups = action_groups(result.checks, marked(tables))
@@ -67,12 +73,13 @@ def size_screen(result: SizeResult) -> tuple[Block, ...]:
         actions = [block for group in groups for block in group]
         shown = actions if 2 + taken_by(actions) <= room else fitted(heads, codes, room - 2)
         below += [Heading("Actions", "actions"), *shown]
-    room = LINES - height([*about, *body, *below, *last])
-    shown_gaps = result.data_gaps[: max(0, room - 2)]
-    hidden = len(result.data_gaps) - len(shown_gaps)
-    if shown_gaps:
-        below += [BLANK, *gap_table(shown_gaps)]
-        last = _closing(result, len(notes), hidden)
+    hidden = len(result.data_gaps)
+    for count in range(len(result.data_gaps), 0, -1):  # the fewer are hidden, the shorter are the last lines
+        table = [BLANK, *gap_table(result.data_gaps[:count])]
+        closing = _closing(result, len(notes), hidden - count)
+        if height([*about, *body, *below, *table, *closing]) <= LINES:
+            below, last, hidden = [*below, *table], closing, hidden - count
+            break
     room = LINES - height([*about, *body, *below, *last])
     fitting = fitted(notes, [], room - 2) if notes and room > LEAST_NOTES else []
     if fitting:
@@ -113,7 +120,7 @@ def about(result: SizeResult) -> list[Block]:
 
 
 def make(result: SizeResult) -> list[Block]:
-    """What to make or buy, in a few rows."""
+    """Parts to make or buy, in a few rows."""
     abu, section = result.autobalancer, result.section
     title = "Make" if result.status == "pass" else "Best found"
     share = f"{number(100 * abu.mass_fraction, 2)} % of the machine"
@@ -165,10 +172,28 @@ def numbers_that_matter(result: SizeResult) -> list[Block]:
     checks = {check.code: check for check in result.checks}
     levels, settling = _levels(result, checks, numbers), _settling(result, checks, numbers)
     place = _place(result.vibration)
-    tables = [_table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels), *handle_tables(result, numbers)]
+    vibration = _table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels)
+    tables = [_with_weighted(vibration, result.vibration), *handle_tables(result, numbers)]
     if settling:
         tables.append(_table("Settling time, s", "time", settling))
     return [block for table in tables for block in (BLANK, table)]
+
+
+def _with_weighted(table: Grid, vibration: Vibration) -> Grid:
+    """The table of levels with the weighted acceleration of the loudest axis beside those calculated.
+
+    Without handles no other table shows it. Rows that are louder than without leave no room for it.
+    """
+    places = vibration.handles
+    axes = places[0].axes or () if [place.name for place in places] == [WHEEL_PLANE] else ()
+    before = max((axis.a_h_before_m_per_s2 or 0.0 for axis in axes), default=0.0)
+    after = max((axis.a_h_after_m_per_s2 or 0.0 for axis in axes), default=0.0)
+    if before < LEAST_SHOWN or any(row[-1] == LOUDER for row in table.rows):
+        return table
+    shown = {WITHOUT: _acceleration(before), EXPECTED: _acceleration(after)}
+    rows = tuple((label, level, shown.get(label, ""), *others) for label, level, *others in table.rows)
+    title, column, *limit = table.header
+    return Grid((title, column, "a_h, m/s²", *limit), rows, frozenset({1, 2, 3}))
 
 
 def handle_tables(result: SizeResult, numbers: Mapping[str, int], most: int = MOST_HANDLES) -> list[Grid]:
@@ -253,7 +278,7 @@ def _graded(value: float | None, check: Check | None, numbers: Mapping[str, int]
 
 def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[Case]:
     vibration, many_starts, check = result.vibration, result.ensemble, checks.get("ABU401")
-    cases = [Case("Idle, without autobalancer", _db(vibration.level_before_db))]
+    cases = [Case(WITHOUT, _db(vibration.level_before_db))]
 
     def judged(label: str, level: float | None, *, decides: bool) -> Case:
         return Case(label, _db(level), *_graded(level, check, numbers, decides=decides))
@@ -262,7 +287,7 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
         cases.append(judged("Idle, with: median of the start cases", many_starts.predicted_level_db, decides=True))
     over_range = [entry.level_after_db for entry in vibration.by_speed or ()]
     expected = max((level for level in (vibration.level_after_db, *over_range) if level is not None), default=None)
-    cases.append(judged("  expected, manufacture and friction", expected, decides=True))
+    cases.append(judged(EXPECTED, expected, decides=True))
     if many_starts is not None and many_starts.level_db.worst is not None:
         loudest = many_starts.level_db.worst
         if expected is None or loudest > expected + TENTH:
@@ -323,7 +348,7 @@ def _under_load(loaded: Vibration | None) -> list[Case]:
 
 def _louder(level: float | None, before: float | None) -> str:
     louder = level is not None and before is not None and level > before
-    return "LOUDER THAN WITHOUT" if louder else ""
+    return LOUDER if louder else ""
 
 
 def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[Case]:
@@ -341,11 +366,14 @@ def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[
         by_drag.setdefault(entry.drag_per_s, []).append(entry)
     slowest_by_drag = {drag: max(entries, key=_time_of) for drag, entries in by_drag.items()}
     others = [drag for drag in slowest_by_drag if drag != given]
+    # A file from the template gives the default.
+    usual = DRAG in dict(result.provenance.defaults) or given == RANGES[DRAG].assumed
+    nominal = "default" if usual else "as given"
     shown = [given] * (given in slowest_by_drag)
     shown += [max(others, key=lambda drag: _time_of(slowest_by_drag[drag]))] if others else []
     for drag in shown:
         slowest = slowest_by_drag[drag]
-        oil = "as given" if drag == given else "hot oil" if drag < given else "cold oil"
+        oil = nominal if drag == given else "hot oil" if drag < given else "cold oil"
         label = f"Slowest, drag rate {number(drag, 3)} 1/s {oil}: {slowest.start}"
         cases.append(judged(label, slowest.settling_time_s, decides=drag == given))
     return [

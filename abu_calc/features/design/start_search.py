@@ -266,14 +266,14 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
         )
     if not broken and searched.lost:
         return replace(
-            check, status="warn", message=f"{check.message}. {searched.lost} further start cases gave no answer"
+            check, status="warn", message=f"{check.message}. Further start cases without answer: {searched.lost}"
         )
     limit = design.case.table.limits.settling_time_s
     rare = check.code == "ABU702" and searched.outcomes and searched.foreseen > limit
     if not broken and not rare:
         return check
     worst = max(broken or searched.outcomes, key=order)
-    share = f"{len(broken)} of {len(searched.outcomes)} further start cases {words(worst)}"
+    share = f"Further start cases: {len(broken)} of {len(searched.outcomes)} {words(worst)}"
     if not broken:
         share = (
             f"By the slowest of all start cases, one of {1 / RARE:.0f} takes {searched.foreseen:.3g} s (limit "
@@ -311,10 +311,7 @@ def _time_in_words(outcome: StartOutcome) -> str:
     )
 
 
-NOT_TRIED: Final = (
-    "No change was simulated for further start cases. To try one, add `--set` to the command that "
-    "`abu size FILE --full` prints."
-)
+NOT_TRIED: Final = "No change was simulated; --full prints a command to try one."
 NAMES: Final = {
     "ABU401": "loudest",
     "ABU701": "one with the largest imbalance left",

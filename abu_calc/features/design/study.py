@@ -10,6 +10,7 @@ from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
+from abu_calc.features.design.later_settling import with_later_settling
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
@@ -187,7 +188,7 @@ def size(
     return SizeResult(
         title=tables.machine.name,
         checks=(
-            *_checks(tried, [check for bearing in seats for check in bearing.checks], arm),
+            *_checks(tried, [check for bearing in seats for check in bearing.checks], arm, accuracy),
             *stays,
             region.check,
             *(
@@ -197,7 +198,12 @@ def size(
             *lost,
         ),
         warnings=merged(
-            *machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work, loads, bound)
+            *machine.warnings,
+            *_types_taken(seats),
+            *tried.warnings,
+            *design.warnings,
+            *remarks,
+            *_under_load(work, loads, bound),
         ),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
@@ -268,6 +274,14 @@ def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
     return seat_bearings(tables.bearing)
 
 
+def _types_taken(seats: "tuple[BearingSeats, ...]") -> Iterator[str]:
+    """Sentences on bearings that were taken for sizes without a type."""
+    if seats:
+        from abu_calc.features.seats.seats import types_taken
+
+        yield from types_taken(seats)
+
+
 def _with_lives(
     seats: "tuple[BearingSeats, ...]", design: Design, ensemble: Ensemble | None, tables: MachineFile
 ) -> "tuple[BearingSeats, ...]":
@@ -292,12 +306,15 @@ def _with_lives(
     return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
 
 
-def _checks(tried: Proven, seat_checks: Sequence[Check], arm: "ArmJudgement | None") -> Iterator[Check]:
+def _checks(
+    tried: Proven, seat_checks: Sequence[Check], arm: "ArmJudgement | None", accuracy: float
+) -> Iterator[Check]:
     """Checks of the sizing, the level by its worst start case and the arm's checks as they were judged."""
     held = {arm_check.code: arm_check for arm_check in arm.checks} if arm else {}
     for check in tried.design.checks:
         if check.code == "ABU401":
-            yield with_searched(level_check(check, tried.ensemble, tried.change), tried.searched, tried.design)
+            level = level_check(check, tried.ensemble, tried.change)
+            yield with_searched(with_later_settling(level, tried, accuracy), tried.searched, tried.design)
         else:
             yield held.pop(check.code, check)
     yield from seat_checks

@@ -74,11 +74,11 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     gaps = gap_table(result.data_gaps)
     body += gaps
     room -= sum(map(height_mm, gaps))
-    told = first_that_fit([[note] for note in notes], room - HEADING_MM - LINE_MM)
-    left = len(notes) - len(told)
+    fitting = first_that_fit([[note] for note in notes], room - HEADING_MM - LINE_MM)
+    left = len(notes) - len(fitting)
     further = [Paragraph(f"See Warnings for {many(left, 'more note')}.")] if left else []
     if notes:
-        body += [Heading("Notes"), *(note for group in told for note in group), *further]
+        body += [Heading("Notes"), *(note for group in fitting for note in group), *further]
     return Summary((Heading(title_with_speed(result)), verdict_line(result), *body), not left)
 
 

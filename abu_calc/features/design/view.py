@@ -195,7 +195,7 @@ def _need(result: SizeResult) -> list[Block]:
         Paragraph(_hanging(result)),
         facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",
               "required_capacity_compliant_g_mm"),
-        Heading("Residual-displacement budget at the wheel", "accuracy-budget"),
+        Heading("Residual-displacement budget of the race", "accuracy-budget"),
         facts(budget, *(name for name in budget.entries() if name not in silent)),
     ]  # fmt: skip
 

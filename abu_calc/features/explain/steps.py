@@ -80,7 +80,7 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.friction_band:worst_friction",
             "sizing.budget:ovality_residual",
             "sizing.budget:permitted_displacement",
-            "sizing.budget:plane_residual",
+            "sizing.place_response:plane_rest",
         ),
     ),
     "balls": Step(

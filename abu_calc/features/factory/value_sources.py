@@ -36,8 +36,10 @@ def value_sources(text: str) -> tuple[ValueSource, ...]:
         if heading := TABLE.fullmatch(line):
             table = heading[1]
         elif table.split(".")[0] not in OUTSIDE and (entry := ENTRY.match(line)):
-            told = VALUE.fullmatch(line)
-            values.append(ValueSource(key=f"{table}.{entry[1]}", status=told and told[3], why=told[4] if told else ""))
+            origin = VALUE.fullmatch(line)
+            values.append(
+                ValueSource(key=f"{table}.{entry[1]}", status=origin and origin[3], why=origin[4] if origin else "")
+            )
     return tuple(values)
 
 

@@ -124,7 +124,7 @@ def _cells(row: FactoryLevel) -> tuple[str, ...]:
 
 
 def _lowered(rows: Sequence[FactoryLevel]) -> Grid:
-    """What was measured without, and what the autobalancer lowers."""
+    """Levels measured without the autobalancer, and the reduction with it."""
     heading = "machine", "Hz", "without", "model", "lowered", "model", "at drag", "loudest"
     cells = tuple(
         (

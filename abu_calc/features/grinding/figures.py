@@ -44,7 +44,7 @@ def _levels(result: GrindingResult) -> Iterator[Figure]:
     if not rows:
         return
     axis = Axis.around("velocity level at work [dB]", (bar.value for bar in rows))
-    chart = Bars("Levels at work", "; ".join(f"{bar.name} {bar.told}" for bar in rows), axis, rows)
+    chart = Bars("Levels at work", "; ".join(f"{bar.name} {bar.text}" for bar in rows), axis, rows)
     caption = "Velocity level at work, 0 dB = 5e-8 m/s rms: the autobalancer helps where round stands left of square."
     yield Figure("levels", "title", chart, caption)
 

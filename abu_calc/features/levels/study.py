@@ -306,7 +306,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
         Path(recorded.file).name,
         tuple(PlaceLevel.of(place, minutes) for place in places),
         checks=level_checks(places, minutes),
-        warnings=(*recorded.told, *_remarks(recorded, signals), *_unusual(loudest)),
+        warnings=(*recorded.remarks, *_remarks(recorded, signals), *_unusual(loudest)),
         provenance=Provenance.today(recorded.file, recorded.sha256),
         source="recording",
         quantity=recorded.quantity,

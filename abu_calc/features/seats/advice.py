@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from typing import Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.clearance import Mounting
+from abu_calc.features.seats.clearance import PRELOADED, Mounting, lighter_group
 from abu_calc.features.seats.creep import holds_at_start
 from abu_calc.features.seats.interference import of_all
 from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
@@ -175,6 +175,8 @@ def _grade(tolerance_class: str) -> str:
     return tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")
 
 
+PAIRED: Final = frozenset({"tapered", "angular-contact"})
+"""Kinds whose clearance is that of a pair."""
 SHARE_TO_ORDER: Final = 0.01
 """Share of bearings without clearance up to which a group is still the one to order; assumed."""
 SHARE_OF_MAKERS: Final = 0.05
@@ -210,7 +212,7 @@ def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
     """
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
     inner, outer = (
-        None if overloaded(bearing) and joint.must_grip else advised(joint, start, makers_classes(bearing, joint.seat))
+        None if _hopeless(bearing, joint) else advised(joint, start, makers_classes(bearing, joint.seat))
         for joint in (shaft, housing)
     )
     group = None
@@ -221,6 +223,8 @@ def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
                 inner = candidate
                 break
         group = _group_for_given(bearing, shaft, housing, (inner, outer), group)
+    elif bearing.internal_clearance is not None and inner is not None and outer is not None:
+        group = _group_of_pair(bearing, inner, outer)
     return JointAdvice(
         _with_neighbours(bearing, inner, outer, start, group),
         _with_neighbours(bearing, outer, inner, start, group),
@@ -232,14 +236,24 @@ def _with_neighbours(
     bearing: SeatedBearing, best: Joint | None, other: Joint | None, start: Start, group: str | None
 ) -> SeatAdvice:
     def too_tight(joint: Joint) -> str | None:
-        if group is None or other is None:
+        if group is None or other is None or group in PRELOADED:
             return None
         pair = (joint, other) if joint.seat == "shaft" else (other, joint)
         share = Mounting(bearing, *pair).share_below(group)
-        text = f"no operating clearance is left in {of_all(share, 'bearings')} of group {group}"
+        things = "pairs" if bearing.kind in PAIRED else "bearings"
+        text = f"no operating clearance is left in {of_all(share, things)} of group {group}"
         return text if share > _share_to_order(*pair) else None
 
-    return SeatAdvice(best, neighbours(best, start, too_tight) if best else ())
+    if best is None or (bearing.drawn_cup and best.seat == "housing"):  # a drawn cup need not move
+        return SeatAdvice(best, ())
+    return SeatAdvice(best, neighbours(best, start, too_tight))
+
+
+def _hopeless(bearing: SeatedBearing, joint: Joint) -> bool:
+    """True if no class helps: the load is above C0, or a split housing should hold a drawn cup."""
+    if joint.seat == "housing" and bearing.drawn_cup and bearing.housing.split:
+        return True
+    return overloaded(bearing) and joint.must_grip
 
 
 def overloaded(bearing: SeatedBearing) -> bool:
@@ -254,13 +268,21 @@ def _has_groups(bearing: SeatedBearing) -> bool:
     The clearance of tapered and angular contact bearings is set by their pair.
     """
     kind = bearing.kind
-    if kind is None or bearing.no_inner_ring or kind in ("tapered", "angular-contact"):
+    if kind is None or bearing.no_inner_ring or kind in PAIRED:
         return False
     try:
         internal_clearance(kind, usual_group(kind), bearing.inner.diameter)
     except RangeError:
         return False
     return True
+
+
+def _group_of_pair(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> str | None:
+    """The group given of a pair, or the next looser (preloaded: lighter) one that its seats allow."""
+    given = bearing.internal_clearance
+    if given in PRELOADED:
+        return lighter_group(Mounting(bearing, shaft, housing), given)
+    return _group(bearing, shaft, housing)
 
 
 def _group(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> str | None:

@@ -116,7 +116,8 @@ class SeatedBearing:
     `type` by whose table its rings are toleranced, `kind` what it is (None: not told), `ratings` where they are known;
     `remarks`: what was taken from where the table does not say it; `designation` ISO's, where it is known. `entry`: the
     row of the makers' catalogue; `no_inner_ring`: the needles run on the shaft. `position` along the spindle from the
-    wheel's centre [m]; `short_shares` of pairs above which a seat warns, and fails.
+    wheel's centre [m]; `short_shares` of pairs above which a seat warns, and fails. `taken_as`: the bearing that stands
+    for sizes without a type, in a sentence.
     """
 
     name: str
@@ -138,6 +139,7 @@ class SeatedBearing:
     no_inner_ring: bool = False
     position: float | None = None
     short_shares: tuple[float, float] = (0.01, 0.05)
+    taken_as: str | None = None
 
     def __post_init__(self) -> None:
         for share in self.short_shares:
@@ -151,6 +153,11 @@ class SeatedBearing:
         _ascending("two chamfers", 2 * (self.outer.chamfer or 0), "outer ring width", self.outer.width)
         if self.asked_interference is not None and not self.asked_interference[0] < self.asked_interference[1]:
             raise InputError("the band of interference must ascend", place=Place(key="asked_interference_um"))
+
+    @property
+    def drawn_cup(self) -> bool:
+        """True for drawn-cup needle bearings: the housing gives the cup its shape and holds it."""
+        return self.kind == "drawn-cup"
 
     @property
     def equivalent_loads(self) -> tuple[float, float] | None:

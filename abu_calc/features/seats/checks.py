@@ -1,19 +1,21 @@
 """The checks of a seat, and of the clearance left in its bearing."""
 
+import math
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.creep import CreepJudgement
+from abu_calc.features.seats.equivalent_load import carries_by_flanges
 from abu_calc.features.seats.interference import of_all
-from abu_calc.features.seats.joint import ARTICLE, LOOSE_ENOUGH, TEMPERATURE, Joint
+from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, LOOSE_ENOUGH, TEMPERATURE, Joint
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.catalogue import ROLLERS
-from abu_calc.standards.internal_clearance import groups_of, internal_clearance, pair_preload
-from abu_calc.standards.tolerance_classes import SOURCE
+from abu_calc.standards.internal_clearance import groups_of, preload_limits
+from abu_calc.standards.tolerance_classes import source_of
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.clearance import ClearanceLeft
@@ -26,6 +28,8 @@ _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
 _MOST: Final = 0.5
 _KEPT: Final = 0.995
+_SHOWN: Final = 0.05
+"""Losses [µm] below it are not named: they would read 0.0."""
 _TRACE: Final = 0.01
 """Share of short pairs [%] below which no digits are shown."""
 _SMALL: Final = 0.006
@@ -149,11 +153,23 @@ def _axial(bearing: SeatedBearing, life: RatingLife) -> Check:
         return coded("ABU635", "not-done", why, None, None, "kN", action, of=bearing.name, requested=False)
     most = ratings.static / 2 if life.carries_axial else 0.0
     passed = axial <= 0 or life.carries_axial
-    message = f"a {bearing.kind} bearing carries at most half of C0" if passed else "the bearing carries no axial load"
+    action = "Specify an angular contact or tapered bearing."
+    if carries_by_flanges(bearing.entry):
+        radial = bearing.service.radial_load or 0.0
+        passed, most = axial <= radial / 2, radial / 2
+        way = "in one direction" if bearing.entry and bearing.entry.designation.startswith("NJ") else "either way"
+        message = f"the flanges carry it {way}, at most half of F_r"
+    elif passed:
+        message = f"a {bearing.kind} bearing carries at most half of C0"
+    elif bearing.kind == "cylindrical":
+        message = "NU and N bearings have no flanges that carry it"
+        action = "Specify designation NJ or NUP, if they carry it, or an angular contact or tapered bearing."
+    else:
+        message = "the bearing carries no axial load"
     rough = "" if life.axial_factors_known else ". Its factors e, X and Y are those of a usual bearing of its type"
     return coded(
         "ABU635", verdict(passed, axial <= most), f"{message}{rough}", from_si(axial, "kN"), from_si(most, "kN"), "kN",
-        None if passed and axial <= most else "Specify an angular contact or tapered bearing.", of=bearing.name,
+        None if passed and axial <= most else action, of=bearing.name,
     )  # fmt: skip
 
 
@@ -244,22 +260,21 @@ def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tu
 
 def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
     """The probable preload of a pair against that of the next heavier group, and twice that of the heaviest."""
-    heavier = groups_of("angular-contact")
-    place, bore = heavier.index(left.group), bearing.inner.diameter
-    limits = [
-        pair_preload(internal_clearance("angular-contact", heavier[group], bore).smallest, bore)
-        for group in (max(place - 1, 0), 0)
-    ]
-    most = left.preload[1] if left.preload else None
-    if most is None or limits[0] is None or limits[1] is None:
+    heavier, most = groups_of("angular-contact"), left.preload[1] if left.preload else None
+    place, limits = heavier.index(left.group), preload_limits(left.group, bearing.inner.diameter)
+    if most is None or limits is None:
         return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
-    heaviest = 2 * limits[1]
-    passed, safe = most <= heaviest, most <= limits[0]
+    safe_most, heaviest = limits
+    passed, safe = most <= heaviest, most <= safe_most
+    choice = "Specify looser tolerance classes: no lighter group is below its limit."
+    if left.group_to_choose:
+        result = "stays below its limit" if left.group_to_choose in heavier[:3] else "keeps clearance"
+        choice = f"Specify group {left.group_to_choose}: it {result} (calculated). Or specify looser classes."
     return coded(
         "ABU621", verdict(passed, safe), f"largest probable preload of a pair of group {left.group} after mounting. "
         f"The limit is {'the' if passed else 'twice the'} most of group {heavier[max(place - 1, 0) if passed else 0]} "
-        "before mounting", round(most, 1), limits[0] if passed else heaviest, "N",
-        None if safe else "Specify looser tolerance classes or a lighter group.", of=bearing.name,
+        "before mounting", round(most, 1), round(safe_most if passed else heaviest, 1), "N",
+        None if safe else choice, of=bearing.name,
     )  # fmt: skip
 
 
@@ -285,6 +300,8 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
 
 def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
     share = f"{of_all(joint.clearance_probability)} have clearance"
+    if bearing.drawn_cup and joint.seat == "housing":
+        return _cup(bearing, joint, recommended, share)
     tightest = joint.coldest_or_hottest
     if joint.turns_tight:
         low, high = (_um(end - tightest.loss) for end in joint.interference)
@@ -314,13 +331,33 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
     )  # fmt: skip
 
 
+def _cup(bearing: SeatedBearing, joint: Joint, recommended: str | None, share: str) -> Check:
+    """The housing of a drawn cup: warn if it is looser than all classes of the catalogue's row, or split."""
+    classes = joint.cup_classes
+    held = joint.mean >= min((joint.with_class(name).mean for name in classes), default=math.inf)
+    asked = f"The makers specify {' or '.join(classes)}, which" if classes else "A one-piece housing must"
+    cup = (
+        f"A drawn cup gets its shape and hold from the housing; {share}. {asked} press it"
+        if not held
+        else ("A drawn cup gets its shape and hold from the housing, as the makers specify")
+    )
+    action = f"Specify {recommended}." if recommended else "Specify a one-piece housing."
+    return coded(
+        _CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.told}. {cup}",
+        _um(joint.interference.smallest), None, "µm", None if held else action, "least", of=bearing.name,
+    )  # fmt: skip
+
+
 def _makers(bearing: SeatedBearing, joint: Joint) -> str:
     if joint.maker is None or bearing.load_ratio is None:
         return ""
     adapted = ""
-    if joint.catalogue_class != joint.maker.classes[0]:
+    if joint.catalogue_class is None:
+        adapted = f", which does not count here. {BEYOND_ROWS[joint.seat]}"
+    elif joint.catalogue_class != joint.maker.classes[0]:
         adapted = f", on this hollow shaft {joint.catalogue_class}"
-    return f". For P/C = {bearing.load_ratio:.2g} the catalogue gives {joint.maker.classes[0]}{adapted} ({SOURCE})"
+    gives = f"the catalogue ({source_of(bearing.kind)}) gives {joint.maker.classes[0]}{adapted}"
+    return f". For P/C = {bearing.load_ratio:.2g} {gives}"
 
 
 def _other_class(joint: Joint, rule: str | None) -> str:
@@ -364,7 +401,7 @@ def _losses(joint: Joint) -> str:
     warm = max(case.loss for case in joint.thermal_cases)
     named = [*parts, (TEMPERATURE, warm)] if warm > 0 else parts
     kept = f", over the {joint.pressure_kept:.0%} of the pressure that is kept" if joint.pressure_kept < _KEPT else ""
-    return kept + "".join(f" + {name} {_um(value):.1f} µm" for name, value in named if value > 0)
+    return kept + "".join(f" + {name} {_um(value):.1f} µm" for name, value in named if _um(value) >= _SHOWN)
 
 
 def _tighter(joint: Joint, recommended: str | None) -> str | None:
@@ -379,6 +416,9 @@ def _remedy(joint: Joint, recommended: str | None) -> str:
         return "A split housing cannot hold a ring whose load turns round it. Specify a one-piece housing."
     if recommended is None and joint.diameter < _SMALL and joint.must_grip:
         return "A class that holds so small a ring overstresses it. Specify h5 and bond the ring."
+    if recommended is None and joint.maker is not None and joint.catalogue_class is None:
+        wall = "shaft with a smaller bore" if joint.seat == "shaft" else "housing with a thicker wall, or of steel"
+        return f"No tabulated class both holds the ring and is permitted. Specify a {wall}."
     if recommended is None:
         return "No tabulated class both holds the ring and is permitted. Specify a longer seat or a larger bearing."
     best = joint.with_class(recommended)

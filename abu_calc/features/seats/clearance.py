@@ -13,8 +13,16 @@ from abu_calc.features.seats.interference import Interval
 from abu_calc.features.seats.joint import Joint, inner_ring_diameter, outer_ring_diameter
 from abu_calc.foundation.formula import formula
 from abu_calc.standards.balls import seat_material
-from abu_calc.standards.internal_clearance import CONTACT_ANGLE, groups_of, internal_clearance, pair_preload
+from abu_calc.standards.internal_clearance import (
+    CONTACT_ANGLE,
+    groups_of,
+    internal_clearance,
+    pair_preload,
+    preload_limits,
+)
 
+PRELOADED: Final = groups_of("angular-contact")[:3]
+"""Groups of pairs under preload, the heaviest first."""
 _TAIL: Final = 0.00135
 """Share beyond 3σ on one side of a normal law."""
 _REACH: Final = 5.0
@@ -27,9 +35,10 @@ _Law = tuple[tuple[float, float], ...]
 
 class ClearanceLeft(NamedTuple):
     """Radial clearance [m] of a group before and after mounting: the extremes, the 0.135 % and 99.865 % ends and the
-    mean of all bearings, the share below zero, the part that temperature takes, and the tightest group whose lower end
-    stays above zero (None: no group). `axial` of a pair of angular contact bearings, whose `preload` [N] is that of the
-    probable clearances, least and most (None: not a preloaded pair)."""
+    mean of all bearings, the share below zero, the part that temperature takes, and the group to choose (None: no
+    group): the tightest whose lower end stays above zero, of a preloaded pair the heaviest below its limit. `axial` of
+    a pair of angular contact bearings, whose `preload` [N] is that of the probable clearances, least and most (None:
+    not a preloaded pair)."""
 
     group: str
     initial: Interval
@@ -117,10 +126,22 @@ def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Jo
         mean=(start.smallest + start.largest) / 2 - taken - mounting.warmth,
         below_zero_probability=mounting.share_below(group),
         by_temperature=mounting.warmth,
-        group_to_choose=mounting.group_to_choose,
+        group_to_choose=lighter_group(mounting, group) if group in PRELOADED else mounting.group_to_choose,
         axial=mounting.axial,
         preload=_preload(mounting, probable) if mounting.axial else None,
     )
+
+
+def lighter_group(mounting: Mounting, group: str) -> str | None:
+    """The heaviest group of preload, lighter than a group, that stays below its limit; else one that keeps clearance.
+
+    The group itself if it stays below.
+    """
+    for each in PRELOADED[PRELOADED.index(group) :]:
+        most, limits = pair_preload(mounting.end(each, _TAIL), mounting.bore), preload_limits(each, mounting.bore)
+        if most is not None and limits is not None and most <= limits[0]:
+            return each
+    return mounting.group_to_choose
 
 
 def _preload(mounting: Mounting, probable: Interval) -> tuple[float, float] | None:

@@ -69,8 +69,8 @@ OPTIONS: Final = (
     BearingOption("name", "--name", BEARING, str, "NAME", "Name of the bearing in the report."),
     BearingOption("radial_load_kN", "--radial-load-kN", LOADS, float, "KN", "Radial load."),
     BearingOption("axial_load_kN", "--axial-load-kN", LOADS, float, "KN", "Axial load."),
-    BearingOption("inner_ring_load", "--inner-ring-load", LOADS, str, "NAME", f"Load on the inner ring: {KINDS}"),
-    BearingOption("outer_ring_load", "--outer-ring-load", LOADS, str, "NAME", f"Load on the outer ring: {KINDS}"),
+    BearingOption("inner_ring_load", "--inner-ring-load", LOADS, str, "NAME", f"Inner ring: {KINDS}"),
+    BearingOption("outer_ring_load", "--outer-ring-load", LOADS, str, "NAME", f"Outer ring: {KINDS}"),
     BearingOption("speed_rpm", "--speed", LOADS, float, "RPM", "Speed of the shaft."),
     BearingOption(
         "starting_torque_N_m", "--starting-torque", LOADS, float, "NM", "Torque that the seat must transmit."
@@ -83,8 +83,8 @@ OPTIONS: Final = (
     ),
     BearingOption("required_life_h", "--required-life", LIFE, float, "H", "Rating life that is required."),
     BearingOption("position_mm", "--position", LIFE, float, "MM", "Place along the spindle from the wheel's centre."),
-    BearingOption("shaft_fit", "--shaft", SEATS, str, "CLASS", "Tolerance class of the shaft: k6, or several: j5,k5."),
-    BearingOption("housing_fit", "--housing", SEATS, str, "CLASS", "Tolerance class of the housing: H7, or several."),
+    BearingOption("shaft_fit", "--shaft", SEATS, str, "CLASS", "Class of the shaft: k6, or several: j5,k5."),
+    BearingOption("housing_fit", "--housing", SEATS, str, "CLASS", "Class of the housing: H7, or several."),
     BearingOption("shaft_limits_um", "--shaft-limits", SEATS, str, "LOW:HIGH", "Measured limits of the shaft, µm."),
     BearingOption(
         "housing_limits_um", "--housing-limits", SEATS, str, "LOW:HIGH", "Measured limits of the housing, µm."
@@ -145,6 +145,13 @@ OPTIONS: Final = (
         "Inner ring warmer than the outer ring.",
     ),
 )
+SELDOM: Final = (
+    *(LIFE, PARTS, THERMAL),
+    *("--chamfer", "--bearing-class", "--series", "--dynamic-load-rating", "--static-load-rating", "--name"),
+    *("--starting-torque", "--shaft-limits", "--housing-limits", "--asked-interference", "--seat-friction"),
+    *("--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet", "--no-color"),
+)
+"""Panels and options that `--help` lists by name, so that it fits on a screen."""
 NAMES: Final = {option.key: option.name for option in OPTIONS}
 """The option of each key."""
 
@@ -196,9 +203,7 @@ def band(key: str, text: str) -> list[float]:
 def check_fit(
     machine: Annotated[str | None, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")] = None,
     set_: Overrides = None,
-    explain: Annotated[
-        bool, typer.Option("--explain", help="Print the whole report and every formula with its numbers.")
-    ] = False,
+    explain: Annotated[bool, typer.Option("--explain", help="Print the report with every formula.")] = False,
     **bearing: object,
 ) -> Outcome:
     """Check bearing seats, or recommend their tolerance classes.
@@ -266,4 +271,4 @@ def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine"
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "check-fit", check_fit, (option.parameter for option in OPTIONS), drawn=(".svg",))
+    add_command(app, "check-fit", check_fit, (option.parameter for option in OPTIONS), drawn=(".svg",), seldom=SELDOM)

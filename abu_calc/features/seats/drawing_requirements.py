@@ -16,6 +16,8 @@ from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits, t
 
 SMALL_SEAT = 0.080
 """Diameter [m] up to which the standard asks for the finer roughness."""
+_WIDTH_ALONE = {"6X": "0"}
+"""Classes of tapered bearings that differ from another one by their width alone (ISO 492)."""
 
 
 class SeatRequirements(NamedTuple):
@@ -45,6 +47,7 @@ class SeatRequirements(NamedTuple):
 def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) -> SeatRequirements:
     table = toml_table("seat_requirements")
     own, limits = table[joint.seat], part_limits(joint.seat, tolerance_class, joint.diameter)
+    bearing_class = _WIDTH_ALONE.get(bearing_class, bearing_class)
     grade = own["shoulder"][bearing_class]
     basic = f"{'h' if joint.seat == 'shaft' else 'H'}{grade}"
     known = basic in tolerance_classes(joint.seat)
@@ -81,6 +84,7 @@ class SeatForm(NamedTuple):
 def seat_form(joint: Joint, tolerance_class: str, bearing_class: str) -> SeatForm:
     table = toml_table("seat_form")
     size = round(from_si(joint.diameter, "mm"), 6)
+    bearing_class = _WIDTH_ALONE.get(bearing_class, bearing_class)
     grade = to_si(_row(table["it"]["rows"], size)[table["grade"][bearing_class] - 2], "um")
     smooth = _row(table["roughness"]["rows"], size)
     own = int(tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ") or 6)

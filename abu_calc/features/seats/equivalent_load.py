@@ -67,7 +67,16 @@ def load_factors(
         if row is None or row.e is None or row.Y is None or row.Y0 is None:
             return LoadFactors(0.3, 0.67, 3.3, 1.0, 2.2, 2.2), False
         return LoadFactors(row.e, 0.67, 1.5 * row.Y, 1.0, row.Y0, row.Y), True
+    if carries_by_flanges(entry):
+        # Other series than 10, 2, 3 and 4 are wide.
+        wide = entry is not None and entry.designation.lstrip("NJUP")[:2] in ("22", "23")
+        return (LoadFactors(0.3, 0.92, 0.4, 1.0, 0.0) if wide else LoadFactors(0.2, 0.92, 0.6, 1.0, 0.0)), own
     return None, own
+
+
+def carries_by_flanges(entry: CatalogueBearing | None) -> bool:
+    """True for cylindrical roller bearings whose flanges carry axial loads: NJ in one direction, NUP in both."""
+    return entry is not None and entry.designation.startswith(("NJ", "NUP"))
 
 
 def _between(table: tuple[tuple[float, float, float], ...], place: float) -> tuple[float, float]:
@@ -88,8 +97,8 @@ def _between(table: tuple[tuple[float, float, float], ...], place: float) -> tup
     "N",
     where=(
         "Up to F_a/F_r = e, X_b is 1 and Y_b is 0 (spherical roller bearings: Y1). Above it, X_b and Y_b are the "
-        "factors of the type. Those of ball bearings depend on f0·F_a/C0. Cylindrical and needle roller bearings carry "
-        "no axial load, so that P is F_r."
+        "factors of the type. Those of ball bearings depend on f0·F_a/C0. NU, N and needle roller bearings carry no "
+        "axial load, so that P is F_r. NJ and NUP carry up to half of F_r (SKF General Catalogue, 2006)."
     ),
     checked=(LOADS,),
     source="ISO 281:2007",

@@ -307,7 +307,7 @@ def _interference(index: int, section: str, pair: Seats) -> Figure:
         text = f"≤ {most:g} µm" if needed is None else _chart_note((needed, most))
         rows.append(Bar(f"{seat.seat}: permitted", most, text, 2, low if needed is None else needed))
     axis = Axis("interference [µm], below zero clearance", low, 1.05 * max(values))
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in rows)
     caption = (
         f"Interference in the seats of bearing {index}: what comes out should lie within what is permitted, from the "
         "least that the ring needs to the most that it bears."
@@ -323,7 +323,7 @@ def _clearance(index: int, section: str, left: Clearance) -> Figure:
     ]
     ends = [0.0, *(end for bar in rows for end in (bar.start, bar.value))]
     axis = Axis("radial clearance [µm]", 1.05 * min(ends), 1.05 * max(ends))
-    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
+    text = "; ".join(f"{bar.name} {bar.text}" for bar in rows)
     caption = f"Clearance left in bearing {index} after mounting and warming: it should stay right of the dashed line."
     chart = Bars("Clearance left in the bearing", text, axis, rows, (0.0, "none left"))
     return Figure(f"clearance-{index}", section, chart, caption)

@@ -142,6 +142,13 @@ MEASURED: Final = "measured"
 _FOR_HALVES: Final = frozenset("FGHJ")
 
 
+BEYOND_ROWS: Final = {
+    "shaft": "No tabulated class makes up for the hollow shaft",
+    "housing": "The housing is thinner than the catalogue's row supposes",
+}
+"""Reasons why a catalogue's row gives no class for a seat."""
+
+
 class InterferenceBound(NamedTuple):
     """A bound on the interference [m] and the criterion that sets it."""
 
@@ -168,10 +175,18 @@ class ThermalCase(NamedTuple):
 LOOSE_ENOUGH: Final = 0.5
 """A ring under a load fixed in direction should be loose in at least half of all pairs: it creeps, spreads its wear
 and can be moved along its seat."""
-_SURE: Final = 2.33
-"""Standard deviations below the mean that 99 of 100 pairs exceed."""
+_SURE: Final = 3.0
+"""Standard deviations below the mean: the smallest probable interference, which 999 of 1000 pairs exceed.
+
+Small losses, as of a ground seat or an ordinary speed, then do not push the catalogue's own class aside.
+"""
 _SOLID: Final = 0.9
 """Share of the pressure from which on makers leave the class of a hollow shaft as it is: bore up to half of d."""
+_NEAR: Final = 0.85
+"""Share of the wanted mean interference that the nearest class must have: half the step from p6 to r6; assumed."""
+THINNEST: Final = 0.2
+"""Share of the pressure below which no row for thin-walled housings is meant; assumed. Aluminium 58/52 mm keeps 0.22.
+"""
 _GRADES: Final = re.compile(r"[a-zA-Z]+")
 
 
@@ -183,7 +198,8 @@ class Joint:
     [Pa/m], `raceway_rate` change of the raceway's diameter [1]; `part_strength` [Pa]. `maker`: the catalogue's classes
     for this seat and load, None where it has none or C is not known; `split` of a housing in halves. `pressure_kept`:
     share of the pressure that a solid shaft or a thick housing would give; `thermal_cases` at which the seat is judged;
-    `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: a shaft without inner ring.
+    `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: a shaft without inner ring;
+    `cup_classes`: the makers' for the housing of a drawn cup.
     """
 
     seat: Seat
@@ -205,6 +221,7 @@ class Joint:
     thermal_cases: tuple[ThermalCase, ...] = (ThermalCase("mounting", 0.0, 0.0),)
     short_shares: tuple[float, float] = (0.01, 0.05)
     runs_on_needles: bool = False
+    cup_classes: tuple[str, ...] = ()
 
     @property
     def diameter(self) -> float:
@@ -298,26 +315,30 @@ class Joint:
     @cached_property
     def catalogue_class(self) -> str | None:
         """The catalogue's class for this seat: of its row; on a hollow shaft the one whose mean interference is nearest
-        to that of the row's class over the share of the pressure that is kept. None where no row is known.
+        to that of the row's class over the share of the pressure that is kept.
 
-        Source of the rule for hollow shafts: SKF General Catalogue, 2006.
+        None where no row is known, where a housing keeps too little of the pressure for any row, and where no class
+        makes up for the hollow shaft. Source of the rule for hollow shafts: SKF General Catalogue, 2006.
         """
         if self.maker is None:
             return None
         own = self.maker.classes[0]
+        if self.seat == "housing" and self.must_grip and self.pressure_kept < THINNEST:
+            return None
         if self.seat == "housing" or not self.must_grip or self.pressure_kept >= _SOLID:
             return own
         grade = int(_GRADES.sub("", own))
         wanted = self.with_class(own).mean / self.pressure_kept
         near = [name for name in tolerance_classes(self.seat) if int(_GRADES.sub("", name)) in (grade, grade + 1)]
-        return min(near, key=lambda name: (abs(self.with_class(name).mean - wanted), int(_GRADES.sub("", name))))
+        nearest = min(near, key=lambda name: (abs(self.with_class(name).mean - wanted), int(_GRADES.sub("", name))))
+        return nearest if self.with_class(nearest).mean >= _NEAR * wanted else None
 
     @cached_property
     def demand(self) -> InterferenceBound | None:
         """Interference that the specified rule demands of every pair; None where no rule is known.
 
-        That is the required interference. Where a catalogue's row is known, its experience limits it: no more than 99
-        of 100 pairs of its class have, with the losses given.
+        That is the required interference. Where a catalogue's row is known, its experience limits it: no more than 999
+        of 1000 pairs of its class have, with the losses given.
         """
         if self.required is None or self.catalogue_class is None:
             return self.required
@@ -328,7 +349,7 @@ class Joint:
         if sure >= self.required.value:
             return self.required
         return InterferenceBound(
-            sure, f"the catalogue's class {self.catalogue_class}, of which 99 of 100 pairs have it"
+            sure, f"the catalogue's class {self.catalogue_class}, of which 999 of 1000 pairs have it"
         )
 
     @cached_property
@@ -372,13 +393,22 @@ class Joint:
         part = InterferenceBound(
             self.part_strength / self.part_rate, f"hoop stress {strength} of the {self.seat} (Lamé)"
         )
-        return min(ring, part, key=lambda bound: bound.value)
+        lower = min(ring, part, key=lambda bound: bound.value)
+        return lower if self._of_cup is None else max(lower, self._of_cup, key=lambda bound: bound.value)
+
+    @cached_property
+    def _of_cup(self) -> InterferenceBound | None:
+        """Largest interference of the makers' classes for a drawn cup, whose thin shell they press by intent."""
+        if not self.cup_classes:
+            return None
+        most = max(self.with_class(name).interference.largest for name in self.cup_classes)
+        return InterferenceBound(most, f"the makers' {' and '.join(self.cup_classes)} for drawn cups")
 
     @property
     def permitted(self) -> InterferenceBound:
         """The stress limit, or the d/1000 of the catalogues where that is less."""
         catalogue = InterferenceBound(self.diameter / 1000, "d/1000 (bearing catalogues)")
-        return min(self.stress_limit, catalogue, key=lambda bound: bound.value)
+        return self._of_cup or min(self.stress_limit, catalogue, key=lambda bound: bound.value)
 
     @property
     def tightest(self) -> float:

@@ -190,7 +190,13 @@ def _joint(
         pressure_kept=kept,
         thermal_cases=_thermal_cases(bearing, seat, ring.diameter),
         short_shares=bearing.short_shares,
+        cup_classes=_cup_classes(bearing) if seat == "housing" and bearing.drawn_cup else (),
     )
+
+
+def _cup_classes(bearing: SeatedBearing) -> tuple[str, ...]:
+    row = makers_classes(bearing, "housing")
+    return row.classes[:2] if row else ()
 
 
 def _smoothing(roughness: float | None) -> list[InterferenceLoss]:

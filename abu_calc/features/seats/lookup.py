@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing, Service
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.standards.bearing_catalogue import Dimensions, of_size, read_designation
+from abu_calc.standards.bearing_catalogue import Dimensions, all_of_size, of_size, read_designation
 from abu_calc.standards.catalogue import (
     ESTIMATE_ERROR,
     CatalogueBearing,
@@ -44,7 +44,7 @@ def from_table(table: "BearingTable") -> SeatedBearing:
     like = size if size.designation else of_size(size.bore, size.outer, size.inner_width, table.bearing_type)
     inner_chamfer, outer_chamfer = _chamfers(table, like)
     group = _agreed("internal_clearance", table.internal_clearance, identity.group, table)
-    _check_group(group, identity, table)
+    _check_group(group, identity._replace(kind=identity.kind or (like.kind if like else None)))
     accuracy = _agreed("bearing_class", table.bearing_class, identity.accuracy, table) or "0"
     entry = catalogue_bearing(like.designation) if like else None
     ratings, rated = _ratings(table, size, entry)
@@ -79,7 +79,8 @@ def from_table(table: "BearingTable") -> SeatedBearing:
         series=table.series or (size.series if size.designation else "light"),
         internal_clearance=group,
         asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
-        remarks=(*_angle(identity, group), *_taken_as(table, size, like), *_lent(lent), *rated),
+        remarks=(*_angle(identity, group), *_lent(lent), *rated),
+        taken_as=_taken_as(table, size, like),
         designation=size.designation or None,
         entry=entry,
         no_inner_ring=identity.kind == "drawn-cup" or size.designation.startswith("RNA"),
@@ -161,10 +162,17 @@ def _angle(identity: _Found, group: str | None) -> tuple[str, ...]:
     return ("The contact angle of the pair is taken as 40°.",)
 
 
-def _taken_as(table: "BearingTable", size: Dimensions, like: Dimensions | None) -> tuple[str, ...]:
+def _taken_as(table: "BearingTable", size: Dimensions, like: Dimensions | None) -> str | None:
+    """The bearing that stands for sizes without a type, and the others that have them."""
     if size.designation or table.bearing_type is not None or like is None:
-        return ()
-    return (f"No bearing_type is given: the sizes are those of {like.designation}, a {like.kind} bearing.",)
+        return None
+    taken = f"No bearing_type is given: {like.designation} ({like.kind}) is taken"
+    same_size = all_of_size(size.bore, size.outer, size.inner_width)
+    kinds = [kind for kind in dict.fromkeys(each.kind for each in same_size) if kind != like.kind]
+    if not kinds:
+        return f"{taken}, which has these sizes."
+    others = (f"{', '.join(each.designation for each in same_size if each.kind == kind)} ({kind})" for kind in kinds)
+    return f"{taken}. Other bearings have these sizes: {'; '.join(others)}. Specify bearing_type."
 
 
 def _ratings(
@@ -175,13 +183,16 @@ def _ratings(
     given = _si(table.dynamic_load_rating_kN, "kN"), _si(table.static_load_rating_kN, "kN")
     if given[0] is not None and given[1] is not None:
         return Ratings(given[0], given[1]), ()
-    kind = entry.kind if entry else table.bearing_type
+    named = size.kind if size.designation else table.bearing_type
+    kind = entry.kind if entry else named
     if listed is None and kind is not None:
         listed = estimated_ratings(kind, size.bore, size.outer, size.inner_width)
         source = (
             f"{_both(listed)} are estimated from the sizes of the {kind} bearing, within {ESTIMATE_ERROR[kind]:.0%}."
         )
-        source = f"No catalogue bearing has these sizes: {source}" if entry is None else source
+        if entry is None:
+            missing = f"No ratings of {size.designation} are" if size.designation else "No bearing of these sizes is"
+            source = f"{missing} in the catalogues here: {source}"
     elif listed is not None and entry is not None:
         source = f"{_both(listed)} are those of {entry.designation} ({entry.source})."
     else:
@@ -207,7 +218,7 @@ def _agreed(key: str, given: str | None, named: str | None, table: "BearingTable
     return given if given is not None else named
 
 
-def _check_group(group: str | None, identity: _Found, table: "BearingTable") -> None:
+def _check_group(group: str | None, identity: _Found) -> None:
     if group is None:
         return
     if identity.kind is None:

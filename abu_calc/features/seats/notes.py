@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing
 from abu_calc.features.seats.interference import Interval
-from abu_calc.features.seats.joint import ARTICLE, MEASURED, TEMPERATURE, InterferenceLoss, Joint
+from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, MEASURED, TEMPERATURE, InterferenceLoss, Joint
 from abu_calc.features.seats.joints import makers_classes
 from abu_calc.features.seats.requirement import catalogue_smoothing_loss
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.tables import toml_table
-from abu_calc.standards.tolerance_classes import SOURCE, DeviationLimits, Seat
+from abu_calc.standards.tolerance_classes import DeviationLimits, Seat, source_of
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.advice import SeatAdvice
@@ -274,8 +274,9 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
         named = (*joint.maker.classes[1:], *joint.maker.special)
         others = f", also {', '.join(named)}" if named else ""
         notes.append(
-            f"{SOURCE}: {joint.maker.classes[0]}{others} for a {bearing.kind} bearing, P/C = {bearing.load_ratio:.2g}, "
-            f"load {joint.ring.load}, seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
+            f"{source_of(bearing.kind)}: {joint.maker.classes[0]}{others} for a {bearing.kind} bearing, "
+            f"P/C = {bearing.load_ratio:.2g}, load {joint.ring.load}, "
+            f"seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
         )
         if best not in (None, *joint.maker.classes, *joint.maker.special):
             notes.append(_moved(joint, best or ""))
@@ -284,7 +285,7 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
         what = "the load" if joint.radial_load is None else "C"
         if not joint.must_grip or joint.required is None:
             notes.append(
-                f"{what.capitalize()} is not known, so {best} is the class that {SOURCE} gives for a "
+                f"{what.capitalize()} is not known, so {best} is the class that {source_of(kind)} gives for a "
                 f"{kind} bearing under normal load."
             )
     if joint.fit_name == MEASURED:
@@ -294,7 +295,9 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
 
 def _moved(joint: Joint, best: str) -> str:
     """Reason for another class than those of the catalogue's row."""
-    listed = joint.catalogue_class or ""
+    listed = joint.catalogue_class
+    if listed is None:
+        return f"{best} is recommended by the rule for the load. {BEYOND_ROWS[joint.seat]}."
     if joint.maker is not None and listed != joint.maker.classes[0] and best == listed:
         return (
             f"{best} is recommended: its mean interference is nearest to that of {joint.maker.classes[0]} over "

@@ -3,7 +3,7 @@
 An error of one bearing names its table, and its key if known. Parts that few bearings need are imported on demand.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice, rule_class
@@ -278,6 +278,14 @@ def _repair(bearing: SeatedBearing, joint: Joint, advised: str) -> "SeatRepair |
 def seat_bearings(tables: "Sequence[BearingTable]") -> tuple[BearingSeats, ...]:
     """Judge the seats of the tables `[[bearing]]`, in their order. Raises InputError, `bearing[0].shaft_fit`."""
     return tuple(_seated(index, table) for index, table in enumerate(tables))
+
+
+def types_taken(judged: Sequence[BearingSeats]) -> Iterator[str]:
+    """Sentences on bearings taken for sizes without a type, each once, with its bearings if it is not of all."""
+    sentences = dict.fromkeys(each.bearing.taken_as for each in judged if each.bearing.taken_as)
+    for sentence in sentences:
+        names = [each.bearing.name for each in judged if each.bearing.taken_as == sentence]
+        yield sentence if len(names) == len(judged) else f"{'; '.join(names)}: {sentence}"
 
 
 def _seated(index: int, table: "BearingTable") -> BearingSeats:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any, ClassVar
 
 from abu_calc.features.seats.records import SeatResult, seat_results
-from abu_calc.features.seats.seats import BearingSeats, seat_bearings
+from abu_calc.features.seats.seats import BearingSeats, seat_bearings, types_taken
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import record
 from abu_calc.inputs.read_machine import Machine
@@ -44,7 +44,10 @@ def check_fit(machine: Machine) -> CheckFitResult:
     return CheckFitResult(
         title=machine.tables.machine.name,
         checks=tuple(check for bearing in judged for check in bearing.checks),
-        warnings=machine.warnings,
+        warnings=(
+            *machine.warnings,
+            *types_taken(judged),
+        ),
         # The other tables of a whole machine play no part here.
         provenance=replace(
             provenance, defaults=tuple(default for default in provenance.defaults if default[0].startswith("bearing["))

@@ -131,7 +131,9 @@ def advice_lines(pair: Seats) -> list[Block]:
         return [Paragraph(NO_CLASS)]
     fits = [f"{seat.seat} {seat.recommended_fit}" for seat in pair if seat.recommended_fit]
     none = [f" No tabulated class of the {seat.seat} passes." for seat in pair if not seat.recommended_fit]
-    lines: list[Block] = [Paragraph(f"Specify {', '.join([*fits, *_order(shaft)])}{_ratio(shaft)}.{''.join(none)}")]
+    lines: list[Block] = [
+        Paragraph(f"Specify {', '.join([*fits, *_order(shaft, housing)])}{_ratio(shaft)}.{''.join(none)}")
+    ]
     wrong = tuple((f"{seat.seat} {rejected.fit}", rejected.why) for seat in pair for rejected in seat.rejected_fits)
     return [*lines, Grid(("not", "because"), wrong)] if wrong else lines
 
@@ -196,10 +198,11 @@ def _short(shaft: SeatResult, housing: SeatResult) -> str:
     return ", ".join([fits, *([shaft.recommended_clearance] if shaft.recommended_clearance else [])])
 
 
-def _order(shaft: SeatResult) -> list[str]:
+def _order(shaft: SeatResult, housing: SeatResult) -> list[str]:
     left, group = shaft.internal_clearance, shaft.recommended_clearance
     if group is None:
-        return ["but no tabulated clearance group keeps clearance"] if left else []
+        tried = left and shaft.recommended_fit and housing.recommended_fit
+        return ["but no tabulated clearance group keeps clearance"] if tried else []
     return [f"clearance {group}{f' in place of {left.group}' if left and left.group != group else ''}"]
 
 

@@ -96,10 +96,15 @@ def simulate_screen(result: SimulateResult) -> tuple[Block, ...]:
         _numbers(result),
         *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
         *measured_after_blocks(result.measured_after),
-        *([Paragraph(f"The balls end at {ends} from the zero mark.")] if angles else []),
+        *([Paragraph(f"The balls end at {ends} from {_origin(result)}.")] if angles else []),
         *([Paragraph(f"Effects left out: {', '.join(left_out)}.")] if left_out else []),
     ]
     return one_screen(result, [*_about(result), Paragraph(f"Start: {result.start}.")], body, MORE)
+
+
+def _origin(result: SimulateResult) -> str:
+    """Place from which the angles of the balls count: a machine has its imbalance at the rotor's zero mark."""
+    return "the rotor's zero mark" if result.scene in (None, "scene") else "the imbalance, in the sense of rotation"
 
 
 def _numbers(result: SimulateResult) -> Grid:

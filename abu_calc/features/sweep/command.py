@@ -74,7 +74,7 @@ Seed = Annotated[
     typer.Option("--seed", metavar="N", help="Seed of the random numbers; default 0.", rich_help_panel=SAMPLING),
 ]
 SampleAccuracy = Annotated[
-    float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in each simulation.")
+    float, typer.Option("--accuracy", metavar="RATIO", help="Relative error of each simulation.")
 ]
 TimeLimit = Annotated[
     float | None,
@@ -115,7 +115,7 @@ ClusterWait = Annotated[
     typer.Option(
         "--cluster-wait",
         metavar="S",
-        help="Longest wait for the scheduler and its workers.",
+        help="Longest wait for the cluster.",
         rich_help_panel=COMPUTING,
     ),
 ]

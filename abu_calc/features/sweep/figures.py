@@ -56,7 +56,7 @@ def _shares(result: SweepResult) -> Iterator[Figure]:
         Bar("meets all limits", 100 * met.share, percent(met.share), 2, span=_hundredths(met.confidence_interval))
     )
     limit = None if check.limit is None else (check.limit, f"at least {number(check.limit, 3)} %")
-    summary = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
+    summary = "; ".join(f"{bar.name} {bar.text}" for bar in rows) + (f"; {limit[1]}" if limit else "")
     caption = (
         f"Share of {met.of} members that keeps each limit; the thin line is the 95 % confidence interval of the share"
         f"{': for all limits it should end right of the dashed line' if limit else ''}."
@@ -76,7 +76,7 @@ def _basins(result: SweepResult) -> Iterator[Figure]:
     ]
     if len(rows) < 2:
         return
-    summary = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
+    summary = "; ".join(f"{bar.name} {bar.text}" for bar in rows)
     caption = "Share of starts that balances, by how the machine is switched on; the thin line: 95 % confidence."
     axis = Axis("share of starts [%]", 0.0, 100.0)
     yield Figure("basins", "basins", Bars("Starts that balance", summary, axis, rows), caption)
@@ -122,7 +122,7 @@ def _decides(result: SweepResult) -> Iterator[Figure]:
         rows = [_share_of_variance(sensitivity) for sensitivity in sensitivities if sensitivity.total >= MATTER][:MOST]
         if not rows:
             continue
-        summary = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
+        summary = "; ".join(f"{bar.name} {bar.text}" for bar in rows)
         caption = (
             f"Share of the variance of the {words_of(name)} that each value decides: the bar alone, to the end of the "
             "thin line together with others (written). The long bars are worth their money, the others are not."
@@ -166,7 +166,7 @@ def _tried(price: Price) -> str:
 def _prices(title: str, rows: Sequence[Bar]) -> Bars:
     values = [bar.value for bar in rows]
     axis = Axis("change of the level [dB]", min(0.0, *values), max(0.5 if min(values) >= 0 else 0.0, *values))
-    return Bars(title, "; ".join(f"{bar.name} {bar.told}" for bar in rows), axis, rows)
+    return Bars(title, "; ".join(f"{bar.name} {bar.text}" for bar in rows), axis, rows)
 
 
 def _cells(result: SweepResult) -> Iterator[Figure]:

@@ -238,7 +238,11 @@ def validate(
         raise input_error(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
     defaults = tuple((key_path(path), value) for path, value in table.defaults())
     notes = [*remarks(table, Source(document.text, overrides)), *notes]
-    notes += [f"{key_path(path)} plays no part beside the other keys." for path in table.given_in_vain()]
+    # A key of the file is not given in vain where an entry that replaces another of its table made it idle.
+    changed = {override.path[:-1] for override in overrides}
+    replaced = {override.path for override in overrides}
+    idle = (path for path in table.given_in_vain() if path[:-1] not in changed or path in replaced)
+    notes += [f"{key_path(path)} plays no part beside the other keys." for path in idle]
     return table, FileReading(document.file, document.text, document.sha256, tuple(overrides), defaults, tuple(notes))
 
 

@@ -81,7 +81,7 @@ class Bar(NamedTuple):
 
     name: str
     value: float
-    told: str
+    text: str
     series: int = 1
     start: float = 0.0
     span: tuple[float, float] | None = None
@@ -90,11 +90,11 @@ class Bar(NamedTuple):
 class Plot(NamedTuple):
     """Contents of a field between two axes.
 
-    `told`: its text alternative, `limit`: of y, `bands`: forbidden x.
+    `summary`: its text alternative, `limit`: of y, `bands`: forbidden x.
     """
 
     title: str
-    told: str
+    summary: str
     across: Axis
     up: Axis
     lines: Sequence[Curve] = ()
@@ -116,7 +116,7 @@ class Bars(NamedTuple):
     """
 
     title: str
-    told: str
+    summary: str
     axis: Axis
     rows: Sequence[Bar]
     limit: tuple[float, str] | None = None
@@ -129,7 +129,7 @@ class Cells(NamedTuple):
     """
 
     title: str
-    told: str
+    summary: str
     across: str
     up: str
     columns: Sequence[str]

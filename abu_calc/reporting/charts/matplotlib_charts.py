@@ -244,7 +244,7 @@ def _row(axes: "Axes", chart: Bars, index: int, row: Bar) -> None:
         words(row.name), (0, index - 0.3), (4, 0), xycoords=beside, textcoords="offset points", va="center", zorder=4,
         bbox=paper(),
     )  # fmt: skip
-    axes.text(1.015, index + 0.08, words(row.told), transform=beside, va="center")
+    axes.text(1.015, index + 0.08, words(row.text), transform=beside, va="center")
     if chart.axis.low > 0:
         axes.plot([row.value], [index + 0.12], zorder=3, **mark(row.series))
         return

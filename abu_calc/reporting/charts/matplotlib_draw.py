@@ -175,7 +175,7 @@ def _metadata(figure: Figure, suffix: str) -> dict[str, Any]:
         case Drawing():
             title, description = shown.title, f"{shown.description} {figure.caption}"
         case _:
-            title, description = shown.title, f"{figure.caption} {shown.told}"
+            title, description = shown.title, f"{figure.caption} {shown.summary}"
     title, description = escaped(title), escaped(description)
     if suffix == ".pdf":
         return {"Title": title, "Subject": description, "CreationDate": None}

@@ -186,7 +186,7 @@ def bars(name: str, chart: Bars) -> str:
             )
             if bar.span:
                 yield _span(at(bar.span[0]), at(bar.span[1]), y + 24.5)
-            yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(bar.told)}</text>'
+            yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(bar.text)}</text>'
 
     return svg(name, chart, low + CHART_BELOW - 4, marks())
 
@@ -212,7 +212,7 @@ def svg(name: str, chart: Plot | Bars | Cells, high: float, parts: Iterable[str]
     named = f"chart-{name}"
     return "\n".join((
         f'<svg class="chart" viewBox="0 0 {WIDE:g} {high:g}" role="img" aria-labelledby="{named}-t {named}-d">',
-        f'<title id="{named}-t">{text(chart.title)}</title><desc id="{named}-d">{text(chart.told)}</desc>',
+        f'<title id="{named}-t">{text(chart.title)}</title><desc id="{named}-d">{text(chart.summary)}</desc>',
         *parts,
         "</svg>",
     ))  # fmt: skip

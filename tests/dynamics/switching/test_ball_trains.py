@@ -10,6 +10,7 @@ import pytest
 from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.integrators.compiled.arrays import Pairs
 from abu_calc.dynamics.integrators.compiled.impact import passed
 from abu_calc.dynamics.integrators.compiled.run import integrate, lifted
 from abu_calc.dynamics.switching.modes import starting
@@ -105,7 +106,8 @@ def test_impacts_ask_only_pairs_that_touch(count: int) -> None:
     matrix = Counted([2.0 if a == b else -1.0 * (abs(a - b) == 1) for a in range(count) for b in range(count)])
     speed, total = [-1.0] + [1.0] * (count - 1), [0.0] * count
     room = [[0.0] * count * count for _ in range(3)]
-    assert passed(count, 1e-9, 1.0, [1e-6] * count, speed, total, room[0], room[1], matrix, room[2], [0] * count)
+    pairs = Pairs(count, matrix, room[0], speed, room[1], room[2], [0] * count)
+    assert passed(pairs, 1e-9, 1.0, [1e-6] * count, total)
     assert total[0] == pytest.approx(1.0)
     assert reads <= 3 * count
 

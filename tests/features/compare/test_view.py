@@ -60,7 +60,7 @@ def test_bars_stand_for_machines_that_have_the_number() -> None:
     result = replace(seats(), differences=(row(path, 240.0, 260.0),), alike=())
     (figure,) = compare_extras(result).figures
     assert figure.name == "mass" and isinstance(figure.shown, Bars)
-    assert [(bar.name[0], bar.value, bar.told) for bar in figure.shown.rows] == [
+    assert [(bar.name[0], bar.value, bar.text) for bar in figure.shown.rows] == [
         ("A", 240.0, "240 g"),
         ("B", 260.0, "260 g"),
     ]

@@ -138,7 +138,49 @@ def test_an_overload_fails(tmp_path: Path) -> None:
     path = listed(tmp_path)
     run_file(tmp_path, "operator0-run1.csv", 2.0, limit=8.0)
     check = next(check for check in evaluated(path).checks if check.code == "ABU444")
-    assert check.status == "fail" and "operator A, run 1" in check.message
+    assert check.status == "fail" and "operator A, run 1, front, a" in check.message
+
+
+def test_a_clipped_wav_file_fails_and_names_its_channel(tmp_path: Path) -> None:
+    """Other commands refuse such a file; a type test keeps the other runs and says which one to repeat."""
+    _, values = wave(1.0, seconds=1.5)
+    for run, gain in ((1, 1.0), (2, 40.0)):
+        both = np.column_stack([values, gain * values])
+        samples = np.clip(both / 50 * 32767, -32768, 32767).astype("<i2")
+        with wave_files.open(str(tmp_path / f"{run}.wav"), "wb") as file:
+            file.setnchannels(2)
+            file.setsampwidth(2)
+            file.setframerate(RATE)
+            file.writeframes(samples.tobytes())
+    path = tmp_path / "list.toml"
+    entries = (f'[[recording]]\nfile = "{run}.wav"\nscale = 50.0\nquantity = "acceleration"\n' for run in (1, 2))
+    path.write_text("\n".join(entries), encoding="utf-8")
+    result = evaluated(str(path))
+    check = next(check for check in result.checks if check.code == "ABU444")
+    assert (result.status, check.status) == ("fail", "fail")
+    assert "run 2, handle, channel 2" in check.message and "channel 1" not in check.message
+    assert [run.overload for run in result.runs] == [False, True]
+    assert [axis.overload for axis in result.runs[1].axes] == [False, True]
+
+
+def test_a_recording_listed_twice_warns(tmp_path: Path) -> None:
+    """Its series would scatter by nothing."""
+    run_file(tmp_path, "a.csv", 2.0)
+    path = tmp_path / "list.toml"
+    path.write_text('[[recording]]\nfile = "a.csv"\n' * 2, encoding="utf-8")
+    check = next(check for check in evaluated(str(path)).checks if check.code == "ABU442")
+    assert check.status == "warn"
+    assert "run 2, handle: the same recording as operator 1, run 1" in check.message
+
+
+def test_a_unit_that_is_not_known_is_refused(tmp_path: Path) -> None:
+    """Inches per second squared are no metres."""
+    run_file(tmp_path, "a.csv", 2.0)
+    text = (tmp_path / "a.csv").read_text(encoding="utf-8").split("\n", 1)
+    (tmp_path / "a.csv").write_text("t_s,ax [in/s2],ay [in/s2],az [in/s2]\n" + text[1], encoding="utf-8")
+    with pytest.raises(InputError, match="unit that is not known") as caught:
+        declare_recordings([str(tmp_path / "a.csv")])
+    assert caught.value.place.line == 1
 
 
 def test_runs_that_scatter_fail(tmp_path: Path) -> None:

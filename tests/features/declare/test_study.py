@@ -55,6 +55,22 @@ def test_rigid_machine_with_autobalancer(rigid: DeclareResult) -> None:
     assert spread == pytest.approx(1.6449 * 1.3 * 0.124 / math.sqrt(3), rel=0.06)
 
 
+def test_rigid_machine_of_the_same_mass_with_autobalancer(tmp_path: Path, rigid: DeclareResult) -> None:
+    """The reference has 6 kg with the autobalancer: a file says so by a mass that is lighter by it.
+
+    Both simulations have random starts: within three of their standard errors together.
+    """
+    added = rigid.model.mass_kg - rigid.model.mass_without_autobalancer_kg
+    light = result(tmp_path, S150, 10_000, machine__mass_kg=5.3 - added)
+    assert light.with_ is not None
+    assert light.model.mass_kg == pytest.approx(6.0, rel=1e-3)
+    error = light.with_.standard_error_m_per_s2 / light.with_.a_hv_m_per_s2
+    values = {each.name: each.with_m_per_s2 for each in light.handles}
+    for name, value, deviation in (("front", 0.5515, 0.0020), ("rear", 0.3360, 0.0013)):
+        assert values[name] == pytest.approx(value, abs=3 * math.hypot(deviation, error * value))
+    assert light.with_.no_friction_m_per_s2 == pytest.approx(0.43241, rel=1e-3)
+
+
 def test_break_even_of_the_rigid_machine(rigid: DeclareResult) -> None:
     assert rigid.break_even_frictionless_mm == pytest.approx(0.025946, rel=0.01)
     assert rigid.break_even_eccentricity_mm == pytest.approx(0.0250, rel=0.02)

@@ -84,7 +84,7 @@ def test_a_level_within_its_error_of_the_limit_warns() -> None:
     limit = found.case.level_limit
     assert with_searched(check, SearchResult((outcome(0.1, level=limit - 1.1 * SLACK),)), found).status == "pass"
     told = with_searched(check, SearchResult((outcome(0.1, level=limit - 0.9 * SLACK),)), found)
-    assert told.status == "warn" and "1 of 1 further start cases may be too loud" in told.message
+    assert told.status == "warn" and "Further start cases: 1 of 1 may be too loud" in told.message
 
 
 def test_neighbours_are_near_and_other() -> None:
@@ -141,7 +141,7 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
         if status in ("fail", "not-done"):
             assert told == check
         else:
-            assert told.status == "warn" and told.message.startswith("as listed. 1 of 2 further start cases")
+            assert told.status == "warn" and told.message.startswith("as listed. Further start cases: 1 of 2")
             assert told.remedy and "No change was simulated" in told.remedy
             assert code in [each for each, *_ in worst_further(SearchResult((good, bad)), found)]
     passed = Check(code, "", "pass", "as listed", 1.0, 2.0, "s", None)
@@ -187,6 +187,8 @@ def test_the_result_holds_the_slowest_of_the_further_start_cases() -> None:
     assert result.ensemble is not None and result.ensemble.further_starts is not None
     further, check = result.ensemble.further_starts, next(c for c in result.checks if c.code == "ABU702")
     assert further.settling_time_s is not None and further.settling_time_s > 1.0 and check.status == "warn"
-    late = f"1 of {further.members} further start cases settle too late, the slowest in {further.settling_time_s:.3g} s"
+    late = (
+        f"Further start cases: 1 of {further.members} settle too late, the slowest in {further.settling_time_s:.3g} s"
+    )
     assert late in check.message
     assert further.rare_settling_time_s is None or further.rare_settling_time_s >= further.settling_time_s

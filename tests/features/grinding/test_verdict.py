@@ -32,8 +32,8 @@ def work(**values: Any) -> Any:
 
 def test_each_remedy_says_its_bound_and_its_levels() -> None:
     text = changes((RUNOUT, STIFFNESS, PRESS))
-    assert "reduce wheel.runout_mm to 0.02 (105.0 dB at most, 111.0 dB without)" in text
-    assert "reduce grinding.contact_stiffness_N_per_m to 4.5e5 (" in text
+    assert "Reduce wheel.runout_mm to 0.02: 105.0 dB at most, 111.0 dB without." in text
+    assert "Reduce grinding.contact_stiffness_N_per_m to 4.5e5: " in text
     assert shortest((PRESS, RUNOUT)) == (
         "Raise grinding.press_force_N to 90: loudest case 105.0 dB, without autobalancer 111.0 dB (simulated)."
     )
@@ -51,7 +51,7 @@ def test_a_start_that_stays_loud_is_told_with_what_prevents_it() -> None:
         always=False, level_at_once=119.6, stays_loud=True, at_once=side(run=SimpleNamespace(duration=6.0), parts=True)
     )
     words = in_words(loud, (RUNOUT,))
-    assert "keep bouncing at 119.6 dB, still after 6 s." in words and "reduce wheel.runout_mm to 0.02" in words
+    assert "keep bouncing at 119.6 dB, still after 6 s." in words and "Reduce wheel.runout_mm to 0.02: " in words
     unknown = work(always=None, level_at_once=None, at_once=side(failure="too much work"))
     assert "Pressed before the balls have settled: not known, too much work." in in_words(unknown, ())
     assert in_words(unknown, ()).endswith(NOTHING)

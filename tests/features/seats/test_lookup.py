@@ -46,7 +46,8 @@ def test_a_group_of_a_bearing_that_has_none_is_refused() -> None:
     assert seats(internal_clearance=None).clearance is None
     assert seats(internal_clearance="CN", bearing_type="ball").clearance is not None
     with pytest.raises(InputError, match="without the type"):
-        seats(internal_clearance="CN")
+        seats(internal_clearance="CN", width_mm=33.5)  # of no bearing
+    assert seats(internal_clearance="CN").clearance is not None  # as 32216
     assert seats(internal_clearance="CN", bearing_type="cylindrical").clearance is not None
 
 

@@ -52,7 +52,7 @@ def test_many_balls_are_named_as_far_as_there_is_room(result: SimulateResult) ->
     many = tuple(float(k) for k in range(MOST_BALLS + 3))
     final = replace(result.final, ball_angles_deg=many, ball_speeds_rpm=many)
     text = " ".join(as_text(simulate_screen(replace(result, final=final)), 80).split())
-    assert f"{MOST_BALLS - 1:.1f}°, … from the zero mark" in text and f"{MOST_BALLS:.1f}°" not in text
+    assert f"{MOST_BALLS - 1:.1f}°, … from the rotor's zero mark" in text and f"{MOST_BALLS:.1f}°" not in text
     full = as_text(simulate_blocks(replace(result, final=final)), 80)
     assert f"{MOST_BALLS + 2:.3f}°" in full
 

@@ -20,14 +20,17 @@ def words(text: str) -> str:
 
 
 def test_the_line_on_the_arm_comes_first() -> None:
-    """Below the verdict, in both commands the same sentence; the screen is one."""
+    """Below the verdict; the bounds stand in their table, and in a sentence of the whole report; the screen is one."""
     seen = once("size", PRESET)
     lines = seen.out.splitlines()
     assert lines[1].lstrip().startswith("PASS") and lines[2].lstrip().startswith("Arm: nothing to change.")
     assert "bound at any contact angle" in seen.out
     assert len(lines) <= LINES and seen.width <= 80
     result = once("size", PRESET, "--json").document["result"]
-    assert words(result["swing_arm"]["advice"]) in words(seen.out)
+    assert words(result["swing_arm"]["advice"]) in words(once("size", PRESET, "--full").out)
+    assert "The bounds permit" not in seen.out
+    gaps = seen.out.partition("Data gap and its usual range")[2].split("\n\n")[0].splitlines()[1:]
+    assert len(gaps) == len(result["data_gaps"]) == 3
 
 
 def test_numbers_of_the_arm_in_json() -> None:

@@ -335,3 +335,10 @@ def test_units_are_guessed_for_every_unit_of_the_keys() -> None:
 
     units = {unit_suffix(key) for _, key, field in fields(MachineFile) if usual_of(field)}
     assert units - {"db", "HRC", "K"} <= MISTAKEN.keys()
+
+
+def test_a_pasted_action_leaves_no_key_in_vain(tmp_path: Path) -> None:
+    """Balls that an option pins make the file's ball_sizes idle: the file is not to blame, an option would be."""
+    assert lines(tmp_path, "autobalancer.ball_diameter_mm=9") == []
+    (line,) = lines(tmp_path, "autobalancer.ball_diameter_mm=9", "autobalancer.ball_sizes='all'")
+    assert line.endswith("ball_sizes plays no part beside the other keys.")

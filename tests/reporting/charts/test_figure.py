@@ -81,7 +81,7 @@ def test_svg_is_well_formed_alike_each_time_and_its_texts_are_texts(name: str) -
     told = set(re.findall(r"#[0-9a-f]{6}", file))
     assert told <= {*(color[:7] for color in colors().values()), "#ffffff", "#000000"}, told
     if isinstance(one.shown, Bars):
-        assert {row.told for row in one.shown.rows} | {row.name for row in one.shown.rows} <= set(texts)
+        assert {row.text for row in one.shown.rows} | {row.name for row in one.shown.rows} <= set(texts)
     if isinstance(one.shown, Plot):
         assert {line.name for line in one.shown.legend} <= set(texts)
 
@@ -130,7 +130,7 @@ def test_large_imbalances_are_written_as_tables_have_them() -> None:
     shown = caught(cast(RotorView, view), np.array([100.0, 5800.0]))
     assert [one.name for one in shown.legend] == ["speed, of 5800 rpm", "imbalance left, of 1136 g·mm"]
     rest = settling(cast(RotorView, view), 12345.6)
-    assert rest.told == "From 1136 g·mm at the start to 12.00 g·mm at 1 s"
+    assert rest.summary == "From 1136 g·mm at the start to 12.00 g·mm at 1 s"
     assert rest.limit is not None and rest.limit[1] == "permitted 12350 g·mm"
 
 
@@ -158,7 +158,8 @@ def test_starts_are_those_of_the_ensemble() -> None:
     slowest = [one for one in views if not one.why]
     assert [one.settling_time_s for one in slowest] == [times[one.start, one.drag_per_s] for one in slowest]
     for one in views:
-        assert one.view.level_db[-1] == pytest.approx(one.level_db, abs=0.5)
+        # A start whose balls creep where no verdict can change is not followed to its end: its level may still move.
+        assert one.view.level_db[-1] == pytest.approx(one.level_db, abs=1.0)
         assert len(one.view.t_s) <= 250
     assert ensemble.level_db.worst == max(one.level_db for one in views)
 

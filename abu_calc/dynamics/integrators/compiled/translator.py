@@ -284,11 +284,11 @@ class _Function(Calls):
         self.loops.pop()
 
     def do_Break(self, node: ast.Break) -> None:  # noqa: N802
-        """To the end of the innermost loop."""
+        """Jump to the end of the innermost loop."""
         self.jump(self.loops[-1][1])
         self.block(self.label("after"))
 
     def do_Continue(self, node: ast.Continue) -> None:  # noqa: N802
-        """To the next turn of the innermost loop."""
+        """Jump to the next turn of the innermost loop."""
         self.jump(self.loops[-1][0])
         self.block(self.label("after"))
