@@ -14,7 +14,7 @@ from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.quantity import as_plain
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.reading.document import FileReading
+from abu_calc.inputs.reading.document import Document, FileReading, open_document
 from abu_calc.inputs.reading.kinds import KINDS
 from abu_calc.inputs.scene import SceneDescription
 from abu_calc.reporting.blocks import Block, Paragraph
@@ -74,21 +74,20 @@ def missing_of(source: FileReading) -> tuple[str, ...]:
         return missing_from(source)
 
 
-def stored_coefficients(file: str, overrides: Sequence[str]) -> "Stored | None":
+def stored_coefficients(document: Document, overrides: Sequence[str]) -> "Stored | None":
     """Influence coefficients that a file holds; None for a file of another kind. Raises InputError for wrong ones."""
-    from abu_calc.inputs.reading.document import named, open_document
-
-    content = open_document(named(file)).content
+    content = document.content
     if "coefficients" not in content or content.keys() & {mark for kind in KINDS for mark in kind.marks}:
         return None
-    from abu_calc.features.balancing.coefficients import read_coefficients
+    from abu_calc.features.balancing.coefficients import coefficients_from
 
     if overrides:
         raise InputError(
-            "stored coefficients have no entries to set", place=Place(file, key="--set"), found=", ".join(overrides),
+            "stored coefficients have no entries to set", place=Place(document.file, key="--set"),
+                found=", ".join(overrides),
             remedy="leave --set out",
         )  # fmt: skip
-    return read_coefficients(file)
+    return coefficients_from(document)
 
 
 def _named(stored: "Stored") -> str:
@@ -107,16 +106,17 @@ def validate(
     set_: Overrides = None,
 ) -> Outcome:
     """Check files without simulating: keys, types, ranges, rules."""
-    from abu_calc.inputs.read_machine import read_file
+    from abu_calc.inputs.read_machine import read_document
 
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
-            if (stored := stored_coefficients(file, set_ or ())) is not None:
+            document = open_document(file)
+            if (stored := stored_coefficients(document, set_ or ())) is not None:
                 results.append({"file": file, "sha256": stored.sha256, "overrides": {}, "defaults": {}, "warnings": []})
                 blocks += [Paragraph(f"{file}: valid", "pass"), Paragraph(_named(stored), indent=4)]
                 continue
-            loaded = read_file(file, set_ or ())
+            loaded = read_document(document, set_ or ())
             refuse_unusable(loaded)
         except InputError as error:
             faults.append(error)
