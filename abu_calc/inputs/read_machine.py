@@ -29,7 +29,11 @@ if TYPE_CHECKING:
 
 def read_file(source: str, overrides: Sequence[str] = ()) -> FileReading:
     """Reads a file of any kind, or a preset by its name, entries replaced; raises as the reader of its kind."""
-    document = open_document(source)
+    return read_document(open_document(source), overrides)
+
+
+def read_document(document: Document, overrides: Sequence[str] = ()) -> FileReading:
+    """Reads a document that is open already, as `read_file` does."""
     reading: FileReading = kind_of(document.content).call("reads", document, parsed_overrides(overrides))
     return reading
 

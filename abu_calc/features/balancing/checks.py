@@ -6,8 +6,9 @@ from typing import Final
 from abu_calc.features.balancing.case import Taken, record_warnings
 from abu_calc.features.balancing.corrections import added, removed
 from abu_calc.features.balancing.formulas import bar_bending_speed, influence
-from abu_calc.features.balancing.methods import near_resonance
+from abu_calc.features.balancing.methods import motion_of, near_resonance
 from abu_calc.features.balancing.records import PlaneCorrection
+from abu_calc.features.balancing.runs import ONE_SPEED
 from abu_calc.features.balancing.solution import Found
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.checks import Check, coded, verdict
@@ -24,17 +25,23 @@ SURE: Final = (0.1, 0.5)
 AGREE: Final = (3.0, 6.0)
 """Misfit of runs in standard deviations."""
 TELLS: Final = (0.3, 0.05)
-"""Least effect of a trial mass, as a share of the largest reading: to pass, and not to fail."""
+"""Least effect of a trial mass, as a share of the sensor's reading without it: to pass, and not to fail."""
+SEEN: Final = 0.1
+"""Part of the largest reading below which a reading is too small to be a measure."""
 
 
 LEFT: Final = (0.05, 0.25)
 """Imbalance that limits or stock leave, of that now: a warning from the first on, failed above the second."""
 
 
+LIGHTER: Final = "Allow lighter weights or other places: masses that nearly cancel leave the errors of all of them."
+"""Action if the masses of a correction have larger errors than the imbalance."""
+
+
 def balance_checks(balancing: Found, taken: Sequence[Taken]) -> tuple[Check, ...]:
     """Checks that there are numbers for."""
     return (
-        *_planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing),
+        *_planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), *_sure(balancing),
         *_permitted(balancing), *_agree(balancing), *_trials(balancing), *_metal(balancing), *_convention(taken),
         *_coefficients(balancing), *_room(balancing), *_discrete(balancing),
     )  # fmt: skip
@@ -98,15 +105,30 @@ def _rpm(speed: float) -> str:
     return f"{from_si(speed, 'rpm'):.0f} rpm"
 
 
-def _sure(balancing: Found) -> Check:
+def _sure(balancing: Found) -> Iterator[Check]:
+    """Check of a correction; a rotor within its tolerance that needs none has no such check."""
     share = balancing.error_share
+    if balancing.below:
+        tolerance = balancing.tolerance
+        if tolerance is None or any(
+            2 * rest > permitted
+            for rest, permitted in zip(balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True)
+        ):
+            yield coded(
+                "ABU1004", "not-done", "the imbalance is below the errors of these runs: no correction can be trusted",
+                100 * share, 100 * SURE[0], "%",
+                "Leave the rotor as it is, or measure with smaller errors. Specify tolerance.balance_grade.",
+            )  # fmt: skip
+        return
     remedy = None
-    if share > SURE[0]:
+    if share >= 1:
+        remedy = LIGHTER
+    elif share > SURE[0]:
         remedy = (
             "Measure and correct once more after this correction: the remaining vibration falls from "
             f"{100 * share:.1f} to {100 * share**2:.1f} % (calculated with the same errors)."
         )
-    return coded(
+    yield coded(
         "ABU1004", verdict(share <= SURE[1], share <= SURE[0]),
         "vibration that errors of readings, rig and correction leave, rms, of that now", 100 * share,
         100 * SURE[0], "%", remedy,
@@ -122,9 +144,13 @@ def _permitted(balancing: Found) -> Iterator[Check]:
         balancing.planes, balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True
     ):
         remedy = None
-        if 2 * rest > permitted and any(balancing.leftover):
+        if 2 * rest > permitted and balancing.below:
+            remedy = "Measure with smaller errors: no correction can be trusted with these."
+        elif 2 * rest > permitted and any(balancing.leftover):
             left = from_si(sum(map(abs, balancing.leftover)), "g_mm")
             remedy = f"Allow places and weights that leave less: limits and stock leave {left:.4g} g·mm (ABU1012)."
+        elif 2 * rest > permitted and balancing.error_share >= 1:
+            remedy = LIGHTER
         elif 2 * rest > permitted:
             after = from_si(rest * balancing.error_share, "g_mm")
             remedy = (
@@ -167,16 +193,24 @@ def _trials(balancing: Found) -> Iterator[Check]:
     )
     yield coded(
         "ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),
-        "change of a reading by the weaker trial mass, of the largest reading", value, TELLS[0], None, remedy, "least",
+        "vector change of a reading by the weaker trial mass, of that reading without it",
+        value, TELLS[0], None, remedy, "least",
     )  # fmt: skip
 
 
 def _change(balancing: Found, group: Sequence[int], plane: int) -> float:
-    """Change of a reading by the trial mass of a plane, over the largest reading of that speed."""
+    """Largest change of a reading by the trial mass of a plane, over what the same sensor reads without it.
+
+    A sensor that reads little counts from a tenth of the largest reading on.
+    """
     matrix, runs = balancing.solution.influences[group[0]], [balancing.case.runs[index] for index in group]
-    largest = max(abs(phasor) for run in runs for phasor in run.motion)
     on = max(abs(run.placed[plane]) for run in runs)
-    return on * max(abs(row[plane]) for row in matrix) / largest if largest else 0.0
+    before = [abs(phasor) for phasor in motion_of(matrix, balancing.solution.imbalance)]
+    floor = SEEN * max((abs(phasor) for run in runs for phasor in run.motion), default=0.0)
+    return max(
+        (on * abs(row[plane]) / max(own, floor) for row, own in zip(matrix, before, strict=True) if max(own, floor)),
+        default=0.0,
+    )
 
 
 def _metal(balancing: Found) -> Iterator[Check]:
@@ -206,8 +240,8 @@ def _room(balancing: Found) -> Iterator[Check]:
 def _discrete(balancing: Found) -> Iterator[Check]:
     """Check of masses that are limited or in stock."""
     making = balancing.making
-    depth = making.drill is not None and making.drill.most is not None
-    if not (making.stock or making.per_place is not None or depth):
+    depth = making.drill is not None and making.drill.limited
+    if balancing.below or not (making.stock or making.per_place is not None or depth):
         return
     value = max(
         (abs(left) / abs(Q) for left, Q in zip(balancing.leftover, balancing.target, strict=True) if Q), default=0.0
@@ -269,6 +303,7 @@ def balance_warnings(
     yield from _printed(balancing, planes)
     for taken_run in taken:
         yield from record_warnings(taken_run)
+    yield from _units(taken)
     yield from _directions(balancing, planes)
     yield from _within_grade(balancing)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
@@ -299,6 +334,16 @@ def _printed(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[st
         f"With these {name} it would remove metal at {at[0]:.1f}° left and {at[1]:.1f}° right, {off}, and {times} "
         "times too much. This result converts them first."
     )
+
+
+def _units(taken: Sequence[Taken]) -> Iterator[str]:
+    """Warning about runs of one speed in different units: perhaps one unit is wrong."""
+    speeds = {unit: run.run.speed for run in taken if (unit := run.instrument.shown)}
+    for unit, speed in list(speeds.items())[1:]:
+        other = next(iter(speeds))
+        if abs(speed / speeds[other] - 1) <= ONE_SPEED:
+            yield f"Runs at one speed are in {other} and in {unit}. If one unit is wrong, the correction is wrong."
+            return
 
 
 def _directions(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:

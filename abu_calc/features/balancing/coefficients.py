@@ -15,7 +15,7 @@ lag, angles count against rotation, sensor_to_mark_deg is taken into account.
 
 import os
 from collections.abc import Sequence
-from typing import Annotated, Final, Self
+from typing import TYPE_CHECKING, Annotated, Final, Self
 
 from pydantic import Field, model_validator
 
@@ -26,6 +26,9 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.reading.table import LEAST, Name, Table, problem
+
+if TYPE_CHECKING:
+    from abu_calc.inputs.reading.document import Document
 
 _Number = Annotated[float, Field(ge=-1e12, le=1e12)]
 _Error = Annotated[float, Field(ge=0, le=1e12)]
@@ -102,9 +105,15 @@ class Stored:
 
 def read_coefficients(source: str | os.PathLike[str]) -> Stored:
     """Coefficients of a file. Raises InputError with file, line and key."""
-    from abu_calc.inputs.reading.document import named, open_document, validate
+    from abu_calc.inputs.reading.document import named, open_document
 
-    document = open_document(named(source))
+    return coefficients_from(open_document(named(source)))
+
+
+def coefficients_from(document: "Document") -> Stored:
+    """Coefficients of a document that is open already; raises as `read_coefficients` does."""
+    from abu_calc.inputs.reading.document import validate
+
     if "coefficients" not in document.content:
         raise InputError(
             "this file holds no influence coefficients", place=Place(document.file),

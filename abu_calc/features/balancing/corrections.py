@@ -22,6 +22,8 @@ USUAL_PITCH: Final = math.tau / 20
 """Angle between neighbouring masses if neither spacing nor drill is given [rad]."""
 MOST_PIECES: Final = 160
 """Most weights at places that are combined by threes."""
+MOST_BESIDE: Final = 20
+"""Most places on either side of an angle for stock weights."""
 PER_WEIGHT: Final = 0.002
 """Part of the heavy spot that one weight less is worth."""
 
@@ -48,6 +50,11 @@ class Drill:
     radial: bool = False
     point: float = math.pi
     most: float | None = None
+
+    @property
+    def limited(self) -> bool:
+        """Tell whether the depth of a hole ends somewhere: a radial one does at the axis."""
+        return self.radial or self.most is not None
 
     @property
     def tip(self) -> float:
@@ -121,6 +128,8 @@ def correction(
     if mass == 0:
         return ()
     if making.stock:
+        if places is None and making.per_place is not None:
+            places = _places_about(angle + math.pi, _pitch(making, radius))
         shares = _stock_at(mass, angle, making, places) if places else _stock_anywhere(mass, angle, making)
         return tuple(replace(share, angle=turned(share.angle)) for share in shares)
     cap = _largest(making, radius)
@@ -137,9 +146,15 @@ def correction(
 def _largest(making: Making, radius: float) -> float | None:
     """Largest mass that may be removed at one place [kg]."""
     limits = [making.per_place] if making.per_place is not None else []
-    if making.drill is not None and making.drill.most is not None:
-        limits.append(hole_mass(making.drill, min(making.drill.most, radius), radius))
+    if making.drill is not None and making.drill.limited:
+        limits.append(hole_mass(making.drill, min(making.drill.most or radius, radius), radius))
     return min(limits, default=None)
+
+
+def _places_about(angle: float, pitch: float) -> list[float]:
+    """Places beside each other about an angle, over half of the circle at most."""
+    count = min(int(math.pi / 2 / pitch), MOST_BESIDE)
+    return [angle + k * pitch for k in range(-count, count + 1)]
 
 
 def _pitch(making: Making, radius: float) -> float:

@@ -104,7 +104,7 @@ def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, Run
     if run.phases:
         shift = run.unsure / math.sqrt(3)
         yield both("readings", lambda s: replace(run, phases=tuple(phase + s * shift for phase in run.phases)))
-    yield both("speed", lambda s: replace(run, speed=run.speed * (1 + s * sigma.speed)))
+    yield both("speed", lambda s: replace(run, speed=run.speed * (1 + s * sigma.speed), read_speed=run.set_speed))
     for index, weight in enumerate(run.weights):
         for moved in (_heavier(weight, sigma), _turned(weight, sigma)):
             high, low = (_with_weight(run, index, trial_mass) for trial_mass in moved)
@@ -174,12 +174,16 @@ def _with_coefficient(stored: Coefficients, number: int, row: int, column: int, 
     return replace(stored, matrices=tuple(tuple(tuple(each) for each in matrix) for matrix in values))
 
 
-def placing(imbalance: Vector, sigma: Deviations) -> list[Vector]:
-    """Residual imbalances by errors of the correction itself, one standard deviation each."""
-    planes = range(len(imbalance))
+def placing(pieces: Sequence[Vector], sigma: Deviations) -> list[Vector]:
+    """Residual imbalances by errors of the correction itself, one standard deviation each.
+
+    `pieces`: imbalance of each mass of each plane [kg m]. Masses that nearly cancel leave the errors of all.
+    """
+    planes = range(len(pieces))
     return [
-        tuple(imbalance[k] * step if k == plane else 0j for k in planes)
+        tuple(piece * step if k == plane else 0j for k in planes)
         for plane in planes
+        for piece in pieces[plane]
         for step in (sigma.placed_mass, 1j * sigma.placed_angle)
     ]
 

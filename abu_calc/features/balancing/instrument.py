@@ -21,11 +21,13 @@ SIZES: Final[dict[str, tuple[Quantity, str, str]]] = {
     "g": ("acceleration", "g_n", "g"),
 }
 """Quantity, suffix of `foundation.units`, and form as printed, by the unit as people write it."""
-DETECTORS: Final = {
+DETECTORS: Final[dict[str, tuple[float, str]]] = {
     "0-peak": (1.0, "0-peak"),
     "peak": (1.0, "0-peak"),
     "peak-peak": (2.0, "peak-peak"),
     "rms": (math.sqrt(0.5), "rms"),
+    **dict.fromkeys(("pk", "0-p", "0-pk"), (1.0, "0-peak")),
+    **dict.fromkeys(("pp", "p-p", "pk-pk", "peak-to-peak"), (2.0, "peak-peak")),
 }
 """Reading of a sine over its amplitude 0–peak, and the form as printed, by the detector."""
 PLAIN: Final = {"displacement": "mm", "velocity": "mm/s", "acceleration": "m/s²"}
@@ -70,6 +72,7 @@ def instrument_of(unit: str) -> Instrument | None:
     ('velocity', None, 'µm 0-peak')
     """
     size, _, detector = _plain(unit).partition(" ")
+    detector = detector.lower()
     if size not in SIZES or detector not in DETECTORS:
         return None
     quantity, suffix, shown = SIZES[size]

@@ -36,6 +36,8 @@ Method = Literal["rig data", "trial masses", "runs without phase", "stored coeff
 
 TELLS_APART: Final = 1e-6
 """Least singular value of the trials, over the largest, with which they tell all planes and the rest apart."""
+TINY: Final = 1e-12
+"""Change of a reading that only rounding makes, relative."""
 WORST_CONDITION: Final = 300.0
 """Beyond it errors of a third of a percent are as large as the answer: no number is given."""
 
@@ -177,6 +179,7 @@ def _by_trials(case: Balancing) -> Solution:
         scale = np.abs(trials).max(axis=0)
         coefficients = np.linalg.lstsq(trials / scale, motions, rcond=None)[0] / scale[:, None]
         matrix = coefficients[:-1].T
+        _refuse_unseen(matrix, scale[:-1], _amplitudes(motions), case)
         matrices.update(dict.fromkeys(group, matrix))
         equations.append((matrix, coefficients[-1], _amplitudes(motions)))
     imbalance, condition = _least_squares(equations)
@@ -188,13 +191,25 @@ def _by_coefficients(case: Balancing) -> Solution:
     stored = case.coefficients
     if stored is None:
         raise InputError("no coefficients are stored", place=Place(key="run"))
-    influences = tuple(stored.matrices[stored.at(run.speed) or 0] for run in case.runs)
+    influences = tuple(stored.matrices[stored.at(run.set_speed) or 0] for run in case.runs)
     equations = []
     for run, rows in zip(case.runs, influences, strict=True):
         matrix = np.array(rows)
         equations.append((matrix, np.array(run.motion) - matrix @ np.array(run.placed), _amplitudes([run.motion])))
     imbalance, condition = _least_squares(equations)
     return _solution("stored coefficients", imbalance, influences, case.runs, condition)
+
+
+def _refuse_unseen(matrix: Array, masses: Any, sizes: Any, case: Balancing) -> None:
+    """Raise NotTrustworthyError for trial masses of two planes that change no reading."""
+    seen = (np.abs(matrix) * masses / sizes[:, None]).max(axis=0)
+    if case.planes == 1 or not (seen <= TINY).any():
+        return
+    names = [name for name, share in zip(("left", "right"), seen, strict=True) if share <= TINY]
+    raise NotTrustworthyError(
+        f"the trial masses in the {' and the '.join(names)} plane do not change the readings.\n"
+        "  Heavier trial masses, or another speed."
+    )
 
 
 def _amplitudes(motions: Any) -> Any:

@@ -51,6 +51,13 @@ class RunOnRig:
     """Most that all phases of a record may be off together [rad]."""
     planes: int = 2
     """Number of correction planes."""
+    read_speed: float | None = None
+    """Speed that decides to which set of coefficients the run belongs [rad/s], if its speed is varied."""
+
+    @property
+    def set_speed(self) -> float:
+        """Speed by which the run belongs to a set of coefficients [rad/s]: an error of the speed changes no set."""
+        return self.speed if self.read_speed is None else self.read_speed
 
     @property
     def motion(self) -> Vector:
@@ -115,7 +122,7 @@ class Balancing:
         groups: list[list[int]] = []
         for index, run in enumerate(self.runs):
             for group in groups:
-                if abs(run.speed / self.runs[group[0]].speed - 1) <= ONE_SPEED:
+                if abs(run.set_speed / self.runs[group[0]].set_speed - 1) <= ONE_SPEED:
                     group.append(index)
                     break
             else:

@@ -30,6 +30,8 @@ FARTHER: Final = 1.6
 """Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
 HOPELESS: Final = 1.0
 """Vibration left, of that before, from which on the correction may do more harm than good: no number is given."""
+FINE: Final = 0.1
+"""Error of an imbalance over the trial mass up to which the imbalance is measured well."""
 MUCH: Final = 10.0
 """Such a part whose size is of no interest."""
 ROUNDING: Final = 1e-9
@@ -48,6 +50,10 @@ class Found:
     sigma: Deviations
     solution: Solution
     by: Sequence[ErrorContribution]
+    below: bool
+    """True if the imbalance is below its errors: no correction is proposed."""
+    placed: Spread
+    """Changes by the errors of the correction itself, mass by mass."""
     spread: Spread
     target: Vector
     leftover: Vector
@@ -86,19 +92,25 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
     answer = _answer(case, method_of(case), sigma, replaced)
     service, making = _service_speed(file, case), making_of(file)
     radii = tuple(to_si(radius, "mm") for radius in file.radii_mm)
-    shares = [_shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)]
+    shares: list[tuple[MassShare, ...]] = [
+        () if answer.below else _shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)
+    ]
     leftover = tuple(_leftover(*each) for each in zip(answer.target, shares, radii, strict=True))
-    spread = [*answer.spread, leftover]
+    placed = placing([_pieces(*each) for each in zip(shares, radii, strict=True)], sigma)
+    errors = [*(change.imbalance for change in answer.by), *placed]
+    spread = [*errors, leftover]
     return Found(
         case=case,
         sigma=sigma,
         solution=answer.solution,
         by=answer.by,
+        placed=placed,
+        below=answer.below,
         spread=spread,
         target=answer.target,
         leftover=leftover,
         rest_share=_rest_share(answer.solution, spread),
-        error_share=_rest_share(answer.solution, answer.spread),
+        error_share=_rest_share(answer.solution, errors),
         disagreement=disagreement(answer.solution, answer.by),
         tolerance=tolerance_of(file, service),
         service_speed=service,
@@ -117,7 +129,17 @@ class _Answer:
     solution: Solution
     target: Vector
     by: Sequence[ErrorContribution]
-    spread: Spread
+    below: bool = False
+
+
+def _finely_measured(case: Balancing, method: Method, by: Sequence[ErrorContribution]) -> bool:
+    """Tell whether trial masses measure the imbalance well, so that it is small and not unknown."""
+    if method not in ("trial masses", "runs without phase") or case.roll is not None:
+        return False
+    return all(
+        size(change.imbalance[plane] for change in by) <= FINE * max(abs(run.placed[plane]) for run in case.runs)
+        for plane in range(case.planes)
+    )
 
 
 def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[TrialMass, ...]) -> _Answer:
@@ -130,15 +152,17 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
         known = imbalance_of(replaced, case.planes)
         target = tuple(Q - mass for Q, mass in zip(solution.imbalance, known, strict=True))
         by = [*changes(case, method, sigma), *_of_fitted(case, replaced, sigma)]
-        spread = [*(change.imbalance for change in by), *placing(target, sigma)]
+        spread = [*(change.imbalance for change in by), *placing([(Q,) for Q in target], sigma)]
         share = _rest_share(solution, spread)
+        if share > HOPELESS and not replaced and _finely_measured(case, method, by):
+            return _Answer(solution, target, by, below=True)
         if share > HOPELESS:
             raise NotTrustworthyError(_hopeless(case, share))
     except NotTrustworthyError:
         if method != "trial masses" or case.roll is None:
             raise
         return _answer(case, "rig data", sigma, replaced)
-    return _Answer(solution, target, by, spread)
+    return _Answer(solution, target, by)
 
 
 def _of_fitted(case: Balancing, fitted: Sequence[TrialMass], sigma: Deviations) -> list[ErrorContribution]:
@@ -190,7 +214,9 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
     )  # fmt: skip
     by = changes(replace(case, runs=(run,)), "rig data", sigma)
     there = replace(solution, influences=(matrix,))
-    return speed, _rest_share(there, [*(change.imbalance for change in by), *placing(solution.imbalance, sigma)])
+    return speed, _rest_share(
+        there, [*(change.imbalance for change in by), *placing([(Q,) for Q in solution.imbalance], sigma)]
+    )
 
 
 def _service_speed(file: ReadingsFile, case: Balancing) -> float:
@@ -202,6 +228,11 @@ def _shares(file: ReadingsFile, making: Making, plane: int, Q: complex, radius: 
     places = file.places_deg[plane]
     marked = None if places is None else [behind_the_mark(file, place) for place in places]
     return correction(abs(Q) / radius, -cmath.phase(Q), making, marked, radius)
+
+
+def _pieces(shares: Sequence[MassShare], radius: float) -> Vector:
+    """Imbalance of each mass of a plane [kg m]."""
+    return tuple(cmath.rect(share.mass * radius, -share.angle) for share in shares)
 
 
 def _leftover(Q: complex, shares: Sequence[MassShare], radius: float) -> complex:

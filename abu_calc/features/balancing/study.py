@@ -13,7 +13,7 @@ from abu_calc.features.balancing.case import Taken, taken_runs
 from abu_calc.features.balancing.checks import balance_checks, balance_warnings
 from abu_calc.features.balancing.coefficients import Stored, coefficients_of, coefficients_text, read_coefficients
 from abu_calc.features.balancing.corrections import MassShare
-from abu_calc.features.balancing.errors import angular, motions, placing, radial, size
+from abu_calc.features.balancing.errors import angular, motions, radial, size
 from abu_calc.features.balancing.formulas import Matrix, Vector, natural_frequencies, reading_factor, support_damping
 from abu_calc.features.balancing.methods import Solution, motion_of
 from abu_calc.features.balancing.next_run import proposals
@@ -166,7 +166,7 @@ def tolerance_result(balancing: Found) -> ToleranceResult | None:
     if tolerance.planes == "correction planes":
         rule = "all in the single plane" if len(now) == 1 else "half in each plane, since the lengths are not known"
     elif tolerance.overhung:
-        rule = "lever rule, centre of mass outside the bearings, each share within 0.3 … 1.3"
+        rule = "lever rule, centre of mass outside the bearings, each share within 0.3 … 1.3 (unverified)"
     else:
         rule = "lever rule, each share within 0.3 … 0.7"
     return ToleranceResult(planes=tolerance.planes, rule=rule, whole_g_mm=from_si(tolerance.whole, "g_mm"), **values)
@@ -191,7 +191,7 @@ def causes(balancing: Found) -> tuple[ErrorShare, ...]:
     Q, groups = balancing.target, dict[str, list[Vector]]()
     for change in balancing.by:
         groups.setdefault(change.cause, []).append(change.imbalance)
-    groups["correction"] = placing(Q, balancing.sigma)
+    groups["correction"] = list(balancing.placed)
     return tuple(
         ErrorShare(
             cause=cause,

@@ -19,7 +19,7 @@ Planes = Literal["bearing planes", "correction planes"]
 INBOARD: Final = (0.3, 0.7)
 """Limits of a share if the centre of mass is between the bearings."""
 OUTBOARD: Final = (0.3, 1.3)
-"""Limits of a share if the centre of mass is outside the bearings."""
+"""Limits of a share if the centre of mass is outside the bearings; from a secondary source, unverified."""
 _SPAN = Range("distance of the bearings", 0.0, 1e3, "m", open_low=True)
 
 
@@ -33,7 +33,7 @@ _SPAN = Range("distance of the bearings", 0.0, 1e3, "m", open_low=True)
         "more than the whole weight."
     ),
     checked=(_SPAN,),
-    source="ISO 21940-11:2016, allocation to tolerance planes; the limits of overhung rotors as in ISO 1940-1:2003",
+    source="ISO 21940-11:2016, allocation to tolerance planes; limits of overhung rotors: ISO 1940-1:2003, unverified",
 )
 def tolerance_shares(permitted: float, left: float, right: float) -> tuple[float, float]:
     """Shares of the left and the right bearing; `left`, `right`: from each bearing to the centre of mass, negative if

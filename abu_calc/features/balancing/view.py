@@ -139,8 +139,15 @@ def orders_of(plane: PlaneCorrection, short: bool = False) -> list[str]:
 def _planes(result: BalanceResult) -> Grid:
     planes = [plane for _, plane in result.planes]
     rows = [
-        ("remove at the heavy spot", *(_at(plane.mass_g, plane.remove_at_deg) for plane in planes)),
-        ("or add opposite", *(_at(plane.mass_g, plane.add_at_deg) for plane in planes)),
+        (
+            "remove at the heavy spot" if any(plane.corrections for plane in planes) else "heavy spot",
+            *(_at(plane.mass_g, plane.remove_at_deg) for plane in planes),
+        ),
+        *(
+            [("or add opposite", *(_at(plane.mass_g, plane.add_at_deg) for plane in planes))]
+            if any(plane.corrections for plane in planes)
+            else []
+        ),
         ("  standard deviation", *(_uncertain(plane) for plane in planes)),
         ("imbalance to correct", *(f"{number(plane.imbalance_g_mm)} g·mm" for plane in planes)),
         ("  expected after correction", *(_rest(result, name, plane) for name, plane in result.planes)),

@@ -4,19 +4,25 @@ A file that its own commands would refuse, seconds later, is refused at once (`r
 grows from run to run: what is missing for an answer is said, with the next run.
 """
 
-from typing import Annotated
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from abu_calc.cli.command import Overrides, add_command
-from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.quantity import as_plain
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.reading.document import FileReading
+from abu_calc.inputs.reading.document import Document, FileReading, open_document
+from abu_calc.inputs.reading.kinds import KINDS
 from abu_calc.inputs.scene import SceneDescription
 from abu_calc.reporting.blocks import Block, Paragraph
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.screen import many
+
+if TYPE_CHECKING:
+    from abu_calc.features.balancing.coefficients import Stored
 
 
 def refuse_unusable(source: FileReading) -> None:
@@ -68,19 +74,49 @@ def missing_of(source: FileReading) -> tuple[str, ...]:
         return missing_from(source)
 
 
+def stored_coefficients(document: Document, overrides: Sequence[str]) -> "Stored | None":
+    """Influence coefficients that a file holds; None for a file of another kind. Raises InputError for wrong ones."""
+    content = document.content
+    if "coefficients" not in content or content.keys() & {mark for kind in KINDS for mark in kind.marks}:
+        return None
+    from abu_calc.features.balancing.coefficients import coefficients_from
+
+    if overrides:
+        raise InputError(
+            "stored coefficients have no entries to set", place=Place(document.file, key="--set"),
+                found=", ".join(overrides),
+            remedy="leave --set out",
+        )  # fmt: skip
+    return coefficients_from(document)
+
+
+def _named(stored: "Stored") -> str:
+    speeds = ", ".join(f"{from_si(speed, 'rpm'):.0f}" for speed in stored.values.speeds)
+    return (
+        f"Influence coefficients of {stored.rotor}: {many(len(stored.planes), 'plane')}, "
+        f"{many(len(stored.sensors), 'sensor')}, {speeds} rpm. Use: `abu balance READINGS --coefficients FILE`."
+    )
+
+
 def validate(
     files: Annotated[
-        list[str], typer.Argument(metavar="FILE", help="Files of machines, scenes or readings, or names of presets.")
+        list[str],
+        typer.Argument(metavar="FILE", help="Files of any kind that abu reads, or names of presets."),
     ],
     set_: Overrides = None,
 ) -> Outcome:
     """Check files without simulating: keys, types, ranges, rules."""
-    from abu_calc.inputs.read_machine import read_file
+    from abu_calc.inputs.read_machine import read_document
 
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
-            loaded = read_file(file, set_ or ())
+            document = open_document(file)
+            if (stored := stored_coefficients(document, set_ or ())) is not None:
+                results.append({"file": file, "sha256": stored.sha256, "overrides": {}, "defaults": {}, "warnings": []})
+                blocks += [Paragraph(f"{file}: valid", "pass"), Paragraph(_named(stored), indent=4)]
+                continue
+            loaded = read_document(document, set_ or ())
             refuse_unusable(loaded)
         except InputError as error:
             faults.append(error)

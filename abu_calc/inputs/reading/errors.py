@@ -114,9 +114,15 @@ def input_error(error: ValidationError, origin: Origin) -> InputError:
     return errors[0] if len(errors) == 1 else SpecErrors(errors)
 
 
-def _written(path: tuple[Part, ...], document: object) -> tuple[Part, ...]:
-    """The path without a place in a list where the file has a single value, which stands for a list of one."""
+def _written(path: tuple[Part, ...], whole: object) -> tuple[Part, ...]:
+    """The path without a place in a list where the file has a single value, which stands for a list of one.
+
+    Keys of a single table follow it.
+    """
+    document = whole
     for place, part in enumerate(path):
+        if isinstance(part, int) and isinstance(document, dict):
+            return _written(path[:place] + path[place + 1 :], whole)
         if isinstance(part, int) and not isinstance(document, list):
             return path[:place]
         if isinstance(document, dict):

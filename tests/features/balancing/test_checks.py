@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.cli.runner import Seen, abu
@@ -101,3 +102,32 @@ def test_trial_masses_that_move_nothing_fail(tmp_path: Path) -> None:
     heavy = [shop.run(), *(shop.put_on(k, 20.0, 0.0).run(trial(k, 20.0, 0.0)) for k in (0, 1))]
     good = abu("balance", written(tmp_path, BARE_ROTOR, *heavy), "--json")
     assert good.status == 0 and check(good.document, "ABU1007")["status"] == "pass"
+
+
+def test_trial_masses_that_move_nothing_at_all_are_named(tmp_path: Path) -> None:
+    shop = Workshop()
+    runs = [shop.run(), shop.run(trial(0, 5.0, 0.0)), shop.put_on(1, 20.0, 0.0).run(trial(1, 20.0, 0.0))]
+    seen = abu("balance", written(tmp_path, BARE_ROTOR, *runs))
+    assert seen.status == 3 and "the trial masses in the left plane do not change the readings" in seen.err
+
+
+def test_a_trial_mass_counts_by_what_its_sensor_read_before(tmp_path: Path) -> None:
+    """A mass that triples the small initial readings is large enough: 30 % of the reading without it are asked."""
+    shop = Workshop(masses=(2.0, 2.0), angles=(10.0, 100.0))
+    runs = [shop.run(), *(shop.put_on(k, 20.0, 10.0 + 90 * k).run(trial(k, 20.0, 10.0 + 90 * k)) for k in (0, 1))]
+    large = check(abu("balance", written(tmp_path, BARE_ROTOR, *runs), "--json").document, "ABU1007")
+    before, after = shop.motion(), shop.put_on(0, 20.0, 10.0).motion()
+    floor = 0.1 * max(np.abs(shop.put_on(k, 20.0, 10.0 + 90 * k).motion()).max() for k in (0, 1))
+    left = (np.abs(after - before) / np.maximum(np.abs(before), floor)).max()
+    after = shop.put_on(1, 20.0, 100.0).motion()
+    right = (np.abs(after - before) / np.maximum(np.abs(before), floor)).max()
+    assert large["status"] == "pass" and large["value"] == pytest.approx(min(left, right), rel=1e-3)
+
+
+def test_runs_of_one_speed_in_two_units_are_asked_about(tmp_path: Path) -> None:
+    shop = Workshop()
+    runs = [shop.run(), *(shop.put_on(k, 20.0, 0.0).run(trial(k, 20.0, 0.0)) for k in (0, 1))]
+    assert "are in mm" not in abu("balance", written(tmp_path, BARE_ROTOR, *runs)).out
+    runs[1] = runs[1].replace('quantity = "displacement"', 'unit = "µm 0-peak"')
+    document = abu("balance", written(tmp_path, BARE_ROTOR, *runs), "--json").document
+    assert any("in mm and in µm 0-peak" in line for line in document["warnings"])

@@ -107,3 +107,19 @@ def test_side_by_side_holes_are_few_and_equal() -> None:
     assert len(shares) == 5 and abs(total(shares) - 0.030 * np.exp(1j)) < 1e-12
     assert {round(share.mass, 12) for share in shares} == {round(shares[0].mass, 12)}
     assert all(share.depth < 0.012 for share in shares)
+
+
+def test_stock_weights_keep_the_limit_of_a_place() -> None:
+    shares = correction(0.010, 1.0, Making(per_place=0.005, stock=(0.001, 0.002, 0.005)), None, 0.1)
+    assert shares and max(share.mass for share in shares) <= 0.005 * (1 + 1e-9)
+    assert abs(total(shares) - 0.010 * np.exp(1j)) < 0.05 * 0.010
+    assert correction(0.010, 1.0, Making(per_place=0.0005, stock=(0.001, 0.002)), None, 0.1) == ()
+
+
+def test_a_radial_hole_ends_at_the_axis() -> None:
+    """A hole of 2 mm through 100 mm of steel has 1.233 g at the radius: π/4·4·100·7.85e-3/2."""
+    drill = Drill(0.002, 7850.0, radial=True)
+    shares = correction(0.010, 1.0, Making(drill=drill), None, 0.1)
+    assert len(shares) >= 9 and all(share.depth is not None and share.depth <= 0.1 for share in shares)
+    assert max(share.mass for share in shares) <= 1.2331e-3
+    assert abs(total(shares) - 0.010 * np.exp(1j)) < 1e-9

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from abu_calc.features.balancing.formulas import (
 )
 from abu_calc.features.balancing.methods import solved
 from abu_calc.features.balancing.runs import Balancing
-from tests.features.balancing.rig import Workshop
+from tests.cli.runner import abu
+from tests.features.balancing.rig import BARE_ROTOR, Workshop, trial, written
 from tests.features.balancing.test_methods import ROLL, run_of
 
 NO_ERRORS = Deviations(*[0.0] * 11)
@@ -57,4 +59,24 @@ def test_uncertainties_are_the_scatter_of_spoilt_readings_and_rigs(rpm: float) -
 def test_without_errors_nothing_is_unsure() -> None:
     case = Balancing(ROLL, (run_of(Workshop()),))
     assert all(abs(part) == 0 for change in changes(case, "rig data", NO_ERRORS) for part in change.imbalance)
-    assert all(abs(part) == 0 for pair in placing((1j, 1.0), NO_ERRORS) for part in pair)
+    assert all(abs(part) == 0 for pair in placing(((1j,), (1.0,)), NO_ERRORS) for part in pair)
+
+
+def test_masses_that_nearly_cancel_leave_the_errors_of_both() -> None:
+    """500 g at 89.4° on either side make 10 g: one percent of each is 5 g, not 0.1 g."""
+    sigma = replace(NO_ERRORS, placed_mass=0.01)
+    one = 0.5 * np.exp(1j * math.acos(0.01))
+    left = placing(((one, one.conjugate()),), sigma)
+    assert abs(2 * one.real - 0.010) < 1e-12
+    assert math.sqrt(sum(abs(plane[0]) ** 2 for plane in left)) == pytest.approx(0.005 * math.sqrt(2))
+
+
+@pytest.mark.parametrize("other_rpm", [3029.5, 2970.5])
+def test_an_error_of_the_speed_changes_no_set_of_runs(tmp_path: Path, other_rpm: float) -> None:
+    """Speeds that differ by nearly 1 % are one set; errors of the speed may not part it."""
+    shop = Workshop()
+    runs = [shop.run(), *(shop.put_on(k, 20.0, 0.0).run(trial(k, 20.0, 0.0)) for k in (0, 1))]
+    runs[1] = runs[1].replace("3000.0", str(other_rpm))
+    for errors in ("", "[errors]\nspeed_percent = 3.0\n"):
+        seen = abu("balance", written(tmp_path, BARE_ROTOR, *runs, errors), "--json")
+        assert seen.status in (0, 1) and seen.document["result"]["left"]["mass_g"] == pytest.approx(12, rel=0.1)

@@ -59,13 +59,23 @@ def test_usual_other_spellings(alias: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "unit", ["mil", "", "rms", "furlong rms", "mm/s avg", "mil pp", "MM rms", "µm/s rms", "rms mm/s"]
+    "unit", ["mil", "", "rms", "furlong rms", "mm/s avg", "G rms", "MM rms", "µm/s rms", "rms mm/s"]
 )
 def test_unknown_units_are_refused_with_those_there_are(tmp_path: Path, unit: str) -> None:
     run = Workshop().run().replace('quantity = "displacement"', f'unit = "{unit}"')
     with pytest.raises(InputError) as refused:
         abu_calc.balance(written(tmp_path, RIG, ROTOR, run))
     assert "the unit is not known" in str(refused.value) and "mil peak-peak" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("written_unit", "printed"),
+    [("mil pk-pk", "mil peak-peak"), ("µm p-p", "µm peak-peak"), ("in/s pk", "ips 0-peak"), ("mm/s RMS", "mm/s rms"),
+     ("um Peak-Peak", "µm peak-peak"), ("g 0-pk", "g 0-peak")],
+)  # fmt: skip
+def test_short_forms_of_displays_are_known(written_unit: str, printed: str) -> None:
+    found, same = instrument_of(written_unit), instrument_of(printed)
+    assert found == same and found is not None and found.shown == printed
 
 
 def test_a_unit_that_contradicts_the_quantity_is_refused(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from abu_calc.inputs.reading.errors import SpecErrors
 from abu_calc.inputs.reading.kinds import KINDS, kind_of
 from abu_calc.inputs.reading.table import all_tables, usual_of
 from abu_calc.inputs.reading.template import WIDTH
-from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, written
+from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, written
 from tests.inputs.agreeing import check_schema, right_but_for_rules
 from tests.inputs.reading.test_schema import VALUES, places
 from tests.inputs.samples import document, mutated
@@ -196,3 +196,21 @@ def test_a_file_of_another_kind_is_refused_with_the_command_that_takes_it(tmp_pa
         abu_calc.balance("msh-230")
     with pytest.raises(InputError, match="not the name of a file"):
         abu_calc.balance(abu_calc.read("msh-230"))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("entry", "key"),
+    [
+        ('{ plane = "Left", mass_g = 5.0, angle_deg = 0.0 }', "run[0].trial.plane"),
+        ('{ plane = "left", mass_kg = 0.005, angle_deg = 0.0 }', "run[0].trial.mass_kg"),
+        ("{ mass_g = 5.0, angle_deg = 0.0 }", "run[0].trial.plane"),
+        ('{ plane = "left", mass_g = "5", angle_deg = 0.0 }', "run[0].trial.mass_g"),
+    ],
+)
+def test_the_key_of_a_single_trial_is_named(tmp_path: Path, entry: str, key: str) -> None:
+    text = "\n".join([BARE_ROTOR, Workshop().run(f"trial = {entry}")])
+    file = tmp_path / "readings.toml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        abu_calc.balance(file)
+    assert f"{key}: " in str(refused.value) and "[[run.trial]]" not in str(refused.value)

@@ -7,6 +7,7 @@ import pytest
 
 import abu_calc
 from abu_calc.foundation.errors import InputError
+from tests.cli.runner import abu
 from tests.features.balancing.field import Fan, any_fan
 from tests.features.balancing.rig import turned, written
 
@@ -97,3 +98,28 @@ def test_readings_that_contradict_each_other_are_told(tmp_path: Path) -> None:
     result = abu_calc.balance(written(tmp_path, "[single_plane]\ncorrection_radius_mm = 100", *runs, errors))
     agree = next(check for check in result.checks if check.code == "ABU1006")
     assert agree.status in ("warn", "fail") and agree.value > 3
+
+
+def test_a_rotor_that_is_nearly_balanced_is_left_as_it_is(tmp_path: Path) -> None:
+    """The imbalance is below what the runs tell: NOT EVALUATED without a grade, PASS within one."""
+    with_trial = ((5.2, 0), (5.1, 120), (5.15, 240))
+    runs = [
+        f'[[run]]\nspeed_rpm = 3000.0\nunit = "mm/s rms"\nleft = {{ amplitude = {amplitude} }}\n{trial}'
+        for amplitude, trial in (
+            (0.1, ""), *((a, f"trial = {{ mass_g = 5.0, angle_deg = {at} }}\n") for a, at in with_trial)
+        )
+    ]  # fmt: skip
+    rotor = "[rotor]\nmass_kg = 30.0\n[single_plane]\ncorrection_radius_mm = 100.0\n"
+    seen = abu("balance", written(tmp_path, rotor, *runs), "--json")
+    assert seen.status == 1 and seen.document["result"]["single_plane"]["corrections"] == []
+    assert {check["code"]: check["status"] for check in seen.document["checks"]}["ABU1004"] == "not-done"
+    assert "remove 0" not in abu("balance", written(tmp_path, rotor, *runs)).out
+    graded = abu("balance", written(tmp_path, rotor, *runs, '[tolerance]\nbalance_grade = "G6.3"'), "--json")
+    plane = graded.document["result"]["single_plane"]
+    assert graded.status == 0 and plane["rest_g_mm"] >= plane["imbalance_g_mm"]
+    strict = abu(
+        "balance",
+        written(tmp_path, rotor, *runs, '[tolerance]\nbalance_grade = "G0.4"\nservice_speed_rpm = 30000'),
+        "--json",
+    )
+    assert strict.status == 1

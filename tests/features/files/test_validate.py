@@ -72,3 +72,19 @@ def test_validate_refuses_scenes_too_long_to_integrate(tmp_path: Path) -> None:
     file.write_text(SCENE.replace("= 700.0", "= 1e9"), encoding="utf-8")
     seen = abu("validate", str(file))
     assert seen.status == 2 and "scene.duration_s" in seen.err and f"{file}:9" in seen.err
+
+
+def test_stored_coefficients_are_named_as_what_they_are(tmp_path: Path) -> None:
+    file = tmp_path / "rolls.toml"
+    file.write_text(
+        '[coefficients]\nrotor = "roll"\nplanes = ["single"]\nsensors = ["1"]\n[[coefficients.at]]\n'
+        "speed_rpm = 900.0\ninfluence_um_per_g_mm = [[[0.1, -0.2]]]\nstandard_error_um_per_g_mm = [[0.001]]\n",
+        encoding="utf-8",
+    )
+    good = abu("validate", str(file))
+    assert good.status == 0 and "Influence coefficients of roll: 1 plane, 1 sensor, 900 rpm" in " ".join(
+        good.out.split()
+    )
+    file.write_text(file.read_text(encoding="utf-8").replace('["1"]', '["1", "2"]'), encoding="utf-8")
+    bad = abu("validate", str(file))
+    assert bad.status == 2 and "not one number for each sensor and plane" in bad.err

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.features.balancing.tachometer import LONGER, Edge, Passages, passages, smooth
+from abu_calc.features.balancing.recording.tachometer import LONGER, Edge, Passages, passages, smooth
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si

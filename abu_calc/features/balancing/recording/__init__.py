@@ -1,0 +1,1 @@
+"""Recorded runs: marks of revolutions, and amplitude and phase at the speed of rotation."""
