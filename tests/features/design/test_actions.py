@@ -49,6 +49,9 @@ def quantity(result: SizeResult, code: str, what: str) -> float | None:
     match what:
         case "the worst friction case":
             return None if vibration.worst_arrangement is None else vibration.worst_arrangement.level_after_db
+        case "a_hv in the worst friction case":
+            told = None if check is None else re.search(r"Worst friction case: a_hv = ([\d.]+)", check.message)
+            return None if told is None else float(told[1])
         case "the expected level":
             return max(speed.level_after_db for speed in vibration.by_speed or ())
         case "the loudest start case":
