@@ -80,7 +80,8 @@ def paragraphs(text: str) -> Iterator[str]:
     """Running text of a report: lines of a paragraph joined, rows of tables and code left out."""
     lines: list[str] = []
     for line in (*text.splitlines(), ""):
-        prose = bool(line.strip()) and not _is_table(line)
+        in_code = "\n".join(lines).count("`") % 2 == 1  # a command in back quotes goes on over a line's end
+        prose = bool(line.strip()) and (in_code or not _is_table(line))
         if lines and (not prose or MARKED.match(line) or _indent(line) != _indent(lines[-1])):
             yield " ".join(part.strip() for part in lines)
             lines = []
