@@ -21,11 +21,10 @@ from abu_calc.inputs.duty import Motor
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.design_scenes import simulated
 from abu_calc.simulation.ensemble import TOLERANCE, WORK, simulate_members, start_once
-from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check
+from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.scene_of_design import guided
 from abu_calc.simulation.start_cases import Member, members, scene_of_member
-from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import sound
 from abu_calc.sizing.design import Design

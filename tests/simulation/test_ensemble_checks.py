@@ -5,10 +5,9 @@ from functools import cache
 import pytest
 
 from abu_calc.foundation.checks import Check, coded
-from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check, not_simulated
+from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check, not_simulated
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
 from abu_calc.simulation.start_cases import ALIKE, Member
-from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import PINNED, machine

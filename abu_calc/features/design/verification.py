@@ -18,8 +18,8 @@ from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import simulate_members
+from abu_calc.simulation.ensemble_checks import TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing import instead
 from abu_calc.sizing.actions import pins, with_entries, words
 from abu_calc.sizing.balls import Candidate, sound

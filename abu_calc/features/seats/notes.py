@@ -43,6 +43,13 @@ def load_intensity(load: float, seat_length: float) -> float:
     return SHOCK_FACTOR * load / SEAT_LENGTH.check(seat_length)
 
 
+def seat_intensity(joint: Joint) -> float | None:
+    """Load intensity of a seat [N/m]; None without a load or a length."""
+    if joint.radial_load is None or joint.length is None:
+        return None
+    return load_intensity(joint.radial_load, joint.length)
+
+
 def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:
     """The loosest class that handbook tables allow at a load intensity [N/m]; None outside the tables.
 
@@ -190,7 +197,6 @@ def seat_notes(
     joint: Joint,
     own: "SeatAdvice",
     given: bool,
-    intensity: float | None,
     asked: Interval | None,
     selection: "Selection | None",
     rule: str | None,
@@ -200,7 +206,7 @@ def seat_notes(
         *_needs(joint),
         *_kept(joint),
         *_differs(joint, own, rule),
-        *_load(bearing, joint, intensity),
+        *_load(bearing, joint),
         *bearing.remarks,
         *_advised(bearing, joint, own, given),
         *_sorting(joint, asked, selection),
@@ -249,7 +255,8 @@ def least_text(length: float) -> str:
     return f"{from_si(length, 'um'):.3g} µm"
 
 
-def _load(bearing: SeatedBearing, joint: Joint, intensity: float | None) -> tuple[str, ...]:
+def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
+    intensity = seat_intensity(joint)
     if intensity is None:
         return ()
     static = bearing.ratings.static if bearing.ratings else 0.0

@@ -15,7 +15,7 @@ from abu_calc.features.seats.interference import Interval, probable_interference
 from abu_calc.features.seats.joint import InterferenceLoss, Joint
 from abu_calc.features.seats.joints import housing_joint, shaft_joint
 from abu_calc.features.seats.lookup import from_table
-from abu_calc.features.seats.notes import Item, ledger, load_intensity, seat_notes
+from abu_calc.features.seats.notes import Item, ledger, seat_intensity, seat_notes
 from abu_calc.features.seats.rating_life import RatingLife, rating_life
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
@@ -219,9 +219,6 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
     creep_result = creep(joint, *start)
     recommended = own.best.tolerance_class if own.best else None
-    intensity = None
-    if joint.radial_load is not None and joint.length is not None:
-        intensity = load_intensity(joint.radial_load, joint.length)
     selection, groups = _sorting(joint, asked)
     rule = rule_class(joint, start)
     wanted = recommended or joint.tolerance_class
@@ -237,7 +234,7 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
             Admissible(candidate.tolerance_class, candidate.interference, candidate.clearance_probability)
             for candidate in admissible(joint, start, own.best)
         ),
-        load_intensity=intensity,
+        load_intensity=seat_intensity(joint),
         creep=creep_result,
         requirements=seat_requirements(joint, wanted, bearing.bearing_class),
         form=seat_form(joint, joint.tolerance_class if given and not joint.measured else wanted, bearing.bearing_class),
@@ -245,7 +242,7 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
         selection=selection,
         groups=groups,
         repair=_repair(bearing, joint, wanted),
-        notes=seat_notes(bearing, joint, own, given, intensity, asked, selection, rule),
+        notes=seat_notes(bearing, joint, own, given, asked, selection, rule),
         checks=seat_checks(bearing, joint, recommended, rule)
         + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended)
         + short_pair_checks(bearing.name, joint, recommended),

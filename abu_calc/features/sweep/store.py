@@ -68,7 +68,7 @@ class Store:
 
     @classmethod
     def open(
-        cls, path: Path, identity: Identity, columns: Sequence[SampleColumn], texts: frozenset[str], runs: int,
+        cls, path: Path, identity: Identity, columns: Sequence[SampleColumn], texts: frozenset[str],
         *, force: bool = False, time_limit: float = 0.0,
     ) -> Self:  # fmt: skip
         """A new store, or one of the same study that goes on; `force`: in the place of whatever study is there.
@@ -76,7 +76,7 @@ class Store:
         Members that took longer than a shorter `time_limit` [s] are missing. Raises InputError with the differences of
         another study, OutputError for a file that cannot be one or is in use.
         """
-        names = tuple(column.name for column in columns)
+        names, runs = tuple(column.name for column in columns), int(identity["runs"])
         with faults_of(path):
             database = connected(path, create=True)
             try:

@@ -93,7 +93,7 @@ def sweep(
     file = kept.folder / "members.sqlite" if kept else path or Path()
     columns, texts = _columns(plan.study)
     database = Store.open(
-        file, _identity(plan, accuracy), columns, texts, plan.study.sample.runs,
+        file, _identity(plan, accuracy), columns, texts,
         force=force and not resume, time_limit=ask.time_limit,
     )  # fmt: skip
     database.drawn = plan.study.sample.drawn

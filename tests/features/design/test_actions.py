@@ -13,7 +13,7 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine, machine_from, read_machine
 from abu_calc.inputs.reading.overrides import following, parse_overrides
-from abu_calc.simulation.tried_changes import IN_ALL_OILS
+from abu_calc.simulation.ensemble_checks import IN_ALL_OILS
 from tests.remembered import recalled
 from tests.studies.random_machines import family_of, machine_text
 

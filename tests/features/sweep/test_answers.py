@@ -23,7 +23,7 @@ LEVELS = (90.0, 95.0, 100.0, 110.0, None, 92.0)
 @pytest.fixture
 def store(tmp_path: Path) -> Iterator[Store]:
     texts = frozenset({"start.kind", "reason"})
-    made = Store.open(tmp_path / "members.sqlite", {"runs": 7}, COLUMNS, texts, 7)
+    made = Store.open(tmp_path / "members.sqlite", {"runs": 7}, COLUMNS, texts)
     made.begun({})
     rows: list[tuple[object, ...]] = [
         (k, k, "spread" if k % 2 else "bunched", 0.5 + 0.1 * (k % 2), level, 1.0, 0.01, 5.0, k < 4, k < 3, None)

@@ -31,7 +31,7 @@ HERE = Workers(None, None, 10.0)
 
 @pytest.fixture
 def store(tmp_path: Path) -> Iterator[Store]:
-    made = Store.open(tmp_path / "m.sqlite", {"runs": 9}, (MEMBER, SEED, LEVEL, REASON), frozenset({"reason"}), 9)
+    made = Store.open(tmp_path / "m.sqlite", {"runs": 9}, (MEMBER, SEED, LEVEL, REASON), frozenset({"reason"}))
     made.begun({})
     yield made
     made.close()

@@ -41,7 +41,7 @@ def edited(path: Path, *statements: str) -> None:
 
 
 def opened(path: Path, runs: int = 4, **options: Any) -> Store:
-    return Store.open(path, {"runs": runs}, COLUMNS, frozenset(), runs, **options)
+    return Store.open(path, {"runs": runs}, COLUMNS, frozenset(), **options)
 
 
 class Meanwhile:
