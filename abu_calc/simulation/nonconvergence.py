@@ -145,7 +145,7 @@ def unreached(
     # A run that more work would finish is chaotic only where what starts that small comes near the accuracy.
     if growth > SENSITIVE and (otherwise is None or growth * MOVED > FELT * accuracy):
         return ChaoticError(
-            f"{first}: the motion is chaotic, {MOVED:g} rad at its start grow {growth:.0e} times\n"
+            f"{first}. The motion is chaotic: {MOVED:g} rad at its start grow {growth:.0e} times\n"
             "  Shorten the run, start the balls at other places, or specify a greater drag rate."
         )
     if otherwise:

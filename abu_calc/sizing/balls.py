@@ -4,6 +4,7 @@ Values that the file has pinned are kept.
 """
 
 from bisect import bisect_left
+from collections.abc import Iterator
 from dataclasses import replace
 
 from abu_calc.formulas.balls import best_count, capacity, corrector_mass, half_angle, most_balls
@@ -323,13 +324,21 @@ def light(case: Case, candidate: Candidate) -> bool:
 
 def sound(case: Case, candidate: Candidate) -> bool:
     """True if the candidate falls short of nothing."""
-    return (
-        enough(case, candidate)
-        and candidate.strength.enough
-        and candidate.stays_round
-        and candidate.budget.within
-        and light(case, candidate)
-    )
+    return not any(_shortfalls(case, candidate))
+
+
+def shortfalls(case: Case, candidate: Candidate) -> tuple[str, ...]:
+    """Names of the requirements that the candidate falls short of."""
+    named = ("capacity", "strength", "roundness of the race", "accuracy of the race", "mass of the autobalancer")
+    return tuple(name for name, bad in zip(named, _shortfalls(case, candidate), strict=True) if bad)
+
+
+def _shortfalls(case: Case, candidate: Candidate) -> Iterator[bool]:
+    yield not enough(case, candidate)
+    yield not candidate.strength.enough
+    yield not candidate.stays_round
+    yield not candidate.budget.within
+    yield not light(case, candidate)
 
 
 def _rank(case: Case, candidate: Candidate) -> tuple[float, ...]:

@@ -7,7 +7,7 @@ from abu_calc.foundation.checks import Action
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.sizing.actions import PINS, Followed, followed, pins, set_action, words
-from abu_calc.sizing.balls import Candidate, sound
+from abu_calc.sizing.balls import Candidate, shortfalls, sound
 from abu_calc.sizing.case import Case
 
 ROOM = (1.1, 1.25, 1.5)
@@ -47,7 +47,6 @@ class Requirement:
 
 
 ALL_HOLD = "All other requirements on the autobalancer hold."
-NOT_ALL = "Another requirement on the autobalancer then fails."
 
 
 def remedy(case: Case, present: Candidate, changes: Iterator[Change], required: Requirement) -> Action:
@@ -66,7 +65,7 @@ def remedy(case: Case, present: Candidate, changes: Iterator[Change], required: 
         complete = sound(after.case, after.candidate)
         if complete or (required.holds(after.case, after.candidate) and partly is None):
             action = set_action(shown, after.candidate, required.moved(case, present, after),
-                                more=ALL_HOLD if complete else NOT_ALL, present=present)  # fmt: skip
+                                more=ALL_HOLD if complete else _not_all(after), present=present)  # fmt: skip
             if complete:
                 return action
             partly = action
@@ -74,6 +73,10 @@ def remedy(case: Case, present: Candidate, changes: Iterator[Change], required: 
         return partly
     return Action(f"No change was found. Calculated without success: {'; '.join(tried)}." if tried
                   else "No change of the file was found.")  # fmt: skip
+
+
+def _not_all(after: Followed) -> str:
+    return f"Another requirement then fails: {' and '.join(shortfalls(after.case, after.candidate))}."
 
 
 def more_room(case: Case) -> Iterator[Change]:

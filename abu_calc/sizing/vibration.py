@@ -339,8 +339,8 @@ def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst:
             return set_action(entries, after.candidate, moved, more=_beyond_practice(entries))
     return Action(
         f"No change was found: a quarter of the race's eccentricity and rolling friction leaves "
-        f"{decibels(least, limit)} (limit {limit:g} dB, calculated). What remains is {_left(candidate)}a heavier "
-        "machine, or another limits.vibration_level_db."
+        f"{decibels(least, limit)} (limit {limit:g} dB, calculated). Try {_left(candidate)}a heavier machine, or "
+        "another limits.vibration_level_db."
     )
 
 

@@ -46,13 +46,13 @@ BANNED: Final = {
 }
 """Words and phrases that the glossary replaces, where they have no other meaning in these texts."""
 HEADLESS: Final = re.compile(r"(?:What|Of|Where|Who)\s")
-REPEATING: Final = ("Assumed:", "Cost:", "Range:", "Left out:", "Action: See the action of")
+REPEATING: Final = ("Assumed:", "Cost:", "Range:", "Left out:", "Action: See the action of", "Another requirement")
 """Beginnings of sentences that may repeat: computing times, ranges of formulas, effects left out of scenes."""
 ALL_PASS: Final = re.compile(r"All \d+ start cases, .*, then pass\.$")
 """Sentence that stands at each action that makes all start cases pass."""
 SENTENCE: Final = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 ONE_OF_MANY: Final = re.compile(
-    r"(?<![\d.,–-])\b1 (?!is |was |has |as |its |this |less |across |warns\b|fails\b|passes\b|×)"
+    r"(?<![\d.,–-])\b1 (?!is |was |has |as |its |this |less |across |does |warns\b|fails\b|passes\b|×)"
     r"([a-z]+s)\b(?!\.\w|[_=])"
 )
 TINY: Final = re.compile(r"\b\d\.\d+e-1\d\b")
@@ -82,7 +82,7 @@ def paragraphs(text: str) -> Iterator[str]:
     for line in (*text.splitlines(), ""):
         in_code = "\n".join(lines).count("`") % 2 == 1  # a command in back quotes goes on over a line's end
         prose = bool(line.strip()) and (in_code or not _is_table(line))
-        if lines and (not prose or MARKED.match(line) or _indent(line) != _indent(lines[-1])):
+        if lines and not in_code and (not prose or MARKED.match(line) or _indent(line) != _indent(lines[-1])):
             yield " ".join(part.strip() for part in lines)
             lines = []
         if prose:

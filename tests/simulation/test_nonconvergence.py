@@ -33,7 +33,7 @@ def reason(scene, accuracy, apart, changes=({}, {})):
 
 def test_chaos_is_called_so():
     told = reason(TUMBLING, 0.01, 0.4)
-    assert "differ by 0.4" in told and "the motion is chaotic, 1e-09 rad at its start grow" in told
+    assert "differ by 0.4" in told and "The motion is chaotic: 1e-09 rad at its start grow" in told
     assert len(told.splitlines()) == 2
 
 
