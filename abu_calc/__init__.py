@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from abu_calc.features.effects.study import EffectsResult, effects
     from abu_calc.features.factory.study import FactoryResult, factory
     from abu_calc.features.grinding.study import GrindingResult, grinding
+    from abu_calc.features.identification.study import IdentifyResult, identify
     from abu_calc.features.levels.study import LevelsResult, levels
     from abu_calc.features.seats.study import CheckFitResult, check_fit
     from abu_calc.features.simulate.study import SimulateResult, simulate
@@ -90,6 +91,10 @@ _ROOMS: Final = {
         "GrindingResult",
         "grinding",
     ),
+    "features.identification.study": (
+        "IdentifyResult",
+        "identify",
+    ),
     "features.levels.study": (
         "LevelsResult",
         "levels",
@@ -144,6 +149,7 @@ __all__ = [
     "EffectsResult",
     "FactoryResult",
     "GrindingResult",
+    "IdentifyResult",
     "InputError",
     "LevelsResult",
     "Machine",
@@ -172,6 +178,7 @@ __all__ = [
     "effects",
     "factory",
     "grinding",
+    "identify",
     "levels",
     "planar",
     "read",

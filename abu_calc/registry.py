@@ -193,6 +193,14 @@ FEATURES: Final[tuple[Feature, ...]] = (
         group="Measure",
     ),
     Feature(
+        "identify",
+        "identification.command",
+        ("identification.study:IdentifyResult",),
+        "identification.view:identify_extras",
+        figures=(Known("starts", "starts were recorded"),),
+        group="Measure",
+    ),
+    Feature(
         "declare",
         "declare.command",
         ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),

@@ -26,6 +26,7 @@ HUNDREDS: Final = {
     "ABU8": "trust",
     "ABU9": "files",
     "ABU10": "balancing",
+    "ABU11": "identification",
 }
 """The file of each hundred, by what stands before the last two digits of its codes."""
 

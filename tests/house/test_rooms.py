@@ -34,6 +34,7 @@ FEATURES = (
     "levels",
     "declare",
     "balancing",
+    "identification",
     "compare",
     "factory",
     "accuracy",

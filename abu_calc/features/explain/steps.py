@@ -135,6 +135,10 @@ STEPS: Final[Mapping[str, Step]] = {
             "standards.type_test:declared_uncertainty",
         ),
     ),
+    "identify": Step(
+        "Drag, friction and eccentricity from recorded starts (`abu identify`)",
+        ("features.identification.formulas:friction_number", "features.identification.formulas:equivalent_drag"),
+    ),
     "grinding": Step(
         "Machine at its workpiece",
         (

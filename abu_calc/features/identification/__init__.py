@@ -1,0 +1,1 @@
+"""`abu identify`: viscous drag rate, rolling friction and race eccentricity of a machine, from recorded starts."""

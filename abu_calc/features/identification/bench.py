@@ -1,0 +1,129 @@
+"""The bench test: one ball is let go in the standing race, axis horizontal, and its decay gives drag and friction.
+
+J θ̈ + h₀ θ̇ + f·max(g cos θ/R_p + θ̇², 0)·sgn θ̇ + (g/R_p) sin θ = 0, θ from the bottom; the ball sticks where θ̇ = 0
+and |sin θ| ≤ f cos θ, f = k_r/r.
+"""
+
+import math
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.features.identification.formulas import GRAVITY
+from abu_calc.features.identification.tracks import Array
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.validity import Range
+from abu_calc.inputs.recording_table import decoded, table_of
+
+STARTS_UM: Final = (0.5, 5.0, 20.0)
+"""Lever arms [µm] from which fits begin: there are local minima."""
+LOST_DRAG: Final = 20.0
+"""Drag rate [1/s] from which on the oil hides the friction."""
+ANGLE: Final = Range("angle of the ball from the bottom", -170, 170, "deg")
+STEPS: Final = 1500
+FEWEST: Final = 20
+
+
+@dataclass(frozen=True)
+class BenchValues:
+    """Drag rate at low slip [1/s] and lever arm [m] with standard errors, and the rms difference [rad]."""
+
+    drag: float
+    drag_error: float
+    lever: float
+    lever_error: float
+    difference: float
+
+
+def read_decay(file: str) -> tuple[Array, Array]:
+    """Times [s] and angles [rad] of a film; columns t_s and angle_deg."""
+    try:
+        content = Path(file).read_bytes()
+    except OSError as error:
+        raise InputError("the file cannot be read", place=Place(file), found=error.strerror or str(error)) from None
+    table = table_of(file, decoded(file, content), [])
+    names = [name.lower() for name in table.names]
+    if "t_s" not in names or "angle_deg" not in names:
+        raise InputError(
+            "columns are missing",
+            place=Place(file),
+            found=", ".join(table.names),
+            allowed="t_s, angle_deg",
+            remedy="Give the time, and the angle of the ball from the bottom.",
+        )
+    times, angles = table.values[:, names.index("t_s")], table.values[:, names.index("angle_deg")]
+    if len(times) < FEWEST or not np.all(np.diff(times) > 0):
+        raise InputError(
+            "too few rows, or times that do not ascend",
+            place=Place(file),
+            found=f"{len(times)} rows",
+            allowed=f"at least {FEWEST}, ascending",
+        )
+    for angle in (float(angles.min()), float(angles.max())):
+        ANGLE.check(angle)
+    return times - times[0], np.asarray(to_si(1.0, "deg") * angles)
+
+
+def decay(times: Array, begin: float, drag: float, friction: float, pitch_radius: float, inertia: float) -> Array:
+    """Angles [rad] of a ball let go at rest at an angle, by fourth-order steps that end where the ball stops."""
+    weight, step = GRAVITY / pitch_radius, float(times[-1]) / STEPS
+
+    def pull(angle: float, speed: float, way: float) -> float:
+        held = max(weight * math.cos(angle) + speed * speed, 0.0)
+        return -(drag * speed + friction * held * way + weight * math.sin(angle)) / inertia
+
+    grid, angle, speed = np.empty(STEPS + 1), begin, 0.0
+    grid[0] = begin
+    for k in range(STEPS):
+        if speed == 0.0 and abs(math.sin(angle)) <= friction * max(math.cos(angle), 0.0):
+            grid[k + 1 :] = angle
+            break
+        way = math.copysign(1.0, speed) if speed else -math.copysign(1.0, math.sin(angle))
+        a1, v1 = speed, pull(angle, speed, way)
+        a2, v2 = speed + step / 2 * v1, pull(angle + step / 2 * a1, speed + step / 2 * v1, way)
+        a3, v3 = speed + step / 2 * v2, pull(angle + step / 2 * a2, speed + step / 2 * v2, way)
+        a4, v4 = speed + step * v3, pull(angle + step * a3, speed + step * v3, way)
+        after = speed + step / 6 * (v1 + 2 * v2 + 2 * v3 + v4)
+        part = 1.0 if after * way > 0 or speed == 0.0 else speed / (speed - after)
+        angle += part * step / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        speed = after if part == 1.0 else 0.0
+        grid[k + 1] = angle
+    return np.asarray(np.interp(times, np.arange(STEPS + 1) * step, grid))
+
+
+def bench_values(file: str, scene: Scene) -> BenchValues:
+    """Drag rate and lever arm by least squares from several beginnings."""
+    from scipy.optimize import least_squares
+
+    times, angles = read_decay(file)
+    race = scene.races[0]
+
+    def off(x: Array) -> Array:
+        friction = math.exp(x[1]) * 1e-6 / race.ball_radius
+        return np.asarray(
+            decay(times, float(x[2]), math.exp(x[0]), friction, race.pitch_radius, race.inertia_factor) - angles
+        )
+
+    fits = [
+        least_squares(off, [math.log(5.0), math.log(start), angles[0]], diff_step=[1e-4] * 3) for start in STARTS_UM
+    ]
+    best = min(fits, key=lambda fit: float(fit.cost))
+    rms = math.sqrt(2 * float(best.cost) / len(times))
+    slopes = np.asarray(best.jac)
+    spread = np.sqrt(np.diag(np.linalg.pinv(slopes.T @ slopes))) * rms
+    drag, lever = math.exp(best.x[0]), math.exp(best.x[1]) * 1e-6
+    return BenchValues(drag, drag * float(spread[0]), lever, lever * float(spread[1]), rms)
+
+
+def bench_text(values: BenchValues) -> str:
+    """The result in a sentence, and what it is not."""
+    lost = " The oil hides the friction from 20 1/s on." if values.drag >= LOST_DRAG else ""
+    return (
+        f"Bench test: lever arm {from_si(values.lever, 'um'):.2f} ± {from_si(2 * values.lever_error, 'um'):.2f} µm, "
+        f"drag rate {values.drag:.3g} ± {2 * values.drag_error:.2g} 1/s at low slip. At speed the oil lies outward, "
+        f"and the drag rate is another.{lost}"
+    )

@@ -1,0 +1,67 @@
+"""`abu identify MACHINE|SCENE RECORDING…`: drag, friction and eccentricity from recorded starts."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import File, Overrides, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.write import Target, check_target
+
+
+def identify(
+    how: Delivery,
+    file: File,
+    recordings: Annotated[list[str], typer.Argument(metavar="RECORDING…", help="CSV files, one start each.")],
+    set_: Overrides = None,
+    without: Annotated[
+        str | None, typer.Option("--without", metavar="FILE", help="Recording of a run with the balls taken out.")
+    ] = None,
+    bench: Annotated[
+        str | None,
+        typer.Option("--bench", metavar="FILE", help="CSV of a ball let go in the standing race: t_s, angle_deg."),
+    ] = None,
+    mark_angle: Annotated[
+        float,
+        typer.Option("--mark-angle", metavar="DEG", help="Angle of the mark from the imbalance, with the rotation."),
+    ] = 0.0,
+    run_up: Annotated[
+        float | None, typer.Option("--run-up", metavar="S", help="Run-up time instead of the file's.")
+    ] = None,
+    write: Annotated[
+        str | None,
+        typer.Option("--write", metavar="FILE", help="Machine file to write: this one with the identified values."),
+    ] = None,
+) -> Outcome:
+    """Identify viscous drag rate, rolling friction and race eccentricity.
+
+    Each recording begins when the machine is switched on and lasts until the balls rest: columns t_s, vx_mm_per_s (or
+    ax_m_per_s2) and mark, one pulse per revolution.
+    """
+    from abu_calc.features.identification.study import identify as study
+    from abu_calc.features.identification.view import identify_blocks, identify_screen
+    from abu_calc.inputs.scene import read_any
+
+    target = None if write is None else Path(write)
+    if target is not None:
+        check_target(target, force=how.force, suffixes=(".toml",), option="--write")
+    with progress(how) as tell:
+        result = study(
+            read_any(file, set_ or ()), recordings, without=without, bench=bench, mark_angle_deg=mark_angle,
+            run_up_s=run_up, progress=tell,
+        )  # fmt: skip
+    outcome = Outcome.of(result, lambda: identify_blocks(result), lambda: identify_screen(result))
+    if target is None:
+        return outcome
+    from abu_calc.features.identification.written import identified_text
+
+    return replace(outcome, further=(Target(target, identified_text(file, result)),))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "identify", identify)

@@ -1,0 +1,202 @@
+"""The unknowns that make recorded starts likely: features of tracks, their distribution by regression, intervals.
+
+Features of a start are regressed over a bank: their means by polynomials of degree four, the logarithms of their
+variances by degree two. A multivariate Student likelihood (ν = 6) of all starts is maximised; the profile of the
+likelihood gives intervals, whose drop is calibrated by starts simulated at the estimate (parametric bootstrap).
+"""
+
+import math
+from collections.abc import Sequence
+from itertools import combinations_with_replacement
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.features.identification.bank import WIDE, Bank, Box, Points
+from abu_calc.features.identification.tracks import Array, Track
+from abu_calc.foundation.frozen import dataclass
+
+LEVELS: Final = (0.5, 0.25, 0.12)
+"""Shares of the amplitude without balls below which times are taken."""
+FLOOR, NOISES = 0.04, 4.0
+"""Distances from the end that count as none: this share of the amplitude without balls, or so many times the noise."""
+FREEDOM: Final = 6.0
+"""ν of the Student likelihood."""
+PRIOR_UM: Final = 12.0
+"""Standard deviation of a component of Δ before anything is measured."""
+END: Final = 0.09
+"""Share of the windows whose mean is the end: the last 15 % of the time."""
+AMPLITUDE: Final = "amplitude at the start"
+DECAY: Final = 4
+"""Index of the feature that follows the decay best: the integral of the distance from the end."""
+
+Features = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """How tracks are read: the windows' centres [s], the end of the run-up [s], amplitude A₀ and noise [m], mark.
+
+    `phase_error` [rad]: the largest of the phase that a start has.
+    """
+
+    centres: Array
+    begin: float
+    amplitude: float
+    noise: float
+    marked: bool
+    phase_error: float = 0.0
+
+    def features(self, track: Track) -> Features:
+        """Logarithms of times and integrals of the decay, the end [µm], the amplitude at the start over A₀."""
+        end = end_of(track)
+        away = np.abs(track - end) if self.marked else np.abs(np.abs(track) - abs(end))
+        floor = max(FLOOR * self.amplitude, NOISES * self.noise)
+        felt = np.where(away < floor, 0.0, away)
+        times = [self._last_above(away, max(level * self.amplitude, floor)) for level in (*LEVELS, 0.0)]
+        shares = felt / self.amplitude
+        least = (self.centres[1] - self.centres[0]) / 4
+        integrals = [float(np.trapezoid(shares**power, self.centres)) + least for power in (1, 2)]
+        ends = (end.real * 1e6, end.imag * 1e6) if self.marked else (abs(end) * 1e6,)
+        logs = [math.log(value) for value in (*times, *integrals)]
+        return np.array([*logs, *ends, abs(track[0]) / self.amplitude])
+
+    def _last_above(self, away: Array, level: float) -> float:
+        """Last time [s] after the run-up at which the distance is above a level, interpolated."""
+        least, above = float(self.centres[1] - self.centres[0]), np.flatnonzero(away > level)
+        if not len(above):
+            return least
+        last = int(above[-1])
+        time = float(self.centres[last])
+        if last + 1 < len(away):
+            share = float((away[last] - level) / max(away[last] - away[last + 1], 1e-12))
+            time += share * float(self.centres[last + 1] - time)
+        return max(time - self.begin, least)
+
+    def noisy(self, tracks: NDArray[np.complex128], seed: int) -> NDArray[np.complex128]:
+        """Tracks with the noise that was measured, and an error of the phase each."""
+        rng = np.random.default_rng(seed)
+        noise = rng.normal(size=tracks.shape) + 1j * rng.normal(size=tracks.shape)
+        turned = np.exp(1j * rng.uniform(-self.phase_error, self.phase_error, (len(tracks), 1)))
+        return np.asarray(tracks * turned + self.noise * noise)
+
+
+def end_of(track: Track) -> complex:
+    """Mean of the last part of a track."""
+    return complex(np.mean(track[int((1 - END) * len(track)) :]))
+
+
+def _terms(points: Points, degree: int) -> Points:
+    """Products of the components up to a degree, for points [point, component]."""
+    count = points.shape[1]
+    chosen = [each for k in range(degree + 1) for each in combinations_with_replacement(range(count), k)]
+    return np.stack([np.prod(points[:, list(each)], axis=1) for each in chosen], axis=1)
+
+
+class Regression:
+    """Distribution of the features over a box."""
+
+    def __init__(self, bank: Bank, reading: Reading, seed: int = 3) -> None:
+        self.box, self.marked = bank.box, reading.marked
+        features = np.array([reading.features(track) for track in reading.noisy(bank.tracks, seed)])
+        scaled = bank.box.scaled(bank.points)
+        terms, few = _terms(scaled, 4), _terms(scaled, 2)
+        self.means = np.linalg.lstsq(terms, features, rcond=None)[0]
+        rest = features - terms @ self.means
+        self.variances = np.linalg.lstsq(few, np.log(rest**2 + 1e-10), rcond=None)[0]
+        standard = rest / np.exp(few @ self.variances / 2)
+        self.scale = standard.std(axis=0)
+        kept = np.clip(standard / self.scale, -4, 4)
+        count = features.shape[1]
+        self.inverse = np.linalg.inv(0.95 * np.corrcoef(kept.T) + 0.05 * np.eye(count))
+
+    def distribution(self, points: Points) -> tuple[Features, Features]:
+        """Means and standard deviations of the features at points."""
+        scaled = self.box.scaled(np.atleast_2d(points))
+        deviations = np.exp(_terms(scaled, 2) @ self.variances / 2) * self.scale
+        return _terms(scaled, 4) @ self.means, deviations
+
+    def likelihood(self, points: Points, features: Features) -> Array:
+        """Logarithm of the likelihood of all starts at points, with the prior of Δ."""
+        points = np.atleast_2d(points)
+        means, deviations = self.distribution(points)
+        total = -0.5 * np.sum(points[:, 2:] ** 2, axis=1) / PRIOR_UM**2
+        for start in features:
+            standard = (start - means) / deviations
+            distance = np.einsum("ni,ij,nj->n", standard, self.inverse, standard)
+            total += -0.5 * (FREEDOM + len(start)) * np.log1p(distance / FREEDOM) - np.log(deviations).sum(axis=1)
+        return np.asarray(total)
+
+    def best(
+        self,
+        features: Features,
+        held: tuple[int, float] | None = None,
+        begin: Points | None = None,
+        part: Box | None = None,
+    ) -> "Best":
+        """The likeliest point of the box, or of a `part` of it.
+
+        `held`: a component that keeps a value; `begin`: where to look alone.
+        """
+        from scipy.optimize import minimize
+
+        box = part or self.box
+        bounds = list(zip(box.low, box.high, strict=True))
+        if held:
+            bounds[held[0]] = (held[1], held[1])
+        limits = [(float(low), float(high)) for low, high in bounds]
+        if begin is None:
+            tried = box.low + (box.high - box.low) * np.random.default_rng(1).random((12_000, 4))
+            begins = tried[np.argsort(self.likelihood(tried, features))[-4:]]
+        else:
+            begins = begin[None]
+        found = []
+        for point in begins:
+            point = np.clip(np.asarray(point, dtype=float), *np.array(limits).T)
+            result = minimize(
+                lambda x: -float(self.likelihood(np.asarray(x), features)[0]),
+                point,
+                method="L-BFGS-B",
+                bounds=limits,  # type: ignore[call-overload]
+            )
+            found.append(Best(np.asarray(result.x), -float(result.fun)))
+        return max(found, key=lambda each: each.value)
+
+    def interval(self, features: Features, best: "Best", part: int, drop: float) -> tuple[float, float]:
+        """Where the profile of the likelihood has fallen by `drop` on both sides; a bound of `WIDE` if it has not."""
+        ends = []
+        for bound, sign in ((self.box.low[part], -1), (self.box.high[part], 1)):
+            step = sign * (self.box.high[part] - self.box.low[part]) / 50
+            point, before, value = best.point, best.value, float(best.point[part])
+            while True:
+                after = value + step
+                if (after - bound) * sign > 0:
+                    ends.append(float((WIDE.low if sign < 0 else WIDE.high)[part]))
+                    break
+                held = self.best(features, (part, after), point)
+                if held.value < best.value - drop:
+                    ends.append(value + step * (before - best.value + drop) / (before - held.value))
+                    break
+                point, before, value = held.point, held.value, after
+        return ends[0], ends[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Best:
+    """A likeliest point and the logarithm of its likelihood."""
+
+    point: Points
+    value: float
+
+
+def narrowed(best: Best, *, marked: bool) -> Box:
+    """A box round an estimate."""
+    half = np.array([0.55, 1.0, 8.0, 8.0]) if marked else np.array([0.55, 1.0, 15.0, 15.0])
+    return Box(best.point - half, best.point + half)
+
+
+def inside(best: Best, box: Box, parts: Sequence[int]) -> bool:
+    """True if an estimate lies well inside a box."""
+    place = box.place(best.point)[list(parts)]
+    return bool(np.all(place > 0.1) and np.all(place < 0.9))

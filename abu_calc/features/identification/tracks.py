@@ -1,0 +1,182 @@
+"""Tracks of recorded starts: the place of the axis in the rotor's frame over time, from a sensor and a mark.
+
+Far from standstill the axis runs round once per revolution, so that one sensor tells its place: of a velocity
+v = Re(iΩ w e^{iΩt}) least squares over three revolutions give w, the place in the frame of the rotor [m].
+"""
+
+import math
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.features.balancing.recording.tachometer import passages
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
+from abu_calc.inputs.recording import Recording
+from abu_calc.inputs.recording_files import read_recording
+from abu_calc.inputs.recording_table import decoded, table_of
+
+Array = NDArray[np.float64]
+Track = NDArray[np.complex128]
+
+REVOLUTIONS: Final = 2
+"""Revolutions of a window."""
+WINDOWS: Final = 60
+"""Windows of a start, from the end of the run-up to the end of the record, the closer the earlier."""
+CLOSER: Final = 1.7
+"""Power by which windows get closer to the end of the run-up: fast decays need a tenth of a second, slow ones all."""
+ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
+"""Derivatives of the place, by quantity."""
+FULL: Final = 0.97
+"""Share of the last speed above which the rotor counts as run up."""
+OFF_SPEED: Final = 0.03
+"""Difference of speeds, as a share, beyond which a recording is of another speed than the file's."""
+LEAST_PER_REVOLUTION: Final = 6
+"""Samples in a revolution, at least."""
+FEWEST_PULSES: Final = 20
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedStart:
+    """One start: its track [m] at the windows, the speed [rad/s], run-up time [s] by the mark (None: unknown)."""
+
+    file: str
+    track: Track
+    speed: float
+    run_up: float | None
+    phase_error: float
+    """Largest error of the phase [rad] that all windows share: the mark is known to a sample."""
+
+    @property
+    def noise(self) -> float:
+        """Noise of a component [m]: neighbouring windows of the last 39 % of the time differ by it."""
+        tail = self.track[int(0.75 * len(self.track)) :]
+        return math.sqrt(float(np.mean(np.abs(np.diff(tail)) ** 2)) / 4)
+
+
+def window_centres(scene: Scene) -> Array:
+    """Centres [s] of the windows, from the switching-on; the first begins when the rotor is at full speed."""
+    half = REVOLUTIONS * math.pi / scene.speed
+    first, last = scene.full_speed + half, scene.duration - 1.05 * half
+    if last < first + 20 * half:
+        raise InputError(
+            "the starts are too short",
+            place=Place(key="scene.duration_s"),
+            found=f"{scene.duration:.3g} s",
+            allowed=f"at least {scene.full_speed + 22 * half:.3g} s",
+            remedy="Record until the balls have come to rest.",
+        )
+    return first + (last - first) * np.linspace(0, 1, WINDOWS) ** CLOSER
+
+
+def recorded_start(file: str, scene: Scene, *, marked: bool, centres: Array) -> RecordedStart:
+    """The start of a recording that begins when the machine is switched on. Raises InputError for what it cannot be."""
+    recording = read_recording(file)
+    axes = [k for k, name in enumerate(recording.names) if "x" in name.lower().split("_")[0]] or [0]
+    motion, times = recording.samples[axes[0]], np.arange(len(recording.samples[axes[0]])) / recording.rate
+    place = Place(file, key=recording.names[axes[0]])
+    if recording.rate * 2 * math.pi / scene.speed < LEAST_PER_REVOLUTION:
+        raise InputError(
+            "sampled too slowly",
+            place=place,
+            found=f"{recording.rate:g} samples/s",
+            allowed=f"at least {LEAST_PER_REVOLUTION * scene.speed / 2 / math.pi:.0f} samples/s",
+            remedy="Record with a higher rate.",
+        )
+    if recording.duration < centres[-1] + REVOLUTIONS * math.pi / scene.speed:
+        raise InputError(
+            "the recording is too short",
+            place=place,
+            found=f"{recording.duration:.3g} s",
+            allowed=f"at least {centres[-1] + REVOLUTIONS * math.pi / scene.speed:.3g} s",
+            remedy="Record from the switching-on until the balls have come to rest.",
+        )
+    phase, speed, run_up, late = (
+        _by_mark(file, times) if marked else (*_by_motion(recording, motion, times, scene), None, 0.0)
+    )
+    if abs(speed / scene.speed - 1) > OFF_SPEED:
+        raise InputError(
+            "another speed than the file's",
+            place=place,
+            found=f"{from_si(speed, 'rpm'):.0f} rpm",
+            allowed=f"{from_si(scene.speed, 'rpm'):.0f} rpm within {OFF_SPEED:.0%}",
+            remedy="Correct the speed of the file, or record at its speed.",
+        )
+    order = ORDERS[recording.quantity]
+    track = np.array([_harmonic(times, motion, phase, speed, centre) for centre in centres]) / (1j * speed) ** order
+    return RecordedStart(file, track, speed, run_up, late)
+
+
+def has_mark(file: str) -> bool:
+    """True if a CSV recording has a column `mark`."""
+    return _mark_column(file) is not None
+
+
+def _mark_column(file: str) -> Array | None:
+    path = Path(file)
+    if path.suffix.lower() == ".wav":
+        return None
+    table = table_of(file, decoded(file, path.read_bytes()), [])
+    names = [name.lower().partition("_")[0] for name in table.names]
+    index = next((k for k, name in enumerate(names) if name in ("mark", "tacho", "key")), None)
+    return None if index is None else np.asarray(table.values[:, index])
+
+
+def _by_mark(file: str, times: Array) -> tuple[Array, float, float | None, float]:
+    """Angle of the rotor [rad] at full speed, the speed [rad/s], the run-up time [s], the largest error [rad]."""
+    mark = _mark_column(file)
+    if mark is None:
+        raise InputError("no column of the mark", place=Place(file, key="mark"), remedy="Name it mark.")
+    late = times >= times[-1] * 0.4
+    try:
+        seen = passages(times[late], mark[late])
+        pulses = seen.times
+    except InputError as error:
+        raise InputError(str(error).splitlines()[0], place=Place(file, key="mark"), remedy=error.remedy) from None
+    if len(pulses) < FEWEST_PULSES:
+        raise InputError(
+            "the mark has too few pulses",
+            place=Place(file, key="mark"),
+            found=f"{len(pulses)}",
+            allowed=f"at least {FEWEST_PULSES} in the last 60 % of the record",
+            remedy="One pulse a revolution.",
+        )
+    counts = np.round((pulses - pulses[0]) / np.median(np.diff(pulses)))
+    period, first = np.polyfit(counts, pulses, 1)
+    speed = 2 * math.pi / period
+    return speed * (times - first), speed, _run_up(times, mark, float(period)), seen.unsure * speed
+
+
+def _run_up(times: Array, mark: Array, period: float) -> float | None:
+    """Time [s] of an even run-up, from the intervals of the mark before full speed; None with fewer than three."""
+    high = mark > (mark.max() + mark.min()) / 2
+    rises = times[1:][high[1:] & ~high[:-1]]
+    steps, middles = np.diff(rises), (rises[1:] + rises[:-1]) / 2
+    slow = (steps > period / FULL) & (steps < 8 * period)
+    if np.count_nonzero(slow) < 3:
+        return None
+    speeds = period / steps[slow]
+    return float(np.sum(middles[slow] ** 2) / np.sum(middles[slow] * speeds))
+
+
+def _by_motion(recording: Recording, motion: Array, times: Array, scene: Scene) -> tuple[Array, float]:
+    """Angle without a mark, from an arbitrary zero, and the speed whose tone is the largest near the scene's."""
+    late = times >= times[-1] * 0.3
+    t, values = times[late], motion[late] - motion[late].mean()
+    trial = scene.speed * np.linspace(1 - OFF_SPEED, 1 + OFF_SPEED, 1201)
+    power = np.abs(np.exp(-1j * np.outer(trial, t)) @ (values * np.hanning(len(values))))
+    speed = float(trial[int(np.argmax(power))])
+    return speed * times, speed
+
+
+def _harmonic(times: Array, motion: Array, phase: Array, speed: float, centre: float) -> complex:
+    """Complex amplitude of the motion once per revolution in one window, a constant left out."""
+    half = REVOLUTIONS * math.pi / speed
+    inside = (times >= centre - half) & (times < centre + half)
+    terms = np.stack([np.cos(phase[inside]), np.sin(phase[inside]), np.ones(int(inside.sum()))], axis=1)
+    cosine, sine, _ = np.linalg.lstsq(terms, motion[inside], rcond=None)[0]
+    return complex(cosine, -sine)

@@ -1,0 +1,104 @@
+"""The report of `abu identify`: values with intervals, checks, assumptions, every start beside a simulated one."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from abu_calc.features.explain.steps import STEPS, step_blocks
+from abu_calc.features.identification.study import IdentifiedValue, IdentifyResult
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.charts.chart import Axis, Curve, Plot
+from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.parts import check_blocks, facts, notices, provenance_blocks
+from abu_calc.reporting.screen import one_screen, verdict_line
+
+NAMES: Final = {
+    "rolling_drag_per_s": ("viscous drag rate", "1/s"),
+    "rolling_friction_mm": ("lever arm of rolling friction", "mm"),
+    "race_eccentricity_mm": ("race eccentricity", "mm"),
+    "race_eccentricity_angle_deg": ("its angle from the mark", "°"),
+}
+
+
+def identify_blocks(result: IdentifyResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (
+        *_answer(result),
+        *_block(result),
+        Heading("Starts", "starts"),
+        _starts(result),
+        *check_blocks(result.checks),
+        Heading("Assumptions", "assumptions"),
+        *(Paragraph(text) for text in result.assumed),
+        *notices(result),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def identify_screen(result: IdentifyResult) -> tuple[Block, ...]:
+    """The values, the block to paste, and what they rest on."""
+    answer = _answer(result)
+    return one_screen(result, answer[:2], [*answer[2:], *_block(result), *(Paragraph(text) for text in result.assumed)])
+
+
+def _answer(result: IdentifyResult) -> list[Block]:
+    known = facts(
+        result, "starts", "noise_um", "residual_um", *(("friction_number",) if result.friction_number else ())
+    )
+    return [
+        Heading(f"{result.title}: drag, friction and eccentricity from recorded starts"),
+        verdict_line(result),
+        _values(result),
+        known,
+    ]
+
+
+def _values(result: IdentifyResult) -> Grid:
+    rows = tuple(
+        (label, *_cells(getattr(result, name), 0 if unit == "°" else 4), unit) for name, (label, unit) in NAMES.items()
+    )
+    return Grid(("value", "identified", "95 % from", "to", "unit"), rows, frozenset({1, 2, 3}))
+
+
+def _cells(value: IdentifiedValue | None, digits: int) -> tuple[str, str, str]:
+    if value is None:
+        return "not evaluated", "–", "–"
+    numbers = value.value, value.low, value.high
+    if not digits:
+        return tuple(f"{each:.0f}" for each in numbers)  # type: ignore[return-value]
+    return number(value.value, 4), number(value.low, 3), number(value.high, 3)
+
+
+def _block(result: IdentifyResult) -> list[Block]:
+    if result.toml is None:
+        return []
+    return [Heading("Lines for the machine file", "lines"), *(Paragraph(line) for line in result.toml.splitlines())]
+
+
+def _starts(result: IdentifyResult) -> Grid:
+    rows = tuple(
+        (course.file, f"{course.end_um[0]:.2f}", f"{course.end_um[1]:.2f}", f"{course.distance_um[0]:.1f}")
+        for course in result.courses
+    )
+    header = ("recording", "end x, µm", "end y, µm", "distance at full speed, µm")
+    return Grid(header, rows, frozenset({1, 2, 3}))
+
+
+def identify_extras(result: IdentifyResult) -> Extras:
+    """The figure of all starts, and the calculation note."""
+    return Extras(tuple(_courses(result)), tuple(step_blocks(STEPS["identify"])))
+
+
+def _courses(result: IdentifyResult) -> Iterator[Figure]:
+    times = result.times_s
+    curves = [Curve(tuple(zip(times, course.distance_um, strict=True))) for course in result.courses]
+    predicted = result.courses[0].predicted_um
+    if predicted is not None:
+        curves.append(Curve(tuple(zip(times, predicted, strict=True)), "simulated, median", 2))
+    across = Axis("time from the switching-on [s]", 0.0, times[-1])
+    up = Axis.around("distance from the end [µm]", [0.0, *(y for curve in curves for _, y in curve.points)])
+    summary = f"Distance of the axis from its end in {result.starts} recorded starts"
+    caption = (
+        "Distance of the axis from where it comes to rest, in the frame of the rotor: recorded starts (solid) and the "
+        "median of starts simulated with the identified values (dashed). Starts differ by where the balls lie."
+    )
+    yield Figure("starts", "starts", Plot("Recorded and simulated starts", summary, across, up, curves), caption)

@@ -1,0 +1,45 @@
+"""Regression and likelihood on a bank whose distribution is known in closed form."""
+
+import numpy as np
+import pytest
+
+from abu_calc.features.identification.bank import Bank, Box
+from abu_calc.features.identification.estimate import Reading, Regression, end_of, inside, narrowed
+
+CENTRES = 0.5 + 1.5 * np.linspace(0, 1, 60) ** 1.7
+BOX = Box(np.array([1.0, -1.0, -10.0, -10.0]), np.array([4.0, 3.0, 10.0, 10.0]))
+READING = Reading(CENTRES, 0.5, 40e-6, 0.2e-6, marked=True)
+
+
+def track(point: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """A decay with the rate e^point₀ to −Δ, and a random amplitude that grows with the second component."""
+    offset = complex(point[2], point[3]) * 1e-6
+    begin = 40e-6 * np.exp(1j * rng.uniform(0, 2 * np.pi)) * (1 + 0.05 * np.exp(point[1] / 3) * rng.normal())
+    return np.asarray(-offset + begin * np.exp(-np.exp(point[0]) * (CENTRES - 0.5) / 2))
+
+
+def test_a_known_point_is_found_within_its_interval() -> None:
+    rng = np.random.default_rng(4)
+    points = BOX.low + (BOX.high - BOX.low) * rng.random((800, 4))
+    regression = Regression(Bank(BOX, points, np.array([track(point, rng) for point in points])), READING)
+    truth = np.array([2.5, 0.5, 4.0, -3.0])
+    tracks = READING.noisy(np.array([track(truth, rng) for _ in range(12)]), 1)
+    features = np.array([READING.features(each) for each in tracks])
+    best = regression.best(features)
+    assert best.point[0] == pytest.approx(2.5, abs=0.1)
+    assert best.point[2:] == pytest.approx([4.0, -3.0], abs=0.3)
+    low, high = regression.interval(features, best, 0, 1.92)
+    assert low < best.point[0] < high and high - low < 0.4
+    assert regression.likelihood(best.point, features)[0] >= regression.likelihood(truth, features)[0]
+    assert inside(best, narrowed(best, marked=True), (0, 1, 2, 3)) and not inside(
+        best, Box(best.point, best.point + 1), (0,)
+    )
+
+
+def test_features_of_an_exponential_are_those_of_the_equation() -> None:
+    quiet = Reading(CENTRES, 0.5, 40e-6, 1e-9, marked=True)
+    decay = 40e-6 * np.exp(-8.0 * (CENTRES - 0.5))
+    features = quiet.features(decay.astype(complex))
+    # |w| falls below 50, 25, 12 % of A₀ at ln 2/8, ln 4/8, ln(1/0.12)/8; interpolated between windows.
+    assert features[:3] == pytest.approx(np.log(np.log([2, 4, 1 / 0.12]) / 8), abs=0.02)
+    assert abs(end_of(decay.astype(complex))) < 1e-9 and features[-1] == pytest.approx(1)

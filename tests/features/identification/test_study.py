@@ -1,0 +1,104 @@
+"""`abu identify` on synthetic machines whose truth is known, and what it must refuse or notice."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import abu_calc
+from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.scene import read_any
+from tests.features.identification.recorded import record, scene_file
+
+DRAG, LEVER, OFFSET = 14.0, 1.5e-6, 12e-6 * np.exp(1j * math.radians(70))
+
+
+def starts(folder: Path, count: int, **options: object) -> tuple[Path, list[str]]:
+    path = scene_file(folder)
+    files = [
+        record(path, folder / f"start{k:02d}.csv", DRAG, LEVER, complex(OFFSET), k, **options)  # type: ignore[arg-type]
+        for k in range(count)
+    ]
+    return path, files
+
+
+def test_fewer_than_eight_starts_give_no_value(tmp_path: Path) -> None:
+    path, files = starts(tmp_path, 5)
+    result = abu_calc.identify(read_any(str(path)), files)
+    assert result.status == "not-done" and result.rolling_drag_per_s is None and result.race_eccentricity_mm is None
+    assert [check.code for check in result.checks] == ["ABU1101"] and result.starts == 5 and result.mark
+    assert result.measured_run_up_s == pytest.approx(0.5, rel=0.02)
+    # The balls rest where the eccentricity puts them: the axis opposite to it.
+    ends = np.mean([complex(*course.end_um) for course in result.courses])
+    assert ends == pytest.approx(-OFFSET * 1e6, abs=0.4)
+
+
+def test_recordings_that_cannot_be_starts_are_refused(tmp_path: Path) -> None:
+    path, files = starts(tmp_path, 1)
+    source = read_any(str(path))
+    lines = Path(files[0]).read_text(encoding="utf-8").splitlines()
+    for name, text, words in (
+        ("short", lines[:1500], "too short"),
+        ("slow", [lines[0], *lines[1::8]], "too slowly"),
+        ("no mark", [line.rpartition(",")[0] for line in lines], "some have none"),
+        ("flat mark", [lines[0], *(line.rpartition(",")[0] + ",0" for line in lines[1:])], "mark"),
+    ):
+        file = tmp_path / f"{name}.csv"
+        file.write_text("\n".join(text) + "\n", encoding="utf-8")
+        with pytest.raises(InputError, match=words):
+            abu_calc.identify(source, [files[0], str(file)])
+    with pytest.raises(InputError, match="no recordings"):
+        abu_calc.identify(source, [])
+    with pytest.raises(InputError, match="run-up time"):
+        abu_calc.identify(source, files, run_up_s=-1.0)
+    with pytest.raises(InputError):
+        abu_calc.identify(source, [str(tmp_path / "none.csv")])
+
+
+def test_a_scene_without_run_up_or_balls_is_refused(tmp_path: Path) -> None:
+    path, files = starts(tmp_path, 1)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("run_up = { time_s = 0.5 }\n", ""), encoding="utf-8")
+    with pytest.raises(InputError, match="run-up is not known"):
+        abu_calc.identify(read_any(str(path)), files)
+    path.write_text(text.replace("imbalance_g_mm = 256.0", "imbalance_g_mm = 0.0"), encoding="utf-8")
+    with pytest.raises(InputError, match="no imbalance"):
+        abu_calc.identify(read_any(str(path)), files)
+
+
+@pytest.mark.slow
+def test_values_of_a_machine_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tolerances: those asked of a horizontal spindle with a mark; the truth is simulated at a tighter tolerance."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path, files = starts(tmp_path, 8)
+    result = abu_calc.identify(read_any(str(path)), files)
+    assert result.rolling_drag_per_s.value == pytest.approx(DRAG, rel=0.15)
+    assert result.rolling_friction_mm.value == pytest.approx(LEVER * 1e3, rel=0.4)
+    assert result.race_eccentricity_mm.value == pytest.approx(0.012, abs=0.001)
+    assert result.race_eccentricity_angle_deg.value == pytest.approx(70, abs=10)
+    assert result.rolling_drag_per_s.low < result.rolling_drag_per_s.value < result.rolling_drag_per_s.high
+    assert result.status == "pass" and "rolling_drag_per_s" in result.toml
+    again = abu_calc.identify(read_any(str(path)), files)  # from the banks that were kept
+    assert again.rolling_drag_per_s == result.rolling_drag_per_s
+    # A background that turns with the rotor looks like eccentricity until a run without balls is given.
+    background = 5e-6 * np.exp(1j * math.radians(-30))
+    moved = tmp_path / "moved"
+    moved.mkdir()
+    path, files = starts(moved, 8, background=complex(background))
+    alone = record(path, moved / "alone.csv", DRAG, LEVER, 0.0, 99, balls=False, background=complex(background))
+    result = abu_calc.identify(read_any(str(path)), files, without=alone)
+    assert result.race_eccentricity_mm.value == pytest.approx(0.012, abs=0.001)
+    told = abu_calc.identify(read_any(str(path)), files)
+    assert told.race_eccentricity_mm.value == pytest.approx(abs(OFFSET - background) * 1e3, abs=0.001)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("wrong", [{"imbalance": 1.25}, {"run_up": 2.0}], ids=str)
+def test_wrong_assumptions_are_noticed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, wrong: dict[str, float]
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path, files = starts(tmp_path, 8, **wrong)
+    result = abu_calc.identify(read_any(str(path)), files)
+    assert {check.status for check in result.checks} & {"warn", "not-done"}
