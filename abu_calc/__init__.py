@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from abu_calc.features.effects.study import EffectsResult, effects
     from abu_calc.features.factory.study import FactoryResult, factory
     from abu_calc.features.grinding.study import GrindingResult, grinding
+    from abu_calc.features.identification.plan import MeasurePlanResult, measure_plan
     from abu_calc.features.identification.study import IdentifyResult, identify
     from abu_calc.features.levels.study import LevelsResult, levels
     from abu_calc.features.seats.study import CheckFitResult, check_fit
@@ -91,6 +92,10 @@ _ROOMS: Final = {
         "GrindingResult",
         "grinding",
     ),
+    "features.identification.plan": (
+        "MeasurePlanResult",
+        "measure_plan",
+    ),
     "features.identification.study": (
         "IdentifyResult",
         "identify",
@@ -153,6 +158,7 @@ __all__ = [
     "InputError",
     "LevelsResult",
     "Machine",
+    "MeasurePlanResult",
     "MeasuredDeclareResult",
     "NotTrustworthyError",
     "OutputError",
@@ -180,6 +186,7 @@ __all__ = [
     "grinding",
     "identify",
     "levels",
+    "measure_plan",
     "planar",
     "read",
     "read_readings",

@@ -201,6 +201,13 @@ FEATURES: Final[tuple[Feature, ...]] = (
         group="Measure",
     ),
     Feature(
+        "measure-plan",
+        "identification.plan_command",
+        ("identification.plan:MeasurePlanResult",),
+        "identification.view:plan_extras",
+        group="Measure",
+    ),
+    Feature(
         "declare",
         "declare.command",
         ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),

@@ -76,21 +76,26 @@ def decay(times: Array, begin: float, drag: float, friction: float, pitch_radius
         held = max(weight * math.cos(angle) + speed * speed, 0.0)
         return -(drag * speed + friction * held * way + weight * math.sin(angle)) / inertia
 
-    grid, angle, speed = np.empty(STEPS + 1), begin, 0.0
-    grid[0] = begin
-    for k in range(STEPS):
-        if speed == 0.0 and abs(math.sin(angle)) <= friction * max(math.cos(angle), 0.0):
-            grid[k + 1 :] = angle
-            break
-        way = math.copysign(1.0, speed) if speed else -math.copysign(1.0, math.sin(angle))
+    def stepped(angle: float, speed: float, way: float, h: float) -> tuple[float, float]:
         a1, v1 = speed, pull(angle, speed, way)
-        a2, v2 = speed + step / 2 * v1, pull(angle + step / 2 * a1, speed + step / 2 * v1, way)
-        a3, v3 = speed + step / 2 * v2, pull(angle + step / 2 * a2, speed + step / 2 * v2, way)
-        a4, v4 = speed + step * v3, pull(angle + step * a3, speed + step * v3, way)
-        after = speed + step / 6 * (v1 + 2 * v2 + 2 * v3 + v4)
-        part = 1.0 if after * way > 0 or speed == 0.0 else speed / (speed - after)
-        angle += part * step / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-        speed = after if part == 1.0 else 0.0
+        a2, v2 = speed + h / 2 * v1, pull(angle + h / 2 * a1, speed + h / 2 * v1, way)
+        a3, v3 = speed + h / 2 * v2, pull(angle + h / 2 * a2, speed + h / 2 * v2, way)
+        a4, v4 = speed + h * v3, pull(angle + h * a3, speed + h * v3, way)
+        return angle + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), speed + h / 6 * (v1 + 2 * v2 + 2 * v3 + v4)
+
+    grid, angle, speed = np.full(STEPS + 1, begin), begin, 0.0
+    for k in range(STEPS):
+        left = step
+        while left > 0:
+            if speed == 0.0 and abs(math.sin(angle)) <= friction * max(math.cos(angle), 0.0):
+                grid[k + 1 :] = angle
+                return np.asarray(np.interp(times, np.arange(STEPS + 1) * step, grid))
+            way = math.copysign(1.0, speed) if speed else -math.copysign(1.0, math.sin(angle))
+            after = stepped(angle, speed, way, left)
+            turns = speed != 0.0 and after[1] * way < 0
+            part = left * speed / (speed - after[1]) if turns else left
+            angle, speed = stepped(angle, speed, way, part) if turns else after
+            speed, left = (0.0, left - part) if turns else (speed, 0.0)
         grid[k + 1] = angle
     return np.asarray(np.interp(times, np.arange(STEPS + 1) * step, grid))
 

@@ -29,7 +29,7 @@ from abu_calc.features.identification.tracks import (
     recorded_start,
     window_centres,
 )
-from abu_calc.foundation.checks import Check, coded
+from abu_calc.foundation.checks import CHECK_CODES, Check, coded
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
@@ -42,6 +42,8 @@ from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.subject import Source, Subject, subject_of
 
+ALIKE: Final = 0.8
+"""Length of the shortest recording over that of the longest, at least."""
 FEWEST: Final = 8
 """Starts, at least."""
 MANY, FEW = 2048, 1024
@@ -179,11 +181,11 @@ def identify(
     ANGLE.check(mark_angle_deg)
     if not recordings:
         raise InputError("no recordings", place=Place(key="RECORDING"), remedy="Name the CSV files of the starts.")
-    subject = _subject(source)
+    subject = machine_subject(source)
     with subject.located():
-        scene = _scene(subject.scene, recordings, run_up_s)
+        scene = _as_long(known_scene(subject.scene, run_up_s), recordings)
     measured = _measured(scene, recordings, without, mark_angle_deg, progress)
-    estimate = _estimate(scene, measured, progress) if len(recordings) >= FEWEST else None
+    estimate = estimated(scene, measured, progress) if len(recordings) >= FEWEST else None
     sentences = tuple(_assumed(scene, measured))
     if bench is not None:
         from abu_calc.features.identification.bench import bench_text, bench_values
@@ -192,14 +194,14 @@ def identify(
     return _result(subject, scene, measured, estimate, mark_angle_deg, sentences)
 
 
-def _subject(source: Source) -> Subject:
+def machine_subject(source: Source) -> Subject:
     from abu_calc.inputs.read_machine import Machine
 
     return subject_of(source, "run-up" if isinstance(source, Machine) else None, command="identify")
 
 
-def _scene(scene: Scene, recordings: Sequence[str], run_up: float | None) -> Scene:
-    """The scene as long as the recordings, with the imbalance at angle 0. Raises InputError for what it must have."""
+def known_scene(scene: Scene, run_up: float | None) -> Scene:
+    """The scene with the imbalance at angle 0. Raises InputError for what it must have."""
     if len(scene.races) != 1 or len(scene.races[0].ball_masses) < 2:
         raise InputError(
             "starts are identified with one race and its balls",
@@ -228,8 +230,22 @@ def _scene(scene: Scene, recordings: Sequence[str], run_up: float | None) -> Sce
             place=Place(key="scene.effects.run_up"),
             remedy="Add the run-up time to the file, or give --run-up S.",
         )
-    shortest = min(read_recording(file).duration for file in recordings)
-    return replace(scene, imbalance_angle=0.0, duration=min(shortest, 60.0))
+    return replace(scene, imbalance_angle=0.0)
+
+
+def _as_long(scene: Scene, recordings: Sequence[str]) -> Scene:
+    """The scene as long as the shortest recording."""
+    lengths = {file: read_recording(file).duration for file in recordings}
+    shortest = min(lengths.values())
+    if shortest < ALIKE * max(lengths.values()):
+        raise InputError(
+            "a recording is too short beside the others",
+            place=Place(min(lengths, key=lambda file: lengths[file])),
+            found=f"{shortest:.3g} s",
+            allowed=f"at least {ALIKE * max(lengths.values()):.3g} s",
+            remedy="Record each start until the balls have come to rest, or leave this one out.",
+        )
+    return replace(scene, duration=min(shortest, 60.0))
 
 
 def _measured(
@@ -259,21 +275,21 @@ def _measured(
                 remedy="Record it, and the starts, with a mark.",
             )
         alone = recorded_start(without, scene, marked=True, centres=centres)
-        background = end_of(np.asarray(alone.track * turn)) - _without_balls(scene)
+        background = end_of(np.asarray(alone.track * turn)) - without_balls(scene)
         tracks = [np.asarray(track - background) for track in tracks]
     noise = float(np.median([start.noise for start in starts]))
     late = float(np.median([start.phase_error for start in starts]))
-    reading = Reading(centres, scene.full_speed, abs(_without_balls(scene)), noise, marked, late)
+    reading = Reading(centres, scene.full_speed, abs(without_balls(scene)), noise, marked, late)
     return Measured(tuple(starts), tuple(tracks), reading, background)
 
 
-def _without_balls(scene: Scene) -> complex:
+def without_balls(scene: Scene) -> complex:
     """Place of the axis in the rotor's frame [m] without balls, by the receptance."""
     moved = scene.support.small_motion(scene.speed).receptance(scene.speed)
     return complex((moved[0, 0] + moved[1, 1]) / 2 * scene.imbalance * scene.speed**2)
 
 
-def _estimate(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
+def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     features, centres, box = measured.features, measured.reading.centres, WIDE
     regression = Regression(bank_of(scene, box, MANY, centres, within(progress, "wide")), measured.reading)
     best, simulated = _begun(scene, measured, regression, progress), MANY + (len(LEVERS) - 1) * FEW // 2
@@ -342,19 +358,15 @@ def _result(
     mark_angle: float,
     assumed: tuple[str, ...],
 ) -> IdentifyResult:
-    checks = tuple(_checks(scene, measured, estimate))
-    marked, lost = measured.reading.marked, {check.code for check in checks if check.status == "not-done"}
+    checks = tuple(
+        check if check.status == "pass" or check.remedy else check.with_action(CHECK_CODES[check.code].action)
+        for check in _checks(scene, measured, estimate)
+    )
+    marked = measured.reading.marked
     edge = () if estimate is None else estimate.at_the_edge(marked=marked)
-    drag = friction = eccentricity = angle = None
-    if estimate is not None:
-        ends = [np.exp(interval) for interval in estimate.intervals[:2]]
-        drag, friction = (
-            IdentifiedValue(value=float(value) * unit, low=float(low) * unit, high=float(high) * unit)
-            for value, (low, high), unit in zip(np.exp(estimate.best.point[:2]), ends, (1.0, 1e-3), strict=True)
-        )
-        drag, friction = None if NAMES[0] in edge else drag, None if NAMES[1] in edge else friction
-        if marked and "ABU1106" not in lost and NAMES[2] not in edge:
-            eccentricity, angle = _offset(estimate, mark_angle)
+    drag, friction, eccentricity, angle = (
+        (None,) * 4 if estimate is None else identified_values(measured, estimate, mark_angle)
+    )
     ends_um = [end_of(start.track) * 1e6 for start in measured.starts]
     run_ups = [start.run_up for start in measured.starts if start.run_up is not None]
     predicted = None if estimate is None or edge else _predicted(scene, measured, estimate.best)
@@ -389,6 +401,30 @@ def _result(
         toml=_toml(drag, friction, eccentricity, angle),
         assumed=assumed,
     )
+
+
+Values = tuple[IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None]
+"""Drag rate [1/s], lever arm [mm], eccentricity [mm] and its angle [deg]."""
+
+
+def identified_values(measured: Measured, estimate: Estimate, mark_angle: float) -> Values:
+    """The values that are known."""
+    marked = measured.reading.marked
+    edge = estimate.at_the_edge(marked=marked)
+    ends = [np.exp(interval) for interval in estimate.intervals[:2]]
+    drag, friction = (
+        IdentifiedValue(value=float(value) * unit, low=float(low) * unit, high=float(high) * unit)
+        for value, (low, high), unit in zip(np.exp(estimate.best.point[:2]), ends, (1.0, 1e-3), strict=True)
+    )
+    known = marked and NAMES[2] not in edge and _error_of_the_end(measured) <= UNSURE_UM
+    eccentricity, angle = _offset(estimate, mark_angle) if known else (None, None)
+    return None if NAMES[0] in edge else drag, None if NAMES[1] in edge else friction, eccentricity, angle
+
+
+def _error_of_the_end(measured: Measured) -> float:
+    """Standard error of a component of the mean end [µm]."""
+    ends = np.array([end_of(track) for track in measured.tracks]) * 1e6
+    return float(np.sqrt(np.mean(np.abs(ends - ends.mean()) ** 2) / 2)) / math.sqrt(max(len(ends) - 1, 1))
 
 
 def _offset(estimate: Estimate, mark_angle: float) -> tuple[IdentifiedValue, IdentifiedValue]:
@@ -429,10 +465,8 @@ def _checks(scene: Scene, measured: Measured, estimate: Estimate | None) -> Iter
         "not-done" if edge else "pass",
         f"At the edge of the range: {', '.join(dict.fromkeys(edge))}" if edge else "All values lie inside",
     )
-    ends = np.array([end_of(track) for track in measured.tracks]) * 1e6
-    spread = float(np.sqrt(np.mean(np.abs(ends - ends.mean()) ** 2) / 2))
-    error = spread / math.sqrt(max(count - 1, 1))
-    yield from _of_the_ends(complex(ends.mean()), error, estimate, marked=marked)
+    mean = complex(np.mean([end_of(track) for track in measured.tracks])) * 1e6
+    yield from _of_the_ends(mean, _error_of_the_end(measured), estimate, marked=marked)
     yield _trend(measured)
     off = abs(estimate.amplitude_off) > OFF and abs(estimate.amplitude_ratio - 1) > 0.05
     ratio = estimate.amplitude_ratio

@@ -31,7 +31,7 @@ CLOSER: Final = 1.7
 """Power by which windows get closer to the end of the run-up: fast decays need a tenth of a second, slow ones all."""
 ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
 """Derivatives of the place, by quantity."""
-FULL: Final = 0.97
+FULL: Final = 0.9
 """Share of the last speed above which the rotor counts as run up."""
 OFF_SPEED: Final = 0.03
 """Difference of speeds, as a share, beyond which a recording is of another speed than the file's."""

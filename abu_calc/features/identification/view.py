@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from abu_calc.features.explain.steps import STEPS, step_blocks
+from abu_calc.features.identification.plan import ExpectedValues, MeasurePlanResult
 from abu_calc.features.identification.study import IdentifiedValue, IdentifyResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
@@ -52,7 +53,7 @@ def _answer(result: IdentifyResult) -> list[Block]:
     ]
 
 
-def _values(result: IdentifyResult) -> Grid:
+def _values(result: IdentifyResult | ExpectedValues) -> Grid:
     rows = tuple(
         (label, *_cells(getattr(result, name), 0 if unit == "°" else 4), unit) for name, (label, unit) in NAMES.items()
     )
@@ -81,6 +82,35 @@ def _starts(result: IdentifyResult) -> Grid:
     )
     header = ("recording", "end x, µm", "end y, µm", "distance at full speed, µm")
     return Grid(header, rows, frozenset({1, 2, 3}))
+
+
+PLACES: Final = (
+    "Fix a velocity or acceleration sensor across the spindle, near the race.",
+    "Put a mark on the heavy spot of the rotor, and a pick-up where the sensor points.",
+    "Record each start from the switching-on until the balls rest, in a CSV with t_s, vx_mm_per_s and mark.",
+    "Record one more start with the balls taken out, for --without.",
+    "If the sensor sits away from the race, repeat that run with the trial mass: the change calibrates lengths.",
+)
+"""What to do at the rig."""
+
+
+def plan_blocks(result: MeasurePlanResult) -> tuple[Block, ...]:
+    """What to record, and what it will tell."""
+    return (
+        Heading(f"{result.title}: recordings for abu identify"),
+        facts(result, "runs", "rate_hz", "length_s", "noise_um", "largest_velocity_mm_per_s", "trial_mass_g_mm"),
+        Heading("Expected values", "expected"),
+        _values(result.expected),
+        Heading("At the rig", "rig"),
+        *(Paragraph(text) for text in PLACES),
+        *notices(result),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def plan_extras(_result: MeasurePlanResult) -> Extras:
+    """The calculation note."""
+    return Extras((), tuple(step_blocks(STEPS["identify"])))
 
 
 def identify_extras(result: IdentifyResult) -> Extras:
