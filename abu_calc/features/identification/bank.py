@@ -71,14 +71,15 @@ class Bank:
 def simulated_track(scene: Scene, point: Points, centres: Array, seed: int) -> Track | None:
     """Track of one start from a random place of the balls; None if it cannot be simulated.
 
-    On a horizontal spindle the balls lie as the scene has them, at the bottom, and the rotor stands at any angle. On a
+    On a horizontal spindle the balls lie side by side at the bottom, and the rotor stands at any angle. On a
     vertical one they lie anywhere.
     """
     rng = np.random.default_rng(seed)
     horizontal = scene.effect("gravity") is not None
     turned = rng.uniform(0, 2 * math.pi) if horizontal else 0.0
     race = scene.races[0]
-    angles = race.start_angles if horizontal else _spread(len(race.ball_masses), _half_angle(scene), rng)
+    count, half = len(race.ball_masses), _half_angle(scene)
+    angles = _bottom(count, half) if horizontal else _spread(count, half, rng)
     race = replace(race, drag=math.exp(point[0]), start_angles=angles)
     offset = complex(point[2], point[3]) * 1e-6
     lever, radius = math.exp(point[1]) * 1e-6, race.ball_radius
@@ -118,6 +119,11 @@ def _in_order(effects: tuple) -> tuple:  # type: ignore[type-arg]
 
 def _half_angle(scene: Scene) -> float:
     return math.asin(scene.races[0].ball_radius / scene.races[0].pitch_radius)
+
+
+def _bottom(count: int, half_angle: float) -> tuple[float, ...]:
+    """Places of balls that lie side by side at the bottom."""
+    return tuple(-math.pi / 2 + 2.0002 * half_angle * (k - (count - 1) / 2) for k in range(count))
 
 
 def _spread(count: int, half_angle: float, rng: np.random.Generator) -> tuple[float, ...]:

@@ -118,7 +118,7 @@ def _point(scene: Scene) -> np.ndarray:
     """The file's drag, lever arm and eccentricity as a point of the box. Raises InputError outside of it."""
     friction, offset = scene.effect("dry_rolling_friction"), scene.effect("race_eccentricity")
     lever = 2e-6 if friction is None else friction.lever_arm  # type: ignore[attr-defined]
-    place = 10e-6 if offset is None else offset.offset  # type: ignore[attr-defined]
+    place = 10e-6 if offset is None else offset.offset
     drag = scene.races[0].drag
     point = np.array([math.log(max(drag, 1e-9)), math.log(max(lever * 1e6, 1e-9)), place.real * 1e6, place.imag * 1e6])
     inside = (WIDE.low < point) & (point < WIDE.high)

@@ -197,7 +197,9 @@ def identify(
 def machine_subject(source: Source) -> Subject:
     from abu_calc.inputs.read_machine import Machine
 
-    return subject_of(source, "run-up" if isinstance(source, Machine) else None, command="identify")
+    if not isinstance(source, Machine):
+        return subject_of(source, command="identify")
+    return subject_of(source, "idle" if source.whole("identify").run_up is None else "run-up", command="identify")
 
 
 def known_scene(scene: Scene, run_up: float | None) -> Scene:
