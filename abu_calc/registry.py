@@ -204,7 +204,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "measure-plan",
         "identification.plan_command",
         ("identification.plan:MeasurePlanResult",),
-        "identification.view:plan_extras",
         group="Measure",
     ),
     Feature(

@@ -39,8 +39,8 @@ def identify(
 ) -> Outcome:
     """Identify viscous drag rate, rolling friction and race eccentricity.
 
-    Each recording begins when the machine is switched on and lasts until the balls rest: columns t_s, vx_mm_per_s (or
-    ax_m_per_s2) and mark, one pulse per revolution.
+    Each recording begins when the machine is switched on and lasts until the balls rest. Its
+    columns are t_s, vx_mm_per_s (or ax_m_per_s2) and mark, one pulse per revolution.
     """
     from abu_calc.features.identification.study import identify as study
     from abu_calc.features.identification.view import identify_blocks, identify_screen

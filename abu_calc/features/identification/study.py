@@ -195,6 +195,7 @@ def identify(
 
 
 def machine_subject(source: Source) -> Subject:
+    """The subject of a scene, or of a machine that runs up or idles."""
     from abu_calc.inputs.read_machine import Machine
 
     if not isinstance(source, Machine):
@@ -292,6 +293,7 @@ def without_balls(scene: Scene) -> complex:
 
 
 def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
+    """The likeliest values, their intervals, and how well simulated sets fit."""
     features, centres, box = measured.features, measured.reading.centres, WIDE
     regression = Regression(bank_of(scene, box, MANY, centres, within(progress, "wide")), measured.reading)
     best, simulated = _begun(scene, measured, regression, progress), MANY + (len(LEVERS) - 1) * FEW // 2

@@ -108,11 +108,6 @@ def plan_blocks(result: MeasurePlanResult) -> tuple[Block, ...]:
     )
 
 
-def plan_extras(_result: MeasurePlanResult) -> Extras:
-    """The calculation note."""
-    return Extras((), tuple(step_blocks(STEPS["identify"])))
-
-
 def identify_extras(result: IdentifyResult) -> Extras:
     """The figure of all starts, and the calculation note."""
     return Extras(tuple(_courses(result)), tuple(step_blocks(STEPS["identify"])))
