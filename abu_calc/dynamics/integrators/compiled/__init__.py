@@ -9,7 +9,7 @@ mode_transitions.py  natural next modes, checked by the equations
 loop.py              all of it together, with the size of steps
 kernels.py           the modules that make the loop of a method
 translator.py        their text in LLVM's language, written by llvm_text.py
-llvm_engine.py       LLVM's language to machine code, kept on disk
+llvm_engine.py       LLVM's language to machine code
 code.py              a structure's machine code
 plain.py             the same without a compiler
 availability.py      whether compiled code runs here, tried on systems that nobody has tried

@@ -16,9 +16,10 @@ from typing import Final
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.compiled import code, llvm_engine
 from abu_calc.dynamics.integrators.compiled.kernels import Method
-from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache, CompilerError
+from abu_calc.dynamics.integrators.compiled.llvm_engine import CompilerError
 from abu_calc.dynamics.integrators.compiled.program import in_order
 from abu_calc.dynamics.integrators.compiled.run import described, prepared
+from abu_calc.foundation.disk_cache import Cache
 from abu_calc.version import __version__
 
 TRIED: Final = ("linux",)

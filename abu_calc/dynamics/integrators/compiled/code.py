@@ -16,9 +16,10 @@ from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.right_hand_side import rhs
 from abu_calc.dynamics.integrators.compiled import arrays, llvm_engine, llvm_text, translator
 from abu_calc.dynamics.integrators.compiled.kernels import Method, kernels, step_numbers
-from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache, CompilerError, LoadedModule
+from abu_calc.dynamics.integrators.compiled.llvm_engine import CompilerError, LoadedModule
 from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program, program
 from abu_calc.dynamics.parameters import Acting
+from abu_calc.foundation.disk_cache import Cache
 from abu_calc.version import __version__
 
 TRANSLATOR: tuple[ModuleType, ...] = (translator, llvm_text, llvm_engine, arrays)

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from abu_calc.dynamics.integrators.compiled import availability as trial
-from abu_calc.dynamics.integrators.compiled import llvm_engine as cache
 from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
+from abu_calc.foundation import disk_cache as cache
 
 
 @pytest.fixture

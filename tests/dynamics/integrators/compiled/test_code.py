@@ -10,9 +10,9 @@ from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEff
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.compiled import availability as ready
 from abu_calc.dynamics.integrators.compiled import code as compiled_code
-from abu_calc.dynamics.integrators.compiled import llvm_engine as cache
 from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
 from abu_calc.dynamics.integrators.compiled import run as compiled
+from abu_calc.foundation import disk_cache as cache
 from tests.dynamics.scenes import (
     scene_on,
 )

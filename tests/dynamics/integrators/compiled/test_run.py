@@ -25,12 +25,12 @@ from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.integrators.compiled import availability as ready
 from abu_calc.dynamics.integrators.compiled import code as compiled_code
-from abu_calc.dynamics.integrators.compiled import llvm_engine as cache
 from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
 from abu_calc.dynamics.integrators.compiled import run as compiled
 from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.program import in_order
 from abu_calc.dynamics.scene import Scene, placed
+from abu_calc.foundation import disk_cache as cache
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from tests.dynamics.effects.test_contract import CONTACT
 from tests.dynamics.scenes import (

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.dynamics.integrators.compiled import llvm_engine as cache
-from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache
+from abu_calc.foundation import disk_cache as cache
+from abu_calc.foundation.disk_cache import Cache
 
 KEY, OTHER = "a" * 64, "b" * 64
 
@@ -116,7 +116,7 @@ def test_what_was_used_longest_ago_goes_first_and_other_files_stay(
 WRITER = """
 import sys
 from pathlib import Path
-from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache
+from abu_calc.foundation.disk_cache import Cache
 folder, content = Cache(Path(sys.argv[1])), bytes(range(256)) * 400
 for turn in range(300):
     folder.write("a" * 64, content)
