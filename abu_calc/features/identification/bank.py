@@ -2,13 +2,9 @@
 
 import hashlib
 import math
-import os
-import sys
-import tempfile
 from dataclasses import replace
-from pathlib import Path
+from io import BytesIO
 from typing import Final
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +15,12 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.tracks import REVOLUTIONS, Array, Track
-from abu_calc.foundation.errors import AbuError
+from abu_calc.formulas.balls import half_angle
+from abu_calc.foundation.disk_cache import Cache
+from abu_calc.foundation.errors import AbuError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, counted
+from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.version import __version__
 
 PER_REVOLUTION: Final = 24
@@ -29,8 +28,8 @@ PER_REVOLUTION: Final = 24
 TOLERANCE: Final = 2e-4
 WORK: Final = 4_000_000
 """Evaluations that one start may take."""
-KEPT: Final = 40
-"""Banks that are kept; the oldest goes first."""
+LEAST_SHARE: Final = 0.9
+"""Share of the starts of a bank that must give an answer."""
 PARTS: Final = 4
 """Unknowns: ln h₀ (1/s), ln k_r (µm), and the components of Δ (µm) in the frame of the imbalance."""
 
@@ -78,7 +77,7 @@ def simulated_track(scene: Scene, point: Points, centres: Array, seed: int) -> T
     horizontal = scene.effect("gravity") is not None
     turned = rng.uniform(0, 2 * math.pi) if horizontal else 0.0
     race = scene.races[0]
-    count, half = len(race.ball_masses), _half_angle(scene)
+    count, half = len(race.ball_masses), half_angle(race.ball_radius, race.pitch_radius)
     angles = _bottom(count, half) if horizontal else _spread(count, half, rng)
     race = replace(race, drag=math.exp(point[0]), start_angles=angles)
     offset = complex(point[2], point[3]) * 1e-6
@@ -96,7 +95,7 @@ def simulated_track(scene: Scene, point: Points, centres: Array, seed: int) -> T
         scene,
         races=(race,),
         imbalance_angle=turned,
-        effects=_in_order((*kept, *ours)),
+        effects=in_order((*kept, *ours)),
         duration=float(ordered[-1] + period),
     )
     equations = assemble(given)
@@ -109,16 +108,6 @@ def simulated_track(scene: Scene, point: Points, centres: Array, seed: int) -> T
     phase = scene.speed * (times - scene.full_speed / 2)
     track = 2 * np.mean(motion * np.exp(-1j * phase), axis=1) / (1j * scene.speed)
     return np.asarray(track * np.exp(-1j * turned))
-
-
-def _in_order(effects: tuple) -> tuple:  # type: ignore[type-arg]
-    from abu_calc.simulation.scene_of_file import in_order
-
-    return tuple(in_order(effects))
-
-
-def _half_angle(scene: Scene) -> float:
-    return math.asin(scene.races[0].ball_radius / scene.races[0].pitch_radius)
 
 
 def _bottom(count: int, half_angle: float) -> tuple[float, ...]:
@@ -137,9 +126,9 @@ def bank_of(scene: Scene, box: Box, count: int, centres: Array, progress: Progre
     """Bank of a box; taken from disk if it was made before by this version for this scene."""
     key = hashlib.sha256(
         repr((__version__, scene, box.low.tolist(), box.high.tolist(), count, centres.tolist())).encode()
-    ).hexdigest()[:32]
-    path = _folder() / f"{key}.npz"
-    kept = _read(path)
+    ).hexdigest()
+    cache = Cache.own("banks", "simulated starts are", "npz")
+    kept = _read(cache.read(key))
     if kept is not None:
         return Bank(box, *kept)
     from scipy.stats import qmc
@@ -152,43 +141,26 @@ def bank_of(scene: Scene, box: Box, count: int, centres: Array, progress: Progre
         tracks.append(simulated_track(scene, point, centres, number))
         report(number + 1)
     good = [number for number, track in enumerate(tracks) if track is not None]
+    if len(good) < LEAST_SHARE * len(points):
+        raise NotTrustworthyError(
+            f"{len(points) - len(good)} of {len(points)} starts cannot be simulated\n"
+            "  See `abu simulate FILE` for the reason."
+        )
     made = points[good], np.array([tracks[number] for number in good])
-    _write(path, *made)
+    cache.write(key, _written(*made))
     return Bank(box, *made)
 
 
-def _folder() -> Path:
-    """Folder of the user's caches."""
-    if sys.platform == "win32":
-        root = os.environ.get("LOCALAPPDATA") or "~/AppData/Local"
-    elif sys.platform == "darwin":
-        root = "~/Library/Caches"
-    else:
-        root = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    return Path(root).expanduser() / "abu-calc" / "identification"
-
-
-def _read(path: Path) -> tuple[Points, NDArray[np.complex128]] | None:
-    """Contents of a bank; None if there is none, or if it is damaged."""
-    try:
-        with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
-            points, tracks = file["points"], file["tracks"]
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+def _read(content: bytes | None) -> tuple[Points, NDArray[np.complex128]] | None:
+    """Points and tracks of a bank as it was kept; None if there is none."""
+    if content is None:
         return None
-    whole = points.ndim == 2 and points.shape[1] == PARTS and len(points) == len(tracks) > 0
-    return (points, tracks) if whole and np.isfinite(points).all() and np.isfinite(tracks).all() else None
+    with np.load(BytesIO(content), allow_pickle=False) as file:
+        return file["points"], file["tracks"]
 
 
-def _write(path: Path, points: Points, tracks: NDArray[np.complex128]) -> None:
-    """Keep a bank, whole or not at all; a folder that cannot be written keeps none."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, points=points, tracks=tracks)
-        Path(name).replace(path)
-        old = sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime)[:-KEPT]
-        for each in old:
-            each.unlink(missing_ok=True)
-    except OSError:
-        return
+def _written(points: Points, tracks: NDArray[np.complex128]) -> bytes:
+    """A bank as it is kept."""
+    stream = BytesIO()
+    np.savez(stream, points=points, tracks=tracks)
+    return stream.getvalue()

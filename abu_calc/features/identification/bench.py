@@ -11,11 +11,10 @@ from typing import Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.features.identification.formulas import GRAVITY
 from abu_calc.features.identification.tracks import Array
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import GRAVITY, from_si, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.recording_table import decoded, table_of
 

@@ -19,7 +19,7 @@ from abu_calc.foundation.frozen import dataclass
 
 LEVELS: Final = (0.5, 0.25, 0.12)
 """Shares of the amplitude without balls below which times are taken."""
-FLOOR, NOISES = 0.04, 4.0
+FLOOR, NOISES = 0.04, 6.0
 """Distances from the end that count as none: this share of the amplitude without balls, or so many times the noise."""
 FREEDOM: Final = 6.0
 """ν of the Student likelihood."""
@@ -27,7 +27,6 @@ PRIOR_UM: Final = 12.0
 """Standard deviation of a component of Δ before anything is measured."""
 END: Final = 0.09
 """Share of the windows whose mean is the end: the last 15 % of the time."""
-AMPLITUDE: Final = "amplitude at the start"
 DECAY: Final = 4
 """Index of the feature that follows the decay best: the integral of the distance from the end."""
 
@@ -35,7 +34,7 @@ Features = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Reading:
+class TrackReading:
     """How tracks are read: the windows' centres [s], the end of the run-up [s], amplitude A₀ and noise [m], mark.
 
     `phase_error` [rad]: the largest of the phase that a start has.
@@ -54,7 +53,9 @@ class Reading:
         away = np.abs(track - end) if self.marked else np.abs(np.abs(track) - abs(end))
         floor = max(FLOOR * self.amplitude, NOISES * self.noise)
         felt = np.where(away < floor, 0.0, away)
-        times = [self._last_above(away, max(level * self.amplitude, floor)) for level in (*LEVELS, 0.0)]
+        # A single window may be far off by noise; the last time would follow it.
+        steady = np.median(np.stack([away, np.append(away[1:], away[-1:]), np.append(away[:1], away[:-1])]), axis=0)
+        times = [self._last_above(steady, max(level * self.amplitude, floor)) for level in (*LEVELS, 0.0)]
         shares = felt / self.amplitude
         least = (self.centres[1] - self.centres[0]) / 4
         integrals = [float(np.trapezoid(shares**power, self.centres)) + least for power in (1, 2)]
@@ -97,8 +98,8 @@ def _terms(points: Points, degree: int) -> Points:
 class Regression:
     """Distribution of the features over a box."""
 
-    def __init__(self, bank: Bank, reading: Reading, seed: int = 3) -> None:
-        self.box, self.marked = bank.box, reading.marked
+    def __init__(self, bank: Bank, reading: TrackReading, seed: int = 3) -> None:
+        self.box = bank.box
         features = np.array([reading.features(track) for track in reading.noisy(bank.tracks, seed)])
         scaled = bank.box.scaled(bank.points)
         terms, few = _terms(scaled, 4), _terms(scaled, 2)
@@ -151,7 +152,7 @@ class Regression:
             begins = tried[np.argsort(self.likelihood(tried, features))[-4:]]
         else:
             begins = begin[None]
-        found = []
+        ends = []
         for point in begins:
             point = np.clip(np.asarray(point, dtype=float), *np.array(limits).T)
             result = minimize(
@@ -160,8 +161,8 @@ class Regression:
                 method="L-BFGS-B",
                 bounds=limits,  # type: ignore[call-overload]
             )
-            found.append(Best(np.asarray(result.x), -float(result.fun)))
-        return max(found, key=lambda each: each.value)
+            ends.append(Best(np.asarray(result.x), -float(result.fun)))
+        return max(ends, key=lambda each: each.value)
 
     def interval(self, features: Features, best: "Best", part: int, drop: float) -> tuple[float, float]:
         """Where the profile of the likelihood has fallen by `drop` on both sides; a bound of `WIDE` if it has not."""
@@ -190,9 +191,10 @@ class Best:
     value: float
 
 
-def narrowed(best: Best, *, marked: bool) -> Box:
-    """A box round an estimate."""
-    half = np.array([0.55, 1.0, 8.0, 8.0]) if marked else np.array([0.55, 1.0, 15.0, 15.0])
+def narrowed(best: Best, *, horizontal: bool) -> Box:
+    """A box round an estimate; on a vertical spindle friction hides more of the eccentricity."""
+    offset = 8.0 if horizontal else 14.0
+    half = np.array([0.55, 1.0, offset, offset])
     return Box(best.point - half, best.point + half)
 
 

@@ -1,11 +1,9 @@
 """Rolling friction that gravity shakes on a horizontal spindle: the friction number, and the equivalent drag."""
 
 import math
-from typing import Final
 
 from abu_calc.foundation.formula import formula
-
-GRAVITY: Final = 9.80665
+from abu_calc.foundation.units import GRAVITY
 
 
 @formula(

@@ -11,7 +11,7 @@ import numpy as np
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.bank import WIDE, simulated_track
-from abu_calc.features.identification.estimate import Reading
+from abu_calc.features.identification.estimate import TrackReading
 from abu_calc.features.identification.study import (
     IdentifiedValue,
     Measured,
@@ -25,7 +25,7 @@ from abu_calc.features.identification.tracks import RecordedStart, window_centre
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import to_si
+from abu_calc.foundation.units import from_si, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.records import SceneModel
@@ -88,7 +88,7 @@ def measure_plan(
         point = _point(scene)
     scene = replace(scene, duration=_length(scene))
     centres = window_centres(scene)
-    reading = Reading(centres, scene.full_speed, abs(without_balls(scene)), to_si(noise_um, "um"), marked=True)
+    reading = TrackReading(centres, scene.full_speed, abs(without_balls(scene)), to_si(noise_um, "um"), marked=True)
     tracks = [simulated_track(scene, point, centres, 77_000 + k) for k in range(runs)]
     lost = [k for k, track in enumerate(tracks) if track is None]
     if lost:
@@ -106,7 +106,7 @@ def measure_plan(
         length_s=scene.duration,
         noise_um=noise_um,
         largest_velocity_mm_per_s=reading.amplitude * scene.speed * 1e3,
-        trial_mass_g_mm=scene.imbalance * 1e6 / 2,
+        trial_mass_g_mm=from_si(scene.imbalance / 2, "g_mm"),
         expected=ExpectedValues(
             rolling_drag_per_s=drag, rolling_friction_mm=friction, race_eccentricity_mm=eccentricity,
             race_eccentricity_angle_deg=angle,

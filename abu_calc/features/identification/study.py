@@ -4,19 +4,20 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Annotated, ClassVar, Final
+from typing import Annotated, ClassVar, Final, Self
 
 import numpy as np
 
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.bank import WIDE, Box, bank_of, simulated_track
+from abu_calc.features.identification.bench import BenchValues, bench_text, bench_values
 from abu_calc.features.identification.estimate import (
     DECAY,
     Best,
     Features,
-    Reading,
     Regression,
+    TrackReading,
     end_of,
     inside,
     narrowed,
@@ -24,8 +25,9 @@ from abu_calc.features.identification.estimate import (
 from abu_calc.features.identification.formulas import friction_number
 from abu_calc.features.identification.tracks import (
     RecordedStart,
+    Signal,
     Track,
-    has_mark,
+    recorded,
     recorded_start,
     window_centres,
 )
@@ -36,7 +38,6 @@ from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, to_si, wrapped_deg
 from abu_calc.foundation.validity import Range
-from abu_calc.inputs.recording_files import read_recording
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.result import Result
@@ -57,8 +58,11 @@ SETS: Final = 40
 COVERED: Final = 0.95
 LEAST_DROP, MOST_DROP = 1.92, 12.0
 """Drops of the logarithmic likelihood at the ends of an interval: χ² of one freedom, and where a calibration stops."""
-UNSURE_UM: Final = 4.0
-"""Standard error of a component of the mean end [µm] above which no eccentricity is given."""
+SURE_UM: Final = 0.3
+"""Half of the narrowest interval of the eccentricity [µm]: with a mark, machines of known values came out 0.16 µm off
+in the median, more than their starts scatter."""
+UNSURE_UM: Final = 8.0
+"""Half of the interval of a component of the eccentricity [µm] above which none is given."""
 TREND: Final = 0.01
 """Probability below which an order of the decays is no chance."""
 NAMES: Final = ("drag rate", "lever arm", "eccentricity", "eccentricity")
@@ -80,6 +84,23 @@ class IdentifiedValue(Record):
     value: Annotated[float, Quantity("value", "", 4)]
     low: Annotated[float, Quantity("low", "", 4)]
     high: Annotated[float, Quantity("high", "", 4)]
+
+
+@record
+class BenchRecord(Record):
+    """Values of one ball in the standing race: drag rate at low slip, which is not that at speed, and lever arm."""
+
+    rolling_drag_per_s: Annotated[IdentifiedValue, Quantity("viscous drag rate at low slip", "h₀", 4, "1/s")]
+    rolling_friction_mm: Annotated[IdentifiedValue, Quantity("lever arm of rolling friction", "k_r", 4, "mm")]
+
+    @classmethod
+    def of(cls, film: BenchValues) -> Self:
+        """Values with two standard errors to both sides."""
+        drag, lever = (
+            IdentifiedValue(value=value * unit, low=max(0.0, value - 2 * error) * unit, high=(value + 2 * error) * unit)
+            for value, error, unit in ((film.drag, film.drag_error, 1.0), (film.lever, film.lever_error, 1e3))
+        )
+        return cls(rolling_drag_per_s=drag, rolling_friction_mm=lever)
 
 
 @record
@@ -117,6 +138,7 @@ class IdentifyResult(Result):
     simulated_starts: Annotated[int, Quantity("starts simulated")]
     times_s: Annotated[tuple[float, ...], Quantity("time from the switching-on")]
     courses: tuple[StartCourse, ...]
+    bench: BenchRecord | None
     toml: Annotated[str | None, Quantity("block for the file")]
     assumed: tuple[str, ...]
     """What the values rest on, in sentences."""
@@ -128,7 +150,7 @@ class Measured:
 
     starts: tuple[RecordedStart, ...]
     tracks: tuple[Track, ...]
-    reading: Reading
+    reading: TrackReading
     background: complex | None
 
     @property
@@ -149,6 +171,11 @@ class Estimate:
     """Difference of the amplitudes at the start from those simulated, in standard errors."""
     amplitude_ratio: float
     simulated: int
+
+    @property
+    def offset_error(self) -> float:
+        """Half of the wider interval of the eccentricity's components [µm]; infinite without a mark."""
+        return max(SURE_UM, *((high - low) / 2 for low, high in self.intervals[2:])) if self.intervals[2:] else math.inf
 
     def at_the_edge(self, *, marked: bool) -> tuple[str, ...]:
         """Names of the values at the edge of what was simulated."""
@@ -181,17 +208,13 @@ def identify(
     ANGLE.check(mark_angle_deg)
     if not recordings:
         raise InputError("no recordings", place=Place(key="RECORDING"), remedy="Name the CSV files of the starts.")
-    subject = machine_subject(source)
+    subject, starts = machine_subject(source), [recorded(file) for file in recordings]
     with subject.located():
-        scene = _as_long(known_scene(subject.scene, run_up_s), recordings)
-    measured = _measured(scene, recordings, without, mark_angle_deg, progress)
+        scene = _as_long(known_scene(subject.scene, run_up_s), starts)
+    film = None if bench is None else bench_values(bench, scene)
+    measured = _measured(scene, starts, without, mark_angle_deg)
     estimate = estimated(scene, measured, progress) if len(recordings) >= FEWEST else None
-    sentences = tuple(_assumed(scene, measured))
-    if bench is not None:
-        from abu_calc.features.identification.bench import bench_text, bench_values
-
-        sentences = (*sentences, bench_text(bench_values(bench, scene)))
-    return _result(subject, scene, measured, estimate, mark_angle_deg, sentences)
+    return _result(subject, scene, measured, estimate, mark_angle_deg, film)
 
 
 def machine_subject(source: Source) -> Subject:
@@ -236,60 +259,60 @@ def known_scene(scene: Scene, run_up: float | None) -> Scene:
     return replace(scene, imbalance_angle=0.0)
 
 
-def _as_long(scene: Scene, recordings: Sequence[str]) -> Scene:
+def _as_long(scene: Scene, starts: Sequence[Signal]) -> Scene:
     """The scene as long as the shortest recording."""
-    lengths = {file: read_recording(file).duration for file in recordings}
-    shortest = min(lengths.values())
-    if shortest < ALIKE * max(lengths.values()):
+    first = min(starts, key=lambda start: start.duration)
+    shortest, longest = first.duration, max(start.duration for start in starts)
+    if shortest < ALIKE * longest:
         raise InputError(
             "a recording is too short beside the others",
-            place=Place(min(lengths, key=lambda file: lengths[file])),
+            place=Place(first.file),
             found=f"{shortest:.3g} s",
-            allowed=f"at least {ALIKE * max(lengths.values()):.3g} s",
+            allowed=f"at least {ALIKE * longest:.3g} s",
             remedy="Record each start until the balls have come to rest, or leave this one out.",
         )
     return replace(scene, duration=min(shortest, 60.0))
 
 
-def _measured(
-    scene: Scene, recordings: Sequence[str], without: str | None, mark_angle: float, progress: Progress
-) -> Measured:
+def _measured(scene: Scene, signals: Sequence[Signal], without: str | None, mark_angle: float) -> Measured:
     centres = window_centres(scene)
-    with_mark = [has_mark(file) for file in recordings]
-    marked = all(with_mark)
-    if any(with_mark) and not marked:
+    marked = all(signal.mark is not None for signal in signals)
+    without_mark = next((signal.file for signal in signals if signal.mark is None), "")
+    if not marked and any(signal.mark is not None for signal in signals):
         raise InputError(
             "some recordings have a mark and some have none",
-            place=Place(recordings[with_mark.index(False)]),
+            place=Place(without_mark),
             remedy="Record all starts with the mark.",
         )
-    starts = []
-    for number, file in enumerate(recordings):
-        progress(f"reading {number + 1} of {len(recordings)} recordings")
-        starts.append(recorded_start(file, scene, marked=marked, centres=centres))
+    starts = [recorded_start(signal, scene, centres) for signal in signals]
     turn = np.exp(1j * to_si(mark_angle, "deg"))
     tracks = [np.asarray(start.track * turn) for start in starts]
     background = None
     if without is not None:
-        if not marked or not has_mark(without):
+        empty = recorded(without)
+        if not marked or empty.mark is None:
             raise InputError(
                 "the background has a direction",
                 place=Place(without, key="mark"),
                 remedy="Record it, and the starts, with a mark.",
             )
-        alone = recorded_start(without, scene, marked=True, centres=centres)
+        alone = recorded_start(empty, scene, centres)
         background = end_of(np.asarray(alone.track * turn)) - without_balls(scene)
         tracks = [np.asarray(track - background) for track in tracks]
     noise = float(np.median([start.noise for start in starts]))
     late = float(np.median([start.phase_error for start in starts]))
-    reading = Reading(centres, scene.full_speed, abs(without_balls(scene)), noise, marked, late)
+    reading = TrackReading(centres, scene.full_speed, abs(without_balls(scene)), noise, marked, late)
     return Measured(tuple(starts), tuple(tracks), reading, background)
 
 
 def without_balls(scene: Scene) -> complex:
-    """Place of the axis in the rotor's frame [m] without balls, by the receptance."""
+    """Place of the axis in the rotor's frame [m] without balls, as a sensor along x tells it."""
     moved = scene.support.small_motion(scene.speed).receptance(scene.speed)
-    return complex((moved[0, 0] + moved[1, 1]) / 2 * scene.imbalance * scene.speed**2)
+    return complex(moved[0, 0] * scene.imbalance * scene.speed**2)
+
+
+def _horizontal(scene: Scene) -> bool:
+    return scene.effect("gravity") is not None
 
 
 def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
@@ -299,7 +322,7 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     best, simulated = _begun(scene, measured, regression, progress), MANY + (len(LEVERS) - 1) * FEW // 2
     parts = (0, 1, 2, 3) if measured.reading.marked else (0, 1)
     for _ in range(ROUNDS):
-        box = narrowed(best, marked=measured.reading.marked)
+        box = narrowed(best, horizontal=_horizontal(scene))
         regression = Regression(bank_of(scene, box, FEW, centres, within(progress, "narrow")), measured.reading)
         best, simulated = regression.best(features), simulated + FEW
         if inside(best, box, parts):
@@ -327,15 +350,15 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
 
 def _begun(scene: Scene, measured: Measured, wide: Regression, progress: Progress) -> Best:
     """The best of several ranges of the lever arm, each judged by a bank of its own: the wide regression is rough."""
-    features, found = measured.features, list[Best]()
+    features, ends = measured.features, list[Best]()
     for number, (low, high) in enumerate(pairwise(LEVERS)):
         part = Box(WIDE.low.copy(), WIDE.high.copy())
         part.low[1], part.high[1] = math.log(low), math.log(high)
-        box = narrowed(wide.best(features, part=part), marked=measured.reading.marked)
+        box = narrowed(wide.best(features, part=part), horizontal=_horizontal(scene))
         share = within(progress, f"range {number + 1} of {len(LEVERS) - 1}")
         regression = Regression(bank_of(scene, box, FEW // 2, measured.reading.centres, share), measured.reading)
-        found.append(regression.best(features))
-    return max(found, key=lambda best: best.value)
+        ends.append(regression.best(features))
+    return max(ends, key=lambda best: best.value)
 
 
 def _sets(scene: Scene, measured: Measured, best: Best) -> Iterator[Features]:
@@ -360,7 +383,7 @@ def _result(
     measured: Measured,
     estimate: Estimate | None,
     mark_angle: float,
-    assumed: tuple[str, ...],
+    film: BenchValues | None,
 ) -> IdentifyResult:
     checks = tuple(
         check if check.status == "pass" or check.remedy else check.with_action(CHECK_CODES[check.code].action)
@@ -403,7 +426,8 @@ def _result(
             for start, track, end in zip(measured.starts, measured.tracks, ends_um, strict=True)
         ),
         toml=_toml(drag, friction, eccentricity, angle),
-        assumed=assumed,
+        bench=None if film is None else BenchRecord.of(film),
+        assumed=(*_assumed(scene, measured), *(() if film is None else (bench_text(film),))),
     )
 
 
@@ -420,8 +444,8 @@ def identified_values(measured: Measured, estimate: Estimate, mark_angle: float)
         IdentifiedValue(value=float(value) * unit, low=float(low) * unit, high=float(high) * unit)
         for value, (low, high), unit in zip(np.exp(estimate.best.point[:2]), ends, (1.0, 1e-3), strict=True)
     )
-    known = marked and NAMES[2] not in edge and _error_of_the_end(measured) <= UNSURE_UM
-    eccentricity, angle = _offset(estimate, mark_angle) if known else (None, None)
+    known = marked and NAMES[2] not in edge and estimate.offset_error <= UNSURE_UM
+    eccentricity, angle = _offset(estimate, measured.reading.phase_error, mark_angle) if known else (None, None)
     return None if NAMES[0] in edge else drag, None if NAMES[1] in edge else friction, eccentricity, angle
 
 
@@ -431,21 +455,20 @@ def _error_of_the_end(measured: Measured) -> float:
     return float(np.sqrt(np.mean(np.abs(ends - ends.mean()) ** 2) / 2)) / math.sqrt(max(len(ends) - 1, 1))
 
 
-def _offset(estimate: Estimate, mark_angle: float) -> tuple[IdentifiedValue, IdentifiedValue]:
-    """Magnitude [mm] and angle from the mark [deg], with intervals from those of the components."""
+def _offset(estimate: Estimate, phase_error: float, mark_angle: float) -> tuple[IdentifiedValue, IdentifiedValue]:
+    """Magnitude [mm] and angle from the mark [deg], with intervals from those of the components and of the mark."""
     x, y = (float(value) for value in estimate.best.point[2:])
-    half = max((high - low) / 2 for low, high in estimate.intervals[2:])
-    size, angle = math.hypot(x, y), math.degrees(math.atan2(y, x)) - mark_angle
-    spread = math.degrees(math.asin(min(1.0, half / size))) if size > half else 180.0
+    size, half = math.hypot(x, y), estimate.offset_error
+    spread = from_si(math.asin(half / size) + phase_error, "deg") if size > half else 180.0
     length = IdentifiedValue(value=size * 1e-3, low=max(0.0, size - half) * 1e-3, high=(size + half) * 1e-3)
-    angle = wrapped_deg(math.radians(angle))
+    angle = wrapped_deg(math.atan2(y, x) - to_si(mark_angle, "deg"))
     return length, IdentifiedValue(value=angle, low=angle - spread, high=angle + spread)
 
 
 def _friction_number(scene: Scene, lever: float) -> float | None:
     """Λ = k_r R_p Ω²/(r g); None on a vertical spindle."""
     race = scene.races[0]
-    if scene.effect("gravity") is None:
+    if not _horizontal(scene):
         return None
     return friction_number(lever, race.pitch_radius, race.ball_radius, scene.speed)
 
@@ -467,7 +490,7 @@ def _checks(scene: Scene, measured: Measured, estimate: Estimate | None) -> Iter
     yield coded(
         "ABU1102",
         "not-done" if edge else "pass",
-        f"At the edge of the range: {', '.join(dict.fromkeys(edge))}" if edge else "All values lie inside",
+        f"At the edge of the range: {', '.join(edge)}" if edge else "All values lie inside",
     )
     mean = complex(np.mean([end_of(track) for track in measured.tracks])) * 1e6
     yield from _of_the_ends(mean, _error_of_the_end(measured), estimate, marked=marked)
@@ -493,11 +516,11 @@ def _of_the_ends(mean: complex, error: float, estimate: Estimate, *, marked: boo
         yield coded("ABU1103", "not-done", "There is no mark, so that ends have no direction", requested=False)
         yield coded("ABU1106", "not-done", "There is no mark", requested=False)
         return
-    known = error <= UNSURE_UM
+    known = estimate.offset_error <= UNSURE_UM
     offset = complex(*estimate.best.point[2:])
     if known:
         apart = abs(offset + mean)
-        allowed = 3 * error + 1.0
+        allowed = 3 * error + estimate.offset_error + 1.0
         yield coded(
             "ABU1103",
             "pass" if apart <= allowed else "warn",
@@ -511,8 +534,8 @@ def _of_the_ends(mean: complex, error: float, estimate: Estimate, *, marked: boo
     yield coded(
         "ABU1106",
         "pass" if known else "not-done",
-        "Standard error of a component of the mean end",
-        error,
+        "Half of the interval of the eccentricity",
+        estimate.offset_error,
         UNSURE_UM,
         "µm",
     )
@@ -538,12 +561,12 @@ def _run_up_check(scene: Scene, measured: Measured) -> Check:
     times = [start.run_up for start in measured.starts if start.run_up is not None]
     if not times:
         return coded("ABU1108", "not-done", "The recordings have no mark during the run-up", requested=False)
-    time, told = float(np.median(times)), scene.full_speed
-    off = abs(time / told - 1) > RUN_UP_OFF
+    time, given = float(np.median(times)), scene.full_speed
+    off = abs(time / given - 1) > RUN_UP_OFF
     return coded(
         "ABU1108",
         "warn" if off else "pass",
-        f"By the mark the run-up takes {time:.3g} s, by the file {told:.3g} s",
+        f"By the mark the run-up takes {time:.3g} s, by the file {given:.3g} s",
         remedy=f"Repeat with the measured time: --run-up {time:.3g}." if off else None,
     )
 
@@ -565,12 +588,12 @@ def _assumed(scene: Scene, measured: Measured) -> Iterator[str]:
         f"Speed {from_si(scene.speed, 'rpm'):.0f} rpm, run-up {scene.full_speed:.3g} s, imbalance "
         f"{from_si(scene.imbalance, 'g_mm'):.4g} g·mm, masses and springs are those of the file."
     )
-    yield "A run-up told half as long as it is doubles the drag rate; an imbalance 25 % too large lowers it by a fifth."
+    yield "A wrong run-up time or imbalance moves the values: half the run-up may double the drag rate."
     if measured.background is None:
         yield "No recording without balls is given: a synchronous background counts as eccentricity (--without)."
     else:
         yield f"The synchronous background, {abs(measured.background) * 1e6:.2f} µm, is taken off."
-    if scene.effect("gravity") is not None:
+    if _horizontal(scene):
         yield "The spindle is horizontal: the balls lie at the bottom when the machine is switched on."
     else:
         yield "The spindle is vertical: the balls lie anywhere when the machine is switched on."

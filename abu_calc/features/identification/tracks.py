@@ -1,7 +1,7 @@
 """Tracks of recorded starts: the place of the axis in the rotor's frame over time, from a sensor and a mark.
 
 Far from standstill the axis runs round once per revolution, so that one sensor tells its place: of a velocity
-v = Re(iΩ w e^{iΩt}) least squares over three revolutions give w, the place in the frame of the rotor [m].
+v = Re(iΩ w e^{iΩt}) least squares over two revolutions give w, the place in the frame of the rotor [m].
 """
 
 import math
@@ -16,7 +16,7 @@ from abu_calc.features.balancing.recording.tachometer import passages
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.recording import Recording
+from abu_calc.inputs.recording_columns import MotionQuantity
 from abu_calc.inputs.recording_files import read_recording
 from abu_calc.inputs.recording_table import decoded, table_of
 
@@ -73,30 +73,55 @@ def window_centres(scene: Scene) -> Array:
     return first + (last - first) * np.linspace(0, 1, WINDOWS) ** CLOSER
 
 
-def recorded_start(file: str, scene: Scene, *, marked: bool, centres: Array) -> RecordedStart:
-    """The start of a recording that begins when the machine is switched on. Raises InputError for what it cannot be."""
+@dataclass(frozen=True, eq=False)
+class Signal:
+    """One recording as it is: motion along x [SI], its column and quantity, rate [1/s], mark (None: no such column)."""
+
+    file: str
+    column: str
+    quantity: MotionQuantity
+    motion: Array
+    rate: float
+    mark: Array | None
+
+    @property
+    def duration(self) -> float:
+        """Duration of the record [s]."""
+        return len(self.motion) / self.rate
+
+
+def recorded(file: str) -> Signal:
+    """The signal of a file. Raises InputError for what cannot be read."""
     recording = read_recording(file)
-    axes = [k for k, name in enumerate(recording.names) if "x" in name.lower().split("_")[0]] or [0]
-    motion, times = recording.samples[axes[0]], np.arange(len(recording.samples[axes[0]])) / recording.rate
-    place = Place(file, key=recording.names[axes[0]])
-    if recording.rate * 2 * math.pi / scene.speed < LEAST_PER_REVOLUTION:
+    axis = next((k for k, name in enumerate(recording.names) if "x" in name.lower().split("_")[0]), 0)
+    motion = recording.samples[axis]
+    return Signal(file, recording.names[axis], recording.quantity, motion, recording.rate, _mark_column(file))
+
+
+def recorded_start(signal: Signal, scene: Scene, centres: Array) -> RecordedStart:
+    """The start of a recording that begins when the machine is switched on. Raises InputError for what it cannot be."""
+    motion, times = signal.motion, np.arange(len(signal.motion)) / signal.rate
+    place = Place(signal.file, key=signal.column)
+    if signal.rate * 2 * math.pi / scene.speed < LEAST_PER_REVOLUTION:
         raise InputError(
             "sampled too slowly",
             place=place,
-            found=f"{recording.rate:g} samples/s",
+            found=f"{signal.rate:g} samples/s",
             allowed=f"at least {LEAST_PER_REVOLUTION * scene.speed / 2 / math.pi:.0f} samples/s",
             remedy="Record with a higher rate.",
         )
-    if recording.duration < centres[-1] + REVOLUTIONS * math.pi / scene.speed:
+    if signal.duration < centres[-1] + REVOLUTIONS * math.pi / scene.speed:
         raise InputError(
             "the recording is too short",
             place=place,
-            found=f"{recording.duration:.3g} s",
+            found=f"{signal.duration:.3g} s",
             allowed=f"at least {centres[-1] + REVOLUTIONS * math.pi / scene.speed:.3g} s",
             remedy="Record from the switching-on until the balls have come to rest.",
         )
     phase, speed, run_up, late = (
-        _by_mark(file, times) if marked else (*_by_motion(recording, motion, times, scene), None, 0.0)
+        (*_by_motion(motion, times, scene), None, 0.0)
+        if signal.mark is None
+        else _by_mark(signal.file, times, signal.mark)
     )
     if abs(speed / scene.speed - 1) > OFF_SPEED:
         raise InputError(
@@ -106,14 +131,9 @@ def recorded_start(file: str, scene: Scene, *, marked: bool, centres: Array) -> 
             allowed=f"{from_si(scene.speed, 'rpm'):.0f} rpm within {OFF_SPEED:.0%}",
             remedy="Correct the speed of the file, or record at its speed.",
         )
-    order = ORDERS[recording.quantity]
+    order = ORDERS[signal.quantity]
     track = np.array([_harmonic(times, motion, phase, speed, centre) for centre in centres]) / (1j * speed) ** order
-    return RecordedStart(file, track, speed, run_up, late)
-
-
-def has_mark(file: str) -> bool:
-    """True if a CSV recording has a column `mark`."""
-    return _mark_column(file) is not None
+    return RecordedStart(signal.file, track, speed, run_up, late)
 
 
 def _mark_column(file: str) -> Array | None:
@@ -126,17 +146,14 @@ def _mark_column(file: str) -> Array | None:
     return None if index is None else np.asarray(table.values[:, index])
 
 
-def _by_mark(file: str, times: Array) -> tuple[Array, float, float | None, float]:
+def _by_mark(file: str, times: Array, mark: Array) -> tuple[Array, float, float | None, float]:
     """Angle of the rotor [rad] at full speed, the speed [rad/s], the run-up time [s], the largest error [rad]."""
-    mark = _mark_column(file)
-    if mark is None:
-        raise InputError("no column of the mark", place=Place(file, key="mark"), remedy="Name it mark.")
     late = times >= times[-1] * 0.4
     try:
-        seen = passages(times[late], mark[late])
-        pulses = seen.times
+        passed = passages(times[late], mark[late])
     except InputError as error:
         raise InputError(str(error).splitlines()[0], place=Place(file, key="mark"), remedy=error.remedy) from None
+    pulses = passed.times
     if len(pulses) < FEWEST_PULSES:
         raise InputError(
             "the mark has too few pulses",
@@ -148,7 +165,7 @@ def _by_mark(file: str, times: Array) -> tuple[Array, float, float | None, float
     counts = np.round((pulses - pulses[0]) / np.median(np.diff(pulses)))
     period, first = np.polyfit(counts, pulses, 1)
     speed = 2 * math.pi / period
-    return speed * (times - first), speed, _run_up(times, mark, float(period)), seen.unsure * speed
+    return speed * (times - first), speed, _run_up(times, mark, float(period)), passed.unsure * speed
 
 
 def _run_up(times: Array, mark: Array, period: float) -> float | None:
@@ -163,7 +180,7 @@ def _run_up(times: Array, mark: Array, period: float) -> float | None:
     return float(np.sum(middles[slow] ** 2) / np.sum(middles[slow] * speeds))
 
 
-def _by_motion(recording: Recording, motion: Array, times: Array, scene: Scene) -> tuple[Array, float]:
+def _by_motion(motion: Array, times: Array, scene: Scene) -> tuple[Array, float]:
     """Angle without a mark, from an arbitrary zero, and the speed whose tone is the largest near the scene's."""
     late = times >= times[-1] * 0.3
     t, values = times[late], motion[late] - motion[late].mean()

@@ -53,11 +53,11 @@ def _answer(result: IdentifyResult) -> list[Block]:
     ]
 
 
-def _values(result: IdentifyResult | ExpectedValues) -> Grid:
+def _values(result: IdentifyResult | ExpectedValues, column: str = "identified") -> Grid:
     rows = tuple(
         (label, *_cells(getattr(result, name), 0 if unit == "°" else 4), unit) for name, (label, unit) in NAMES.items()
     )
-    return Grid(("value", "identified", "95 % from", "to", "unit"), rows, frozenset({1, 2, 3}))
+    return Grid(("value", column, "95 % from", "to", "unit"), rows, frozenset({1, 2, 3}))
 
 
 def _cells(value: IdentifiedValue | None, digits: int) -> tuple[str, str, str]:
@@ -100,7 +100,7 @@ def plan_blocks(result: MeasurePlanResult) -> tuple[Block, ...]:
         Heading(f"{result.title}: recordings for abu identify"),
         facts(result, "runs", "rate_hz", "length_s", "noise_um", "largest_velocity_mm_per_s", "trial_mass_g_mm"),
         Heading("Expected values", "expected"),
-        _values(result.expected),
+        _values(result.expected, "expected"),
         Heading("At the rig", "rig"),
         *(Paragraph(text) for text in PLACES),
         *notices(result),

@@ -9,6 +9,7 @@ from abu_calc.features.identification import bank
 from abu_calc.features.identification.bank import Box, bank_of, simulated_track
 from abu_calc.features.identification.estimate import end_of
 from abu_calc.features.identification.tracks import window_centres
+from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.progress import silent
 from abu_calc.inputs.scene import read_any
 from abu_calc.simulation.scene_of_file import scene_from
@@ -18,9 +19,7 @@ NARROW = Box(np.array([2.6, 0.3, 4.0, 11.0]), np.array([2.7, 0.4, 4.2, 11.3]))
 
 
 def test_a_bank_is_kept_and_a_damaged_one_is_made_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setenv("LOCALAPPDATA", str(tmp_path))
-    monkeypatch.setattr(bank, "_folder", lambda: tmp_path / "banks")
+    monkeypatch.setenv(FOLDER, str(tmp_path / "banks"))
     scene = scene_from(read_any(str(scene_file(tmp_path))).scene)  # type: ignore[union-attr]
     centres, runs = window_centres(scene), []
     monkeypatch.setattr(bank, "simulated_track", lambda *a: runs.append(1) or simulated_track(*a))
@@ -41,6 +40,7 @@ def test_a_bank_is_kept_and_a_damaged_one_is_made_anew(tmp_path: Path, monkeypat
 
 def test_a_folder_that_cannot_be_written_keeps_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
-    monkeypatch.setattr(bank, "_folder", lambda: tmp_path / "file" / "banks")
+    monkeypatch.setenv(FOLDER, str(tmp_path / "file" / "banks"))
     scene = scene_from(read_any(str(scene_file(tmp_path))).scene)  # type: ignore[union-attr]
-    assert len(bank_of(scene, NARROW, 2, window_centres(scene), silent).tracks) == 2
+    with pytest.warns(RuntimeWarning, match="simulated starts are not kept"):
+        assert len(bank_of(scene, NARROW, 2, window_centres(scene), silent).tracks) == 2

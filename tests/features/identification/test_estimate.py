@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from abu_calc.features.identification.bank import Bank, Box
-from abu_calc.features.identification.estimate import Reading, Regression, end_of, inside, narrowed
+from abu_calc.features.identification.estimate import Regression, TrackReading, end_of, inside, narrowed
 
 CENTRES = 0.5 + 1.5 * np.linspace(0, 1, 60) ** 1.7
 BOX = Box(np.array([1.0, -1.0, -10.0, -10.0]), np.array([4.0, 3.0, 10.0, 10.0]))
-READING = Reading(CENTRES, 0.5, 40e-6, 0.2e-6, marked=True)
+READING = TrackReading(CENTRES, 0.5, 40e-6, 0.2e-6, marked=True)
 
 
 def track(point: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -31,13 +31,13 @@ def test_a_known_point_is_found_within_its_interval() -> None:
     low, high = regression.interval(features, best, 0, 1.92)
     assert low < best.point[0] < high and high - low < 0.4
     assert regression.likelihood(best.point, features)[0] >= regression.likelihood(truth, features)[0]
-    assert inside(best, narrowed(best, marked=True), (0, 1, 2, 3)) and not inside(
+    assert inside(best, narrowed(best, horizontal=True), (0, 1, 2, 3)) and not inside(
         best, Box(best.point, best.point + 1), (0,)
     )
 
 
 def test_features_of_an_exponential_are_those_of_the_equation() -> None:
-    quiet = Reading(CENTRES, 0.5, 40e-6, 1e-9, marked=True)
+    quiet = TrackReading(CENTRES, 0.5, 40e-6, 1e-9, marked=True)
     decay = 40e-6 * np.exp(-8.0 * (CENTRES - 0.5))
     features = quiet.features(decay.astype(complex))
     # |w| falls below 50, 25, 12 % of A₀ at ln 2/8, ln 4/8, ln(1/0.12)/8; interpolated between windows.

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import abu_calc
+from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.scene import read_any
 from tests.features.identification.recorded import record, scene_file
@@ -70,7 +71,7 @@ def test_a_scene_without_run_up_or_balls_is_refused(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_values_of_a_machine_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Tolerances: those asked of a horizontal spindle with a mark; the truth is simulated at a tighter tolerance."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
     path, files = starts(tmp_path, 8)
     result = abu_calc.identify(read_any(str(path)), files)
     assert result.rolling_drag_per_s.value == pytest.approx(DRAG, rel=0.15)
@@ -86,7 +87,7 @@ def test_values_of_a_machine_are_found(tmp_path: Path, monkeypatch: pytest.Monke
 @pytest.mark.hard
 def test_a_background_is_separated_by_a_run_without_balls(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Until then it looks like eccentricity."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
     moved = tmp_path
     background = 5e-6 * np.exp(1j * math.radians(-30))
     path, files = starts(moved, 8, background=complex(background))
@@ -102,7 +103,7 @@ def test_a_background_is_separated_by_a_run_without_balls(tmp_path: Path, monkey
 def test_wrong_assumptions_are_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, wrong: dict[str, float]
 ) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
     path, files = starts(tmp_path, 8, **wrong)
     result = abu_calc.identify(read_any(str(path)), files)
     assert {check.status for check in result.checks} & {"warn", "not-done"}
