@@ -25,6 +25,8 @@ FREEDOM: Final = 6.0
 """ν of the Student likelihood."""
 PRIOR_UM: Final = 12.0
 """Standard deviation of a component of Δ before anything is measured."""
+NARROWEST_UM, WIDEST_UM = 10.0, 20.0
+"""Half widths of a narrow box along a component of the eccentricity [µm]."""
 END: Final = 0.09
 """Share of the windows whose mean is the end: the last 15 % of the time."""
 DECAY: Final = 4
@@ -191,9 +193,9 @@ class Best:
     value: float
 
 
-def narrowed(best: Best, *, horizontal: bool) -> Box:
-    """A box round an estimate; on a vertical spindle friction hides more of the eccentricity."""
-    offset = 8.0 if horizontal else 14.0
+def narrowed(best: Best, end_error: float) -> Box:
+    """A box round an estimate; `end_error`: standard error of the mean end [µm], which friction spreads."""
+    offset = min(max(4 * end_error, NARROWEST_UM), WIDEST_UM)
     half = np.array([0.55, 1.0, offset, offset])
     return Box(best.point - half, best.point + half)
 

@@ -158,6 +158,12 @@ class Measured:
         """Features of every start."""
         return np.array([self.reading.features(track) for track in self.tracks])
 
+    @property
+    def end_error(self) -> float:
+        """Standard error of a component of the mean end [µm]."""
+        ends = np.array([end_of(track) for track in self.tracks]) * 1e6
+        return float(np.sqrt(np.mean(np.abs(ends - ends.mean()) ** 2) / 2)) / math.sqrt(max(len(ends) - 1, 1))
+
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
@@ -166,6 +172,7 @@ class Estimate:
     best: Best
     box: Box
     intervals: tuple[tuple[float, float], ...]
+    end_error: float
     fits_worse: float
     amplitude_off: float
     """Difference of the amplitudes at the start from those simulated, in standard errors."""
@@ -174,8 +181,17 @@ class Estimate:
 
     @property
     def offset_error(self) -> float:
-        """Half of the wider interval of the eccentricity's components [µm]; infinite without a mark."""
-        return max(SURE_UM, *((high - low) / 2 for low, high in self.intervals[2:])) if self.intervals[2:] else math.inf
+        """Half of the widest interval of a component of the eccentricity [µm]; infinite without a mark.
+
+        The interval is no narrower than two standard errors of the mean end: a likelihood may trust its prior.
+        """
+        halves = [(high - low) / 2 for low, high in self.intervals[2:]]
+        return max(SURE_UM, 2 * self.end_error, *halves) if halves else math.inf
+
+    @property
+    def offset_allowed(self) -> float:
+        """Largest `offset_error` [µm] with which an eccentricity is given: one that may be none has no direction."""
+        return min(UNSURE_UM, math.hypot(*self.best.point[2:]))
 
     def at_the_edge(self, *, marked: bool) -> tuple[str, ...]:
         """Names of the values at the edge of what was simulated."""
@@ -322,7 +338,7 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     best, simulated = _begun(scene, measured, regression, progress), MANY + (len(LEVERS) - 1) * FEW // 2
     parts = (0, 1, 2, 3) if measured.reading.marked else (0, 1)
     for _ in range(ROUNDS):
-        box = narrowed(best, horizontal=_horizontal(scene))
+        box = narrowed(best, measured.end_error)
         regression = Regression(bank_of(scene, box, FEW, centres, within(progress, "narrow")), measured.reading)
         best, simulated = regression.best(features), simulated + FEW
         if inside(best, box, parts):
@@ -341,6 +357,7 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
         best,
         box,
         tuple(intervals),
+        measured.end_error,
         float(np.mean([fit.value < best.value for fit in fits])),
         float(np.mean(amplitudes)) * math.sqrt(len(features)),
         float(np.mean(features[:, -1]) / means[0, -1]),
@@ -354,7 +371,7 @@ def _begun(scene: Scene, measured: Measured, wide: Regression, progress: Progres
     for number, (low, high) in enumerate(pairwise(LEVERS)):
         part = Box(WIDE.low.copy(), WIDE.high.copy())
         part.low[1], part.high[1] = math.log(low), math.log(high)
-        box = narrowed(wide.best(features, part=part), horizontal=_horizontal(scene))
+        box = narrowed(wide.best(features, part=part), measured.end_error)
         share = within(progress, f"range {number + 1} of {len(LEVERS) - 1}")
         regression = Regression(bank_of(scene, box, FEW // 2, measured.reading.centres, share), measured.reading)
         ends.append(regression.best(features))
@@ -444,23 +461,17 @@ def identified_values(measured: Measured, estimate: Estimate, mark_angle: float)
         IdentifiedValue(value=float(value) * unit, low=float(low) * unit, high=float(high) * unit)
         for value, (low, high), unit in zip(np.exp(estimate.best.point[:2]), ends, (1.0, 1e-3), strict=True)
     )
-    known = marked and NAMES[2] not in edge and estimate.offset_error <= UNSURE_UM
+    known = marked and NAMES[2] not in edge and estimate.offset_error <= estimate.offset_allowed
     eccentricity, angle = _offset(estimate, measured.reading.phase_error, mark_angle) if known else (None, None)
     return None if NAMES[0] in edge else drag, None if NAMES[1] in edge else friction, eccentricity, angle
-
-
-def _error_of_the_end(measured: Measured) -> float:
-    """Standard error of a component of the mean end [µm]."""
-    ends = np.array([end_of(track) for track in measured.tracks]) * 1e6
-    return float(np.sqrt(np.mean(np.abs(ends - ends.mean()) ** 2) / 2)) / math.sqrt(max(len(ends) - 1, 1))
 
 
 def _offset(estimate: Estimate, phase_error: float, mark_angle: float) -> tuple[IdentifiedValue, IdentifiedValue]:
     """Magnitude [mm] and angle from the mark [deg], with intervals from those of the components and of the mark."""
     x, y = (float(value) for value in estimate.best.point[2:])
     size, half = math.hypot(x, y), estimate.offset_error
-    spread = from_si(math.asin(half / size) + phase_error, "deg") if size > half else 180.0
-    length = IdentifiedValue(value=size * 1e-3, low=max(0.0, size - half) * 1e-3, high=(size + half) * 1e-3)
+    spread = from_si(math.asin(min(1.0, half / size)) + phase_error, "deg")
+    length = IdentifiedValue(value=size * 1e-3, low=(size - half) * 1e-3, high=(size + half) * 1e-3)
     angle = wrapped_deg(math.atan2(y, x) - to_si(mark_angle, "deg"))
     return length, IdentifiedValue(value=angle, low=angle - spread, high=angle + spread)
 
@@ -493,7 +504,7 @@ def _checks(scene: Scene, measured: Measured, estimate: Estimate | None) -> Iter
         f"At the edge of the range: {', '.join(edge)}" if edge else "All values lie inside",
     )
     mean = complex(np.mean([end_of(track) for track in measured.tracks])) * 1e6
-    yield from _of_the_ends(mean, _error_of_the_end(measured), estimate, marked=marked)
+    yield from _of_the_ends(mean, measured.end_error, estimate, marked=marked)
     yield _trend(measured)
     off = abs(estimate.amplitude_off) > OFF and abs(estimate.amplitude_ratio - 1) > 0.05
     ratio = estimate.amplitude_ratio
@@ -516,7 +527,7 @@ def _of_the_ends(mean: complex, error: float, estimate: Estimate, *, marked: boo
         yield coded("ABU1103", "not-done", "There is no mark, so that ends have no direction", requested=False)
         yield coded("ABU1106", "not-done", "There is no mark", requested=False)
         return
-    known = estimate.offset_error <= UNSURE_UM
+    known = estimate.offset_error <= estimate.offset_allowed
     offset = complex(*estimate.best.point[2:])
     if known:
         apart = abs(offset + mean)
@@ -536,7 +547,7 @@ def _of_the_ends(mean: complex, error: float, estimate: Estimate, *, marked: boo
         "pass" if known else "not-done",
         "Half of the interval of the eccentricity",
         estimate.offset_error,
-        UNSURE_UM,
+        estimate.offset_allowed,
         "µm",
     )
 
