@@ -34,7 +34,7 @@ def identify(
     ] = None,
     write: Annotated[
         str | None,
-        typer.Option("--write", metavar="FILE", help="Machine file to write: this one with the identified values."),
+        typer.Option("--write", metavar="FILE", help="File to write: this one with the identified values."),
     ] = None,
 ) -> Outcome:
     """Identify viscous drag rate, rolling friction and race eccentricity.

@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 import abu_calc
+from abu_calc.features.identification.bank import WIDE
+from abu_calc.features.identification.estimate import Best
+from abu_calc.features.identification.study import Estimate
 from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.scene import read_any
@@ -107,3 +110,36 @@ def test_wrong_assumptions_are_noticed(
     path, files = starts(tmp_path, 8, **wrong)
     result = abu_calc.identify(read_any(str(path)), files)
     assert {check.status for check in result.checks} & {"warn", "not-done"}
+
+
+@pytest.mark.hard
+def test_an_eccentricity_that_friction_hides_is_not_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A vertical spindle with a lever arm of 12 µm: the ends scatter by 30 µm."""
+    monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
+    path = scene_file(tmp_path)
+    path.write_text(path.read_text(encoding="utf-8").replace("gravity = {}\n", ""), encoding="utf-8")
+    places = np.add.outer(np.random.default_rng(2).uniform(-180, 180, 10), (0.0, 80.0, 170.0, 265.0))
+    files = []
+    for k, angles in enumerate(places):
+        text = path.read_text(encoding="utf-8")
+        start = tmp_path / f"scene{k}.toml"
+        start.write_text(
+            text.replace("[-150.6, -110.2, -69.8, -29.4]", str([round(float(a), 1) for a in angles])), "utf-8"
+        )
+        files.append(record(start, tmp_path / f"start{k:02d}.csv", DRAG, 12e-6, complex(OFFSET), k))
+    result = abu_calc.identify(read_any(str(path)), files)
+    assert result.race_eccentricity_mm is None and result.race_eccentricity_angle_deg is None
+    assert result.status == "not-done" and result.rolling_friction_mm is not None
+
+
+@pytest.mark.parametrize(("half", "given"), [(3.0, True), (6.0, False), (9.0, False)])
+def test_an_eccentricity_within_its_own_interval_is_not_known(half: float, given: bool) -> None:
+    """5 µm of eccentricity: an interval of ± 6 µm holds none at all."""
+    best = Best(np.array([2.5, 0.5, 3.0, 4.0]), 0.0)
+    intervals = ((2.4, 2.6), (0.3, 0.7), (3.0 - half, 3.0 + half), (3.5, 4.5))
+    estimate = Estimate(best, WIDE, intervals, 0.1, 0.5, 0.0, 1.0, 1)
+    assert estimate.offset_error == half and estimate.offset_allowed == 5.0
+    assert (estimate.offset_error <= estimate.offset_allowed) is given
+    assert estimate.at_the_edge(marked=True) == ()
+    edge = Estimate(Best(np.array([2.5, math.log(0.3), 3.0, 4.0]), 0.0), WIDE, intervals, 0.1, 0.5, 0.0, 1.0, 1)
+    assert edge.at_the_edge(marked=True) == ("lever arm",)
