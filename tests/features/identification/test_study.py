@@ -113,8 +113,10 @@ def test_wrong_assumptions_are_noticed(
 
 
 @pytest.mark.hard
-def test_an_eccentricity_that_friction_hides_is_not_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A vertical spindle with a lever arm of 12 µm: the ends scatter by 30 µm."""
+def test_an_eccentricity_that_friction_hides_is_not_given_wrongly(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A vertical spindle with a lever arm of 12 µm: the interval holds the truth, or nothing is given."""
     monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
     path = scene_file(tmp_path)
     path.write_text(path.read_text(encoding="utf-8").replace("gravity = {}\n", ""), encoding="utf-8")
@@ -128,8 +130,10 @@ def test_an_eccentricity_that_friction_hides_is_not_given(tmp_path: Path, monkey
         )
         files.append(record(start, tmp_path / f"start{k:02d}.csv", DRAG, 12e-6, complex(OFFSET), k))
     result = abu_calc.identify(read_any(str(path)), files)
-    assert result.race_eccentricity_mm is None and result.race_eccentricity_angle_deg is None
-    assert result.status == "not-done" and result.rolling_friction_mm is not None
+    length = result.race_eccentricity_mm
+    assert (length is None) == (result.race_eccentricity_angle_deg is None) == (result.status == "not-done")
+    assert length is None or length.low <= abs(OFFSET) * 1e3 <= length.high
+    assert result.rolling_friction_mm.low <= 0.012 <= result.rolling_friction_mm.high
 
 
 @pytest.mark.parametrize(("half", "given"), [(3.0, True), (6.0, False), (9.0, False)])
