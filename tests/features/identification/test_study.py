@@ -73,12 +73,16 @@ def test_a_scene_without_run_up_or_balls_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_values_of_a_machine_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Tolerances: those asked of a horizontal spindle with a mark; the truth is simulated at a tighter tolerance."""
+    """Three standard deviations of eight starts: 5 % of the drag, and 0.17 in the logarithm of the lever arm.
+
+    The truth is simulated at a tighter tolerance.
+    """
     monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
     path, files = starts(tmp_path, 8)
     result = abu_calc.identify(read_any(str(path)), files)
     assert result.rolling_drag_per_s.value == pytest.approx(DRAG, rel=0.15)
-    assert result.rolling_friction_mm.value == pytest.approx(LEVER * 1e3, rel=0.4)
+    assert abs(math.log(result.rolling_friction_mm.value / (LEVER * 1e3))) < 0.51
+    assert result.rolling_friction_mm.low <= LEVER * 1e3 <= result.rolling_friction_mm.high
     assert result.race_eccentricity_mm.value == pytest.approx(0.012, abs=0.001)
     assert result.race_eccentricity_angle_deg.value == pytest.approx(70, abs=10)
     assert result.rolling_drag_per_s.low < result.rolling_drag_per_s.value < result.rolling_drag_per_s.high
