@@ -66,7 +66,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "size",
         "design.command",
-        ("design.study:SizeResult",),
+        ("design.study:SizeResult", "two_races.records:TwoRaceSizeResult"),
         "design.figures:size_extras",
         figures=(
             Known("section", "", True),
