@@ -108,16 +108,16 @@ class TwoRaceMachineTable(Table):
     )
     rotor_polar_inertia_kg_m2: float = Field(
         default=0.0,
-        description="Polar moment of inertia of what spins [kg·m²]; {range}, at most twice the transverse one. Default: "
-        "{default}, which leaves gyroscopic moments out.",
+        description="Polar moment of inertia of what spins [kg·m²]; {range}, at most twice the transverse one. "
+        "Default: {default}, which leaves gyroscopic moments out.",
         examples=[0.09],
         ge=0,
         le=1e6,
     )
     handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=100)] = Field(
         default=(),
-        description="Places on the spindle axis where levels are wanted: [[machine.handle]]. Without any: the bearings, "
-        "or the races of a machine whose bearings are not given.",
+        description="Places on the spindle axis where levels are wanted: [[machine.handle]]. Without any: the "
+        "bearings, or the races of a machine whose bearings are not given.",
     )
 
     @property

@@ -8,8 +8,8 @@ import typer
 from abu_calc.cli.command import Machine, Overrides, add_command
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
-from abu_calc.reporting.blocks import Block
 from abu_calc.registry import imported
+from abu_calc.reporting.blocks import Block
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -33,13 +33,11 @@ def size(
     from abu_calc.inputs.read_machine import read_machine
 
     source = read_machine(machine, set_ or ())
-    if source.two_races is not None:
-        with progress(how) as tell:
-            sized = imported("two_races.study:size_two_races")(source, accuracy, tell, os.cpu_count() or 1)
-        outcome: Outcome = imported("two_races.view:two_race_outcome")(sized)
-        return outcome
     with progress(how) as tell:
         result = study(source, accuracy, tell, os.cpu_count() or 1)
+    if source.two_races is not None:
+        outcome: Outcome = imported("two_races.view:two_race_outcome")(result)
+        return outcome
     short = None if explain else lambda: _screen(result)
     return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
 

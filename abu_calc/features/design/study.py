@@ -40,6 +40,7 @@ from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
 from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check, not_simulated
@@ -161,11 +162,14 @@ def size(
     """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
 
     `workers`: how many starts run side by side, in threads; the result does not depend on it. None: one for each
-    processor.
+    processor. A machine with two races gets a `TwoRaceSizeResult`, whose `autobalancers` are both.
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
     ACCURACY.check(accuracy)
     WORKERS.check(1 if workers is None else workers)
+    if machine.two_races is not None:
+        two: SizeResult = imported("two_races.study:size_two_races")(machine, accuracy, progress, workers)
+        return two
     tables = machine.whole("size")
     with machine.located():
         seats = _seats(tables)

@@ -1,7 +1,7 @@
 """A machine with two races in SI, and the machine with one race that stands for each of them.
 
-A race feels the mass M_i = (J_t − J_p + M·z_k²)/(z₁ − z₂)², k the other race: an eccentricity Δ of race i alone asks its
-balls for M_i·Δ. Balls, housing and strength of a race are those of a machine of that mass with one race.
+A race feels the mass M_i = (J_t − J_p + M·z_k²)/(z₁ − z₂)², k the other race: an eccentricity Δ of race i alone asks
+its balls for M_i·Δ. Balls, housing and strength of a race are those of a machine of that mass with one race.
 """
 
 import math

@@ -110,6 +110,15 @@ class OneRace(Record):
 
 
 @record
+class TwoRaceResponse(Record):
+    """Largest displacement of any place at a speed, worst phase of the imbalances."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    without_um: Annotated[float, Quantity("displacement without autobalancers", "w")]
+    balanced_um: Annotated[float | None, Quantity("displacement with both races still", "w", 4, "null: no balance")]
+
+
+@record
 class TwoRaceSizeResult(Result):
     """A design of two autobalancers on one spindle, its checks, and simulated start cases."""
 
@@ -124,3 +133,4 @@ class TwoRaceSizeResult(Result):
     one_race: OneRace | None
     vibration: TwoRaceVibration
     ensemble: TwoRaceEnsemble | None
+    response: tuple[TwoRaceResponse, ...]

@@ -20,8 +20,10 @@ from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.balls import half_angle
+from abu_calc.formulas.motion import HARDLY, SETTLED
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import level_from_velocity
 from abu_calc.simulation.response import amplitude_window
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.simulate import simulate
@@ -41,10 +43,10 @@ LIMITS: Final = 4.0
 """A scene lasts as many settling times permitted, from full speed."""
 STILL: Final = 0.05
 """Share of the rotor's speed: balls stall if their mean speed against the race stays above it."""
+SMALLEST: Final = 1e-12
+"""Displacement [m] that counts as none."""
 PER_TURN: Final = 16
 """Samples of a revolution."""
-SETTLED: Final = 0.1
-"""Share of the displacement without balls, above the mean at the end, below which a race counts as settled."""
 
 Array = NDArray[np.float64]
 
@@ -208,10 +210,13 @@ def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceR
         race_displacements=(ends[0], ends[1]),
         displacements=tuple(_amplitude(scene, run.trajectory, window, held.place) for held in case.places),
         displacements_without=tuple(abs(case.rotor.whirl(held.place, wheels, case.speed)) for held in case.places),
-        settling_time=_settled(scene, run.trajectory.at(times), case.races, bare),
+        settling_time=_settled(
+            scene, run.trajectory.at(times), (wheels_share(design, 0, start), wheels_share(design, 1, start))
+        ),
         slip=slip,
         balances=slip <= STILL and all(
-            end <= max(bare_ / 2, allowed_displacement(design, k)) for k, (end, bare_) in enumerate(zip(ends, bare, strict=True))
+            end <= max(without / 2, allowed_displacement(design, k))
+            for k, (end, without) in enumerate(zip(ends, bare, strict=True))
         ),
     )  # fmt: skip
 
@@ -220,6 +225,11 @@ def allowed_displacement(design: TwoRaceDesign, race: int) -> float:
     """Displacement [m] that eccentricity and friction may leave at a race whose balls balance."""
     budget = design.races[race].design.autobalancer.budget
     return budget.race_eccentricity + budget.rolling_friction
+
+
+def level_of(displacement: float, speed: float) -> float:
+    """Velocity level [dB] of a circle of this radius [m] at a speed [rad/s]; no less than that of SMALLEST."""
+    return level_from_velocity(max(displacement, SMALLEST) * speed / math.sqrt(2))
 
 
 def _amplitude(scene: Scene, run: Samples, times: Array, place: float) -> float:
@@ -231,23 +241,26 @@ def _amplitude(scene: Scene, run: Samples, times: Array, place: float) -> float:
 def _revolutions(scene: Scene) -> Array:
     """Times [s] of all whole revolutions at full speed, PER_TURN for each."""
     turns = int((scene.duration - scene.full_speed) / scene.revolution)
-    times: Array = scene.full_speed + scene.revolution / PER_TURN * np.arange(turns * PER_TURN)
-    return times
+    return np.asarray(scene.full_speed + scene.revolution / PER_TURN * np.arange(turns * PER_TURN), dtype=float)
 
 
-def _settled(scene: Scene, states: Array, races: tuple[float, float], bare: list[float]) -> float | None:
-    """Time [s] from full speed after which both races stay below their mean at the end plus a tenth of the bare one.
+def _settled(scene: Scene, states: Array, needs: tuple[complex, complex]) -> float | None:
+    """Settling time [s] from full speed of the slower race: residual imbalance of each race as of one race alone.
 
-    The displacement of a race in a revolution is the largest in it about the mean of that revolution.
+    That is |S_i + Σ m·R_p·e^{iθ}|, S_i what the race has to balance [kg m]. The race has settled when it stays below
+    its mean over the last twentieth plus a tenth of S_i, or of a hundredth of what its balls could carry.
     """
-    turns, last = states.shape[1] // PER_TURN, 0
-    for place, without in zip(races, bare, strict=True):
-        at = scene.axis_place(states, place).reshape(2, turns, PER_TURN)
-        radius = np.sqrt(((at - at.mean(axis=2, keepdims=True)) ** 2).sum(axis=0)).max(axis=1)
-        limit = radius[-max(1, turns // 20) :].mean() + SETTLED * without
-        above = np.flatnonzero(radius > limit)
+    first, last = 2 * len(scene.support.names), 0
+    for race, need in zip(scene.races, needs, strict=True):
+        count = len(race.ball_masses)
+        moments = np.array(race.ball_masses) * race.pitch_radius
+        residual = np.abs(need + moments @ np.exp(1j * states[first : first + count]))
+        first += count
+        end = residual[-max(1, len(residual) // 20) :].mean()
+        limit = end + SETTLED * max(abs(need), HARDLY * race.static_moment)
+        above = np.flatnonzero(residual > limit)
         last = max(last, int(above[-1]) + 1 if len(above) else 0)
-    time = last * scene.revolution
+    time = last * scene.revolution / PER_TURN
     return time if time <= 0.95 * (scene.duration - scene.full_speed) else None
 
 

@@ -1,13 +1,24 @@
 """Study behind `abu size` of a machine with two races: sizing, stability, start cases, checks."""
 
-import math
 import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
 from abu_calc.dynamics.stability.verdict import stability
+from abu_calc.features.two_races.advice import tried_change
 from abu_calc.features.two_races.case import TwoRaceCase, read_case
+from abu_calc.features.two_races.checks import (
+    SpeedStability,
+    capacity_checks,
+    level_checks,
+    mass_checks,
+    race_checks,
+    region_check,
+    slowest,
+    stability_check,
+    start_checks,
+)
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.records import (
     OneRace,
@@ -15,6 +26,7 @@ from abu_calc.features.two_races.records import (
     TwoRaceAutobalancer,
     TwoRaceEnsemble,
     TwoRaceFrequency,
+    TwoRaceResponse,
     TwoRaceSizeResult,
     TwoRaceSpread,
     TwoRaceVibration,
@@ -24,6 +36,7 @@ from abu_calc.features.two_races.start_cases import (
     STILL,
     LostRun,
     TwoRaceRun,
+    level_of,
     run_of,
     stability_scene,
     start_cases,
@@ -37,35 +50,29 @@ from abu_calc.formulas.two_races import (
     two_races_balance,
 )
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
-from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.parallel import side_by_side
+from abu_calc.foundation.parallel import processors, side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
-from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.result import Provenance
 
 ONE_RACE_PLACES: Final = 9
 """Places of a single race that are tried between both races."""
-SMALL_PLACE: Final = 1e-12
-"""Displacement [m] that counts as none."""
-
-
-@dataclass(frozen=True)
-class Stable:
-    """Stability at one speed [rad/s]: by the sufficient rule (`growth` None) or by eigenvalues [1/s]."""
-
-    speed: float
-    stable: bool | None
-    growth: float | None
-    reason: str = ""
+RESPONSE_TO: Final = 1.1
+RESPONSE_STEPS: Final = 200
+"""Top of the speeds of the response over the highest working speed, and their number."""
+ACCURACY: Final = 0.05
+"""Accuracy of a start case: many of them are simulated."""
 
 
 def size_two_races(
-    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1
+    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: int | None = None
 ) -> TwoRaceSizeResult:
     """Size both autobalancers, judge stability, and simulate start cases over the unknown phases.
+
+    `accuracy` of the simulations, ACCURACY at best; `workers`: start cases side by side, None: one for each processor.
 
     Raises InputError with file, line and key for what cannot be made, and if the file has one race.
     """
@@ -77,20 +84,21 @@ def size_two_races(
     speeds = dict.fromkeys((*design.case.speed_range, design.case.speed))
     above = all(two_races_balance(design.case.rotor, speed) for speed in speeds)
     judged = tuple(_stability(design, speed) for speed in speeds) if above else ()
-    runs = tuple(_runs(design, max(accuracy, 0.05), progress, workers)) if above else ()
+    accuracy, threads = max(accuracy, ACCURACY), processors() if workers is None else workers
+    runs = tuple(_runs(design, accuracy, progress, threads)) if above else ()
     one = _one_race(design)
     known = [run for run in runs if isinstance(run, TwoRaceRun)]
     vibration = _vibration(design.case, known)
     return TwoRaceSizeResult(
         title=table.machine.name,
         checks=(
-            _region(design, one),
-            *_stable_check(design, judged),
-            *_capacities(design),
-            *_of_races(design),
-            *_masses(design),
-            *_levels(design, vibration, known),
-            *_starts(design, runs),
+            region_check(design, one),
+            *stability_check(design, judged),
+            *capacity_checks(design),
+            *race_checks(design),
+            *mass_checks(design),
+            *level_checks(design, vibration, known),
+            *start_checks(design, runs, _advice(design, known, accuracy, progress, threads)),
         ),
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
@@ -103,7 +111,44 @@ def size_two_races(
         one_race=one,
         vibration=vibration,
         ensemble=_ensemble(runs),
+        response=tuple(_response(design.case)),
     )
+
+
+def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
+    """Displacements over the speeds of a run-up, by closed forms."""
+    top = RESPONSE_TO * max(case.speed_range)
+    for step in range(1, RESPONSE_STEPS + 1):
+        speed = top * step / RESPONSE_STEPS
+        without = max(
+            sum(abs(case.rotor.whirl(held.place, [wheel], speed)) for wheel in case.wheels) for held in case.places
+        )
+        still = two_races_balance(case.rotor, speed)
+        yield TwoRaceResponse(
+            speed_rpm=from_si(speed, "rpm"),
+            without_um=from_si(without, "um"),
+            balanced_um=from_si(_off(case), "um") if still else None,
+        )
+
+
+def _off(case: TwoRaceCase) -> float:
+    """Displacement [m] of the place that moves most while both races rotate about their eccentric centres."""
+    first, second = case.races
+    arms = ((abs(held.place - second) + abs(held.place - first)) / abs(first - second) for held in case.places)
+    return case.eccentricity * max(arms)
+
+
+def _advice(
+    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int
+) -> Action | None:
+    """A drag rate that was tried, if a start case is late or does not balance."""
+    limit = design.case.table.limits.settling_time_s
+    late = [run for run in runs if not run.balances or run.settling_time is None or run.settling_time > limit]
+    if not late or patience.over():
+        return None
+    slow = slowest(runs)
+    first = slow[1] if slow is not None else next((run for run in late if run.settling_time is None), late[0])
+    return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers)
 
 
 def _runs(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int) -> Iterator[TwoRaceRun | LostRun]:
@@ -112,7 +157,7 @@ def _runs(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: i
         yield LostRun(tasks[index][1], "the time of --patience was over") if patience.over() else run
 
 
-def _stability(design: TwoRaceDesign, speed: float) -> Stable:
+def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
     """The sufficient rule for every forward whirl; where it does not hold, eigenvalues at phases of the imbalances."""
     case = design.case
     balls = [PlacedImbalance(place, mass) for place, mass in zip(case.races, design.ball_masses, strict=True)]
@@ -120,7 +165,7 @@ def _stability(design: TwoRaceDesign, speed: float) -> Stable:
     slower = [mode for mode in modes if mode.frequency < speed]
     margins = [mode_margin(mode, balls, speed, drag, case.inertia_factor) for mode in slower for drag in case.drags]
     if margins and len(slower) == len(modes) and all(margin.holds for margin in margins):
-        return Stable(speed, True, None)
+        return SpeedStability(speed, True, None)
     growths: list[float] = []
     for phase in PHASES if case.unknown_phases else (0.0,):
         phases = tuple(phase * k for k in range(1, case.unknown_phases + 1))
@@ -129,88 +174,11 @@ def _stability(design: TwoRaceDesign, speed: float) -> Stable:
         try:
             found = stability(scene, half_angle(abu.ball_diameter / 2, abu.pitch_radius))
         except NotTrustworthyError as error:
-            return Stable(speed, None, None, str(error).splitlines()[0])
+            return SpeedStability(speed, None, None, str(error).splitlines()[0])
         if found.growth_rate is None:
-            return Stable(speed, found.stable, None, found.reason or "")
+            return SpeedStability(speed, found.stable, None, found.reason or "")
         growths.append(found.growth_rate)
-    return Stable(speed, max(growths) < 0, max(growths))
-
-
-def _region(design: TwoRaceDesign, one: OneRace | None) -> Check:
-    case = design.case
-    critical = max(case.rotor.critical_speeds(), default=0.0)
-    balances = all(two_races_balance(case.rotor, speed) for speed in case.speed_range)
-    limit = one.limit_to_place_mm if one is not None else None
-    if case.rotor.forward_inertia <= 0:
-        remedy = "A rotor with a larger polar than transverse inertia takes one race: remove one [[autobalancer]]."
-    elif limit is not None:
-        remedy = f"Raise the speed, soften the bearings, or use one race within {limit:.4g} mm of the centre of mass."
-    else:
-        remedy = "Raise the speed, or soften the bearings."
-    return coded(
-        "ABU101", verdict(balances), "Balls in two races balance above both critical speeds only",
-        from_si(min(case.speed_range), "hz"), from_si(critical, "hz"), "Hz", None if balances else remedy, "least",
-    )  # fmt: skip
-
-
-def _stable_check(design: TwoRaceDesign, judged: Sequence[Stable]) -> Iterator[Check]:
-    if not judged:
-        yield coded("ABU103", "not-done", "The speed is not above both critical speeds", remedy="See ABU101.")
-        return
-    unknown = next((each for each in judged if each.stable is None), None)
-    if unknown is not None:
-        yield coded("ABU103", "not-done", f"Stability is not known: {unknown.reason}", remedy="See the notes.")
-        return
-    worst = max(judged, key=lambda each: -math.inf if each.growth is None else each.growth)
-    if worst.growth is None:
-        yield coded("ABU103", "pass", "A sufficient rule holds for both whirls at every speed judged")
-        return
-    speed = f"{from_si(worst.speed, 'rpm'):.6g} rpm"
-    passed = all(each.stable for each in judged)
-    yield coded(
-        "ABU103", verdict(passed), f"Fastest-growing disturbance of the balanced state, at {speed}", worst.growth, 0.0,
-        "1/s", None if passed else "Raise rolling_drag_per_s of both races, or damp the bearings.",
-    )  # fmt: skip
-
-
-def _capacities(design: TwoRaceDesign) -> Iterator[Check]:
-    for number, race in enumerate(design.races, 1):
-        table = design.case.table.autobalancer[number - 1]
-        needed = race.need * table.capacity_margin
-        passed = race.design.autobalancer.capacity >= needed * (1 - 1e-9)
-        yield coded(
-            "ABU201", verdict(passed),
-            f"{race.design.autobalancer.ball_count} balls must carry the required capacity of the worst phase times "
-            f"the margin {table.capacity_margin:g}", from_si(race.design.autobalancer.capacity, "g_mm"),
-            from_si(needed, "g_mm"), "g·mm",
-            None if passed else f"Increase max_outer_diameter_mm or max_width_mm of [[autobalancer]] {number}.",
-            "least", of=f"race {number}",
-        )  # fmt: skip
-
-
-def _of_races(design: TwoRaceDesign) -> Iterator[Check]:
-    """Checks of each race by itself; their actions were tried on one race, so they are left out here."""
-    for number, race in enumerate(design.races, 1):
-        for check in race.design.checks:
-            remedy = None if check.status == "pass" else "Change the keys of that [[autobalancer]]; see `abu explain`."
-            yield replace(check, name=f"{check.name}, race {number}", remedy=remedy, overrides=())
-
-
-def _masses(design: TwoRaceDesign) -> Iterator[Check]:
-    machine = design.case.table.machine.mass_kg
-    for number, (race, table) in enumerate(zip(design.races, design.case.table.autobalancer, strict=True), 1):
-        share = race.design.autobalancer.mass / machine
-        passed = share <= table.max_mass_fraction
-        yield coded(
-            "ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",
-            100 * share, 100 * table.max_mass_fraction, "%",
-            None if passed else f"Balance the wheels better, or raise max_mass_fraction of [[autobalancer]] {number}.",
-            of=f"race {number}",
-        )  # fmt: skip
-
-
-def _level(displacement: float, speed: float) -> float:
-    return level_from_velocity(max(displacement, SMALL_PLACE) * speed / math.sqrt(2))
+    return SpeedStability(speed, max(growths) < 0, max(growths))
 
 
 def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibration:
@@ -225,9 +193,9 @@ def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibratio
         rows.append(
             PlaceOnSpindleLevel(
                 name=held.name,
-                level_before_db=_level(without, case.speed),
-                level_after_db=_level(statistics.median(medians), case.speed) if medians else None,
-                level_after_worst_db=_level(max(run.displacements[index] for run in runs), case.speed)
+                level_before_db=level_of(without, case.speed),
+                level_after_db=level_of(statistics.median(medians), case.speed) if medians else None,
+                level_after_worst_db=level_of(max(run.displacements[index] for run in runs), case.speed)
                 if runs
                 else None,
             )
@@ -247,86 +215,13 @@ def _largest(values: Sequence[float | None]) -> float | None:
     return max((value for value in values if value is not None), default=None)
 
 
-def _levels(design: TwoRaceDesign, vibration: TwoRaceVibration, runs: Sequence[TwoRaceRun]) -> Iterator[Check]:
-    limit = design.case.table.limits.vibration_level_db
-    if vibration.level_after_db is None:
-        yield coded("ABU401", "not-done", "No start case balances, so no level is known", remedy="See ABU701.")
-        return
-    given = max(
-        _level(max(run.displacements), design.case.speed) for run in runs if run.case.drag_factor == 1
-    )  # fmt: skip
-    loudest = max(_level(max(run.displacements), design.case.speed) for run in runs)
-    passed, safe = given <= limit, loudest <= limit
-    yield coded(
-        "ABU401", verdict(passed, safe),
-        "Level at the loudest place with the autobalancers, loudest start case at the given drag rate"
-        + ("" if safe else f"; in hot or cold oil {loudest:.1f} dB"), given, limit, "dB",
-        None if passed and safe else "Reduce race_eccentricity_mm and rolling_friction_mm of both races.",
-    )  # fmt: skip
-    lowered = vibration.level_after_db < vibration.level_before_db
-    yield coded(
-        "ABU402", verdict(lowered), "Level at the loudest place, median of the start cases, against that without",
-        vibration.level_after_db, vibration.level_before_db, "dB",
-        None if lowered else "The imbalances are too small for these races: use none, or races that run truer.",
-    )  # fmt: skip
-
-
-def _starts(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun]) -> Iterator[Check]:
-    if not runs:
-        for code in ("ABU701", "ABU702", "ABU704"):
-            yield coded(code, "not-done", "Not simulated below a critical speed", remedy="See ABU101.")
-        return
-    lost = [run for run in runs if isinstance(run, LostRun)]
-    if lost:
-        text = f"{len(lost)} of {len(runs)} start cases gave no answer: {lost[0].reason}"
-        for code in ("ABU701", "ABU702", "ABU704"):
-            yield coded(code, "not-done", text, remedy="Allow more time: --patience.")
-        return
-    known = [run for run in runs if isinstance(run, TwoRaceRun)]
-    given, limit = [run for run in known if run.case.drag_factor == 1], design.case.table.limits.settling_time_s
-    bad = [run for run in given if not run.balances]
-    elsewhere = [run for run in known if not run.balances and run.case.drag_factor != 1]
-    yield coded(
-        "ABU701", verdict(not bad, not elsewhere), "Start cases in which both races balance, at the given drag rate"
-        + (f"; not: {bad[0].case.name}" if bad else "") + (f"; not in all oils: {elsewhere[0].case.name}" if elsewhere else ""),
-        float(len(given) - len(bad)), float(len(given)), None,
-        "Raise rolling_drag_per_s of both races, or the distance from the critical speeds." if bad or elsewhere else None,
-        "least",
-    )  # fmt: skip
-    slow, slowest = _slowest(given), _slowest(known)
-    in_time = slow is not None and slow[0] <= limit
-    all_in_time = slowest is not None and slowest[0] <= limit
-    yield coded(
-        "ABU702", verdict(in_time, all_in_time),
-        "Slowest start case at the given drag rate" + (f": {slow[1].case.name}" if slow else " does not settle")
-        + ("" if all_in_time or slowest is None else f"; in hot or cold oil {slowest[0]:.2f} s"),
-        None if slow is None else slow[0], limit, "s",
-        None if in_time and all_in_time else "Change rolling_drag_per_s, use heavier balls, or permit a longer settling time.",
-    )  # fmt: skip
-    stalled = [run for run in known if run.slip > STILL]
-    at_given = [run for run in stalled if run.case.drag_factor == 1]
-    yield coded(
-        "ABU704", verdict(not at_given, not stalled), "Start cases that leave balls stalled"
-        + (f": {stalled[0].case.name}" if stalled else ""), float(len(stalled)), 0.0, None,
-        "Raise rolling_drag_per_s of both races, or run up faster." if stalled else None,
-    )  # fmt: skip
-
-
-def _slowest(runs: Sequence[TwoRaceRun]) -> tuple[float, TwoRaceRun] | None:
-    """Longest settling time [s] and its run; None if one does not settle."""
-    if any(run.settling_time is None for run in runs):
-        return None
-    run = max(runs, key=lambda each: each.settling_time or 0.0)
-    return run.settling_time or 0.0, run
-
-
 def _ensemble(runs: Sequence[TwoRaceRun | LostRun]) -> TwoRaceEnsemble | None:
     known = [run for run in runs if isinstance(run, TwoRaceRun)]
     if not known:
         return None
     times = [run.settling_time for run in known]
     settled = [time for time in times if time is not None]
-    slow = _slowest(known)
+    slow = slowest(known)
     return TwoRaceEnsemble(
         members=len(runs),
         balanced=sum(run.balances for run in known),
@@ -340,7 +235,7 @@ def _ensemble(runs: Sequence[TwoRaceRun | LostRun]) -> TwoRaceEnsemble | None:
     )
 
 
-def _frequency(design: TwoRaceDesign, judged: Sequence[Stable], above: bool) -> TwoRaceFrequency:
+def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability], above: bool) -> TwoRaceFrequency:
     case = design.case
     critical = case.rotor.critical_speeds()
     below = [speed for speed in critical if speed < min(case.speed_range)]
@@ -377,7 +272,7 @@ def _one_race(design: TwoRaceDesign) -> OneRace | None:
     if not tried:
         return None
     rest, place = min(tried)
-    level = _level(rest + case.eccentricity, case.speed)
+    level = level_of(rest + case.eccentricity, case.speed)
     return OneRace(
         plane_mm=from_si(place, "mm"),
         level_db=level,

@@ -73,11 +73,11 @@ def _numbers(result: TwoRaceSizeResult) -> list[Block]:
         )
         for place in vibration.handles
     )  # fmt: skip
-    heading = "Vibration, dB re 5e-8 m/s", "without, worst phase", "with, median", "loudest, any oil"
+    heading = "Vibration, dB re 5e-8 m/s", "without", "median", "loudest"
     blocks: list[Block] = [Paragraph(""), Grid(heading, cells, frozenset({1, 2, 3}))]
     limit = limit_in_file(next((check for check in result.checks if check.code == "ABU401"), None))
-    if limit:
-        blocks.append(Paragraph(f"Limit of the level: {limit}."))
+    meant = "Without autobalancers: worst phase. With them: median and loudest start case, any oil."
+    blocks.append(Paragraph(f"{meant} Limit: {limit}." if limit else meant))
     if ensemble is not None:
         spread = ensemble.settling_time_s
         blocks += [
