@@ -193,7 +193,7 @@ def _race(design: TwoRaceDesign, race: int, start: StartCase, imbalance: complex
 def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceRun | LostRun:
     """One start case simulated to an accuracy, and what came of both races."""
     scene = scene_of(design, start)
-    times = _revolutions(scene)
+    times = revolution_times(scene)
     try:
         run = simulate(scene, accuracy, times)
     except NotTrustworthyError as error:
@@ -210,7 +210,7 @@ def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceR
         race_displacements=(ends[0], ends[1]),
         displacements=tuple(_amplitude(scene, run.trajectory, window, held.place) for held in case.places),
         displacements_without=tuple(abs(case.rotor.whirl(held.place, wheels, case.speed)) for held in case.places),
-        settling_time=_settled(
+        settling_time=settling_time(
             scene, run.trajectory.at(times), (wheels_share(design, 0, start), wheels_share(design, 1, start))
         ),
         slip=slip,
@@ -238,13 +238,13 @@ def _amplitude(scene: Scene, run: Samples, times: Array, place: float) -> float:
     return float(np.sqrt(((at - mean) ** 2).sum(axis=0)).max())
 
 
-def _revolutions(scene: Scene) -> Array:
+def revolution_times(scene: Scene) -> Array:
     """Times [s] of all whole revolutions at full speed, PER_TURN for each."""
     turns = int((scene.duration - scene.full_speed) / scene.revolution)
     return np.asarray(scene.full_speed + scene.revolution / PER_TURN * np.arange(turns * PER_TURN), dtype=float)
 
 
-def _settled(scene: Scene, states: Array, needs: tuple[complex, complex]) -> float | None:
+def settling_time(scene: Scene, states: Array, needs: tuple[complex, complex]) -> float | None:
     """Settling time [s] from full speed of the slower race: residual imbalance of each race as of one race alone.
 
     That is |S_i + Σ m·R_p·e^{iθ}|, S_i what the race has to balance [kg m]. The race has settled when it stays below
