@@ -1,6 +1,7 @@
 """Start cases against equations of four freedoms and eight or more balls that are integrated here."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,22 +64,21 @@ def test_both_races_end_where_the_levers_say() -> None:
     assert isinstance(run, TwoRaceRun)
     assert run.balances
     assert run.slip < 1e-3
-    for end, without in zip(run.displacements, run.displacements_without, strict=True):
-        assert end < 0.02 * without
+    for end, bare in zip(run.displacements, run.displacements_without, strict=True):
+        assert end < 0.02 * bare
 
 
 @pytest.mark.slow
 def test_settling_agrees_with_an_own_integration() -> None:
     """Lagrange's equations of x, y, two tilts and all balls, integrated by DOP853 in space-fixed angles.
 
-    Balls pass each other there, so contact is left out on both sides.
+    Balls pass each other there and do not move along the spindle, so contact and axial inertia are left out on both
+    sides. Races without eccentricity and friction end with no residual imbalance at all: the limit is a tenth of it.
     """
     design = design_of(*TRUE)
     start = StartCase("spread", 1.0, (math.radians(130),))
-    passing = without(scene_of(design, start), ["ball_contact"])
-    times = revolution_times(passing)
-    needs = wheels_share(design, 0, start), wheels_share(design, 1, start)
-    ours = settling_time(passing, simulate(passing, 0.01, times).trajectory.at(times), needs)
+    ours = without(scene_of(design, start), ["ball_contact"])
+    ours = replace(ours, support=replace(ours.support, axial_inertia=False))
     case, scene = design.case, scene_of(design, start)
     W, J, rotor = case.speed, case.inertia_factor, case.rotor
     z = np.concatenate([[race.plane_offset] * len(race.ball_masses) for race in scene.races])
@@ -118,18 +118,26 @@ def test_settling_agrees_with_an_own_integration() -> None:
         return np.concatenate([s[4:8], np.linalg.solve(A, b)[:4], w, np.linalg.solve(A, b)[4:]])
 
     first = np.concatenate([np.zeros(8), gamma, np.full(n, W)])
-    end = 1.2
-    own_times = np.linspace(0, end, 4000)
-    found = solve_ivp(rhs, (0, end), first, "DOP853", own_times, rtol=1e-7, atol=1e-10)
-    turned = found.y[8 : 8 + n] - W * found.t
-    settled = 0.0
-    for race in (0, 1):
-        inside = slice(0, len(scene.races[0].ball_masses)) if race == 0 else slice(len(scene.races[0].ball_masses), n)
+    times = revolution_times(ours)
+    until = times[times <= 1.0]
+    own = solve_ivp(rhs, (0, 1.0), first, "DOP853", until, rtol=1e-8, atol=1e-11)
+    states = simulate(ours, 0.001, times).trajectory.at(times)
+    turned = own.y[8 : 8 + n] - W * own.t
+    assert np.abs(turned - states[8 : 8 + n, : len(until)]).max() < 2e-6
+    settled, counts = 0.0, [len(race.ball_masses) for race in scene.races]
+    for race, inside in enumerate((slice(0, counts[0]), slice(counts[0], n))):
         need = wheels_share(design, race, start)
         left = np.abs(need + (m[inside] * R[inside]) @ np.exp(1j * turned[inside]))
-        above = np.flatnonzero(left > left[-200:].mean() + 0.1 * abs(need))
-        settled = max(settled, float(own_times[above[-1]]))
-    assert ours == pytest.approx(settled, abs=0.01)
+        assert left[-1] < 0.03 * abs(need)
+        settled = max(settled, until[np.flatnonzero(left > 0.1 * abs(need))[-1] + 1])
+    needs = wheels_share(design, 0, start), wheels_share(design, 1, start)
+    assert settling_time(ours, states, needs) == pytest.approx(settled, abs=1e-9)
+    # Balls that move along the spindle with their tilting race, as start cases have them, change next to nothing.
+    leaning = scene_of(design, start)
+    assert leaning.support.axial_inertia
+    leaning = without(leaning, ["ball_contact"])
+    moved = simulate(leaning, 0.001, times).trajectory.at(times)
+    assert np.abs(moved - states)[8 : 8 + n].max() < 2e-4
 
 
 def test_what_fails_is_told() -> None:
