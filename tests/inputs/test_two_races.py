@@ -53,6 +53,6 @@ def test_a_measured_level_gives_no_imbalances_of_two_wheels() -> None:
 
 def test_commands_for_one_race_say_so() -> None:
     machine = abu_calc.read(PRESET)
-    for study in (abu_calc.grinding, abu_calc.declare, abu_calc.stability):
+    for study in (abu_calc.grinding, abu_calc.declare, abu_calc.levels, abu_calc.effects):
         with pytest.raises(InputError, match="two races"):
             study(machine)  # type: ignore[operator]

@@ -209,6 +209,22 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.swing_arm:averaged_edge",
         ),
     ),
+    "two-races": Step(
+        "Two races on one spindle",
+        (
+            "formulas.two_races:TiltingRotor.receptance",
+            "formulas.two_races:TiltingRotor.critical_speeds",
+            "formulas.two_races:TiltingRotor.forward_modes",
+            "formulas.two_races:lever_shares",
+            "formulas.two_races:balancing_resultants",
+            "formulas.two_races:eccentricity_resultants",
+            "formulas.two_races:worst_resultants",
+            "formulas.two_races:resultant_quantile",
+            "formulas.two_races:one_race_limit",
+            "formulas.two_races:two_races_balance",
+            "formulas.two_races:mode_margin",
+        ),
+    ),
     "balance": Step(
         "Balancing in one plane or two (`abu balance`)",
         (

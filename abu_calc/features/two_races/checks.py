@@ -24,6 +24,7 @@ class SpeedStability:
 
 
 def region_check(design: TwoRaceDesign, one: OneRace | None) -> Check:
+    """ABU101: whether all working speeds lie above both critical speeds."""
     case = design.case
     critical = max(case.rotor.critical_speeds(), default=0.0)
     balances = all(two_races_balance(case.rotor, speed) for speed in case.speed_range)
@@ -41,6 +42,7 @@ def region_check(design: TwoRaceDesign, one: OneRace | None) -> Check:
 
 
 def stability_check(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> Iterator[Check]:
+    """ABU103: stability of the balanced state at the speeds judged."""
     if not judged:
         yield coded("ABU103", "not-done", "The speed is not above both critical speeds", remedy="See ABU101.")
         return
@@ -61,6 +63,7 @@ def stability_check(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> 
 
 
 def capacity_checks(design: TwoRaceDesign) -> Iterator[Check]:
+    """ABU201 for each race: its balls carry the required capacity times the margin."""
     for number, race in enumerate(design.races, 1):
         table = design.case.table.autobalancer[number - 1]
         needed = race.need * table.capacity_margin
@@ -84,6 +87,7 @@ def race_checks(design: TwoRaceDesign) -> Iterator[Check]:
 
 
 def mass_checks(design: TwoRaceDesign) -> Iterator[Check]:
+    """ABU203 for each autobalancer: its share of the mass of the machine."""
     machine = design.case.table.machine.mass_kg
     for number, (race, table) in enumerate(zip(design.races, design.case.table.autobalancer, strict=True), 1):
         share = race.design.autobalancer.mass / machine
@@ -97,6 +101,7 @@ def mass_checks(design: TwoRaceDesign) -> Iterator[Check]:
 
 
 def level_checks(design: TwoRaceDesign, vibration: TwoRaceVibration, runs: Sequence[TwoRaceRun]) -> Iterator[Check]:
+    """ABU401 and ABU402: levels of the loudest place against the limit, and against those without autobalancers."""
     limit = design.case.table.limits.vibration_level_db
     if vibration.level_after_db is None:
         yield coded("ABU401", "not-done", "No start case balances, so no level is known", remedy="See ABU701.")

@@ -7,6 +7,7 @@ from pydantic.json_schema import models_json_schema
 from abu_calc.inputs.machine import BearingFile, MachineFile
 from abu_calc.inputs.reading.table import Table
 from abu_calc.inputs.scene import SceneFile
+from abu_calc.inputs.two_races import TwoRaceFile
 
 DRAFT: Final = "http://json-schema.org/draft-04/schema#"
 MACHINE: Final = "Machine"
@@ -17,9 +18,9 @@ _DROPPED: Final = ("title", "examples", "$defs")
 
 
 def machine_schema() -> dict[str, Any]:
-    """The schema of machine files: a machine whole, or bearings alone."""
-    kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, BearingFile.__name__)]
-    return schema_of("machine", MachineFile, BearingFile) | {"anyOf": kinds}
+    """The schema of machine files: a whole machine with one race or two, or bearings alone."""
+    kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, TwoRaceFile.__name__, BearingFile.__name__)]
+    return schema_of("machine", MachineFile, TwoRaceFile, BearingFile) | {"anyOf": kinds}
 
 
 def scene_schema() -> dict[str, Any]:
