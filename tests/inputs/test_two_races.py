@@ -1,10 +1,12 @@
 """Machine files with two races: what is read, and what is refused with file, line and key."""
 
+from pathlib import Path
+
 import pytest
 
 import abu_calc
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.read_machine import read_machine
+from abu_calc.inputs.read_machine import read, read_machine
 
 PRESET = "pedestal-grinder"
 
@@ -56,3 +58,35 @@ def test_commands_for_one_race_say_so() -> None:
     for study in (abu_calc.grinding, abu_calc.declare, abu_calc.levels, abu_calc.effects):
         with pytest.raises(InputError, match="two races"):
             study(machine)  # type: ignore[operator]
+
+
+def lists_of_one(folder: Path, more: str = "") -> Path:
+    text = read("avtovaz-707-222").document.text
+    text = text.replace("\n[wheel]\n", "\n[[wheel]]\n").replace("\n[autobalancer]\n", "\n[[autobalancer]]\n" + more)
+    file = folder / "one.toml"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_lists_of_one_are_the_single_tables(tmp_path: Path) -> None:
+    file = lists_of_one(tmp_path)
+    assert "[[wheel]]" in file.read_text(encoding="utf-8")
+    machine, usual = read(file), read("avtovaz-707-222")
+    assert (machine.tables, machine.defaults_used) == (usual.tables, usual.defaults_used)
+    assert machine.warnings == usual.warnings
+    assert machine.changed({"wheel.mass_kg": 0.5}).whole().wheel.mass_kg == 0.5
+
+
+def test_a_fault_in_a_list_of_one_has_its_line(tmp_path: Path) -> None:
+    file = lists_of_one(tmp_path, "capacity_margin = 0.5\n")
+    line = file.read_text(encoding="utf-8").splitlines().index("capacity_margin = 0.5") + 1
+    with pytest.raises(InputError, match=rf"one\.toml:{line}: autobalancer\.capacity_margin"):
+        read(file)
+
+
+def test_two_wheels_and_one_race_are_refused(tmp_path: Path) -> None:
+    text = read(PRESET).document.text
+    file = tmp_path / "short.toml"
+    file.write_text(text.rpartition("[[autobalancer]]")[0] + "[limits]\n", encoding="utf-8")
+    with pytest.raises(InputError, match="autobalancer"):
+        read(file)

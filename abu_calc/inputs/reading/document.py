@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar, cast
 
 from pydantic import ValidationError
 
@@ -122,6 +122,10 @@ def said(value: object) -> str:
 __all__ = ["LARGEST_FILE", "Document", "FileReading", "named", "open_document", "parsed_overrides", "validate"]
 
 Model = TypeVar("Model", bound=Table)
+
+
+REPEATED: Final = ("wheel", "autobalancer")
+"""Tables of a machine that may be lists."""
 
 
 class Document(NamedTuple):
@@ -270,11 +274,19 @@ def parsed_overrides(overrides: Sequence[str]) -> "tuple[Override, ...]":
 def _parsed(text: str, source: str) -> dict[str, object]:
     check_nesting(text, source)
     try:
-        return tomllib.loads(text)
+        return _one_of_each(tomllib.loads(text))
     except (ValueError, RecursionError) as error:
         from abu_calc.inputs.reading.toml_text import reworded
 
         raise reworded(text, source, error) from None
+
+
+def _one_of_each(content: dict[str, object]) -> dict[str, object]:
+    """A machine's [[wheel]] and [[autobalancer]], one of each at most, as the single tables [wheel], [autobalancer]."""
+    lists = {key: each for key in REPEATED if isinstance(each := content.get(key), list)}
+    if "machine" in content and all(len(each) == 1 and isinstance(each[0], dict) for each in lists.values()):
+        content |= {key: each[0] for key, each in lists.items()}
+    return content
 
 
 def _decoded(raw: bytes, source: str) -> str:
