@@ -19,6 +19,7 @@ ROLLERS: Final = frozenset({"cylindrical", "tapered", "spherical", "needle", "dr
 """Kinds whose rolling elements are rollers or needles."""
 _MAKERS: Final = {
     "SKF": "SKF General Catalogue, 2006",
+    "SKF2018": "SKF Rolling bearings, 2018",
     "NSK": "NSK's catalogues",
     "NTN": "NTN's needle roller catalogue",
     "INA": "INA's list of sizes",
@@ -169,5 +170,5 @@ def _row(row: tuple[str, ...]) -> CatalogueBearing:
     known_kind = next(known for known in KINDS if known == kind)
     return CatalogueBearing(
         name, known_kind, bore, outer, width, chamfer, outer_width, outer_chamfer, ratings, reference_speed,
-        limiting_speed, f0, e, Y, Y0, _MAKERS[maker], maker != "SKF",
+        limiting_speed, f0, e, Y, Y0, _MAKERS[maker], not maker.startswith("SKF"),
     )  # fmt: skip
