@@ -4,6 +4,7 @@ import math
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.clearance import MOST
 from abu_calc.features.seats.creep import CreepJudgement
 from abu_calc.features.seats.equivalent_load import carries_by_flanges
 from abu_calc.features.seats.interference import of_all
@@ -26,7 +27,6 @@ _CODES: Final = {
 }
 _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
-_MOST: Final = 0.5
 _KEPT: Final = 0.995
 _SHOWN: Final = 0.05
 """Losses [µm] below it are not named: they would read 0.0."""
@@ -236,17 +236,21 @@ def start_checks(
     ),)  # fmt: skip
 
 
-def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tuple[Check, ...]:
+def clearance_checks(
+    bearing: SeatedBearing, left: "ClearanceLeft | None", advised: bool = True, order: str | None = None
+) -> tuple[Check, ...]:
     """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not.
 
-    Of a preloaded pair the preload is checked.
+    Of a preloaded pair the preload is checked. `advised`: both seats have a recommended class; `order`: the group told.
     """
     if left is None:
         return ()
     if left.group in groups_of("angular-contact")[:3]:
-        return (_preload(bearing, left),)
-    passed, safe = left.below_zero_probability < _MOST, left.probable.smallest >= 0
-    choice = "No clearance group keeps clearance. Specify looser tolerance classes."
+        return (_preload(bearing, left, advised),)
+    passed, safe = left.below_zero_probability < MOST, left.probable.smallest >= 0
+    choice = f"No clearance group keeps clearance. {_looser(advised)}"
+    if order is not None and order != left.group:
+        choice = f"Specify group {order} with the recommended classes: at most 1 of 100 has no clearance (calculated)."
     if left.group_to_choose:
         choice = f"Specify group {left.group_to_choose}: it keeps clearance (calculated)."
     direction = "axial" if left.axial else "radial"
@@ -258,7 +262,12 @@ def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tu
     ),)  # fmt: skip
 
 
-def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
+def _looser(advised: bool) -> str:
+    """Action if no group does."""
+    return "Specify looser tolerance classes." if advised else "Specify a larger bearing or reduce the load."
+
+
+def _preload(bearing: SeatedBearing, left: "ClearanceLeft", advised: bool) -> Check:
     """The probable preload of a pair against that of the next heavier group, and twice that of the heaviest."""
     heavier, most = groups_of("angular-contact"), left.preload[1] if left.preload else None
     place, limits = heavier.index(left.group), preload_limits(left.group, bearing.inner.diameter)
@@ -266,7 +275,7 @@ def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
         return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
     safe_most, heaviest = limits
     passed, safe = most <= heaviest, most <= safe_most
-    choice = "Specify looser tolerance classes: no lighter group is below its limit."
+    choice = f"No lighter group is below its limit. {_looser(advised)}"
     if left.group_to_choose:
         result = "stays below its limit" if left.group_to_choose in heavier[:3] else "keeps clearance"
         choice = f"Specify group {left.group_to_choose}: it {result} (calculated). Or specify looser classes."
