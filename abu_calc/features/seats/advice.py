@@ -65,8 +65,8 @@ def rule_class(joint: Joint, start: Start) -> str | None:
     """
     if not joint.must_grip or joint.required is None:
         return None
-    found = _by_smallest(replace(joint, maker=None), start)
-    return found.tolerance_class if found else None
+    loosest = _by_smallest(replace(joint, maker=None), start)
+    return loosest.tolerance_class if loosest else None
 
 
 def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, ...]:

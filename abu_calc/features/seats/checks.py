@@ -188,7 +188,8 @@ def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tu
     limit = fail if grade == "fail" else warn
     least = f"less than the {demand:.3g} µm" if demand >= 0 else f"more clearance than the {-demand:.2g} µm"
     return (coded(
-        code, grade, f"{of_all(share)} in {joint.told} have {least} demanded by {joint.demand.by}{_losses(joint)}",
+        code, grade,
+        f"{of_all(share)} in {joint.class_text} have {least} demanded by {joint.demand.by}{_losses(joint)}",
         round(100 * share, 6), round(100 * limit, 6), "%",
         None if grade == "pass" else _fewer(joint, recommended), of=bearing,
     ),)  # fmt: skip
@@ -209,7 +210,7 @@ def _raceway(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> C
     least = _um(-joint.interference.largest)
     passed = least >= 0
     return coded(
-        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.told}. The "
+        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.class_text}. The "
         "shaft is the raceway: ground, at least 58 HRC", least, 0.0, "µm",
         None if passed or recommended is None else f"Specify {recommended}.", "least", of=bearing.name,
     )  # fmt: skip
@@ -230,7 +231,7 @@ def start_checks(
         return (coded(code, "not-done", why, None, torque, "N·m", "Specify chamfer_mm.", "least", of=bearing),)
     passed = bool(creep.holds_at_start)
     return (coded(
-        code, verdict(passed), f"slip torque of {joint.told} at its least "
+        code, verdict(passed), f"slip torque of {joint.class_text} at its least "
         "interference after losses, against the starting torque", creep.least_torque, torque, "N·m",
         None if passed else _remedy(joint, recommended), "least", of=bearing,
     ),)  # fmt: skip
@@ -301,7 +302,7 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
     mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
     return coded(
-        code, joint.grip, f"least interference of {joint.told} against {limit}{remark}{_makers(bearing, joint)}"
+        code, joint.grip, f"least interference of {joint.class_text} against {limit}{remark}{_makers(bearing, joint)}"
         f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm", _tighter(joint, recommended),
         "least", of=bearing.name,
     )  # fmt: skip
@@ -323,7 +324,7 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
             free = of_all(best.loose_share(best.coldest_or_hottest.loss))
             action = f"Specify {better}: then {free} have clearance {when} (calculated)."
         return coded(
-            _CODES[joint.seat][0], "warn", f"least interference of {joint.told}. {judgement}",
+            _CODES[joint.seat][0], "warn", f"least interference of {joint.class_text}. {judgement}",
             _um(joint.interference.smallest), None, "µm", action, "least", of=bearing.name,
         )  # fmt: skip
     if joint.clearance_probability >= LOOSE_ENOUGH:
@@ -335,7 +336,8 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         )
     return coded(
         _CODES[joint.seat][0], "pass",
-        f"least interference of {joint.told}. {judgement}{_makers(bearing, joint)}", _um(joint.interference.smallest),
+        f"least interference of {joint.class_text}. {judgement}{_makers(bearing, joint)}",
+        _um(joint.interference.smallest),
         None, "µm", None, "least", of=bearing.name,
     )  # fmt: skip
 
@@ -352,7 +354,7 @@ def _cup(bearing: SeatedBearing, joint: Joint, recommended: str | None, share: s
     )
     action = f"Specify {recommended}." if recommended else "Specify a one-piece housing."
     return coded(
-        _CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.told}. {cup}",
+        _CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.class_text}. {cup}",
         _um(joint.interference.smallest), None, "µm", None if held else action, "least", of=bearing.name,
     )  # fmt: skip
 
@@ -383,7 +385,7 @@ def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
     return coded(
         _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
-        f"largest interference of {joint.told}{warm} against the limit by {limit.by}. Hoop stress of the "
+        f"largest interference of {joint.class_text}{warm} against the limit by {limit.by}. Hoop stress of the "
         f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}", _um(joint.tightest), _um(limit.value), "µm",
         _remedy(joint, recommended) if grade == "fail" else None, of=bearing,
     )  # fmt: skip

@@ -245,7 +245,7 @@ class Joint:
         return MEASURED if self.measured else self.tolerance_class
 
     @property
-    def told(self) -> str:
+    def class_text(self) -> str:
         """The tolerance class in a sentence."""
         return f"the measured {self.seat}" if self.measured else self.tolerance_class
 
