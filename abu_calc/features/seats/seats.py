@@ -154,7 +154,10 @@ class SeatFit(NamedTuple):
 
 
 class BearingSeats(NamedTuple):
-    """A bearing's seats, shaft first, the clearance left in it, the group of clearance to order with the advice."""
+    """A bearing's seats, shaft first, the clearance left in it, the group of clearance to order with the advice.
+
+    `group_to_order` suits given classes that hold, too; `group_of_recommended` is enough for the recommended ones.
+    """
 
     bearing: SeatedBearing
     shaft: SeatFit
@@ -162,6 +165,7 @@ class BearingSeats(NamedTuple):
     life: RatingLife
     clearance: "ClearanceLeft | None" = None
     group_to_order: str | None = None
+    group_of_recommended: str | None = None
     life_in_use: "LifeInUse | None" = None
 
     @property
@@ -207,7 +211,9 @@ def judge(bearing: SeatedBearing) -> BearingSeats:
     order = clearance_note(recommendation)
     shaft, housing = (seat._replace(notes=(*seat.notes, *order)) for seat in (shaft, housing))
     left = _clearance(bearing, *joints)
-    return BearingSeats(bearing, shaft, housing, rating_life(bearing), left, recommendation.group)
+    return BearingSeats(
+        bearing, shaft, housing, rating_life(bearing), left, recommendation.group, recommendation.own_group
+    )
 
 
 def _stand_in(joint: Joint, own: SeatAdvice) -> Joint:
