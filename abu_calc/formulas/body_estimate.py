@@ -69,6 +69,26 @@ class BodyEstimate:
         return tuple((value - low, value + high) for value, low, high in zip(nominal, down, up, strict=True))
 
 
+HAND_GRINDERS: Final = (0.5, 15.0)
+"""Masses [kg] of hand grinders, for which usual lengths are assumed."""
+
+
+def usual_lengths(layout: Layout, mass: float) -> dict[str, float]:
+    """Lengths [mm] by their keys that a hand grinder of this mass [kg] usually has; nothing for other machines.
+
+    >>> usual_lengths("straight", 5.6), usual_lengths("angle", 2.2), usual_lengths("face", 400.0)
+    ({'machine.length_mm': 440.0}, {'machine.length_mm': 330.0, 'machine.height_mm': 75.0}, {})
+    """
+    low, high = HAND_GRINDERS
+    if not low <= mass <= high:
+        return {}
+    table, grid = toml_table("body_estimates")[layout], {"L": ("usual_length", 10), "H": ("usual_height", 5)}
+    return {
+        KEYS[length]: float(step * round(table[usual] * mass ** (1 / 3) / step))
+        for length, (usual, step) in grid.items() if length in LENGTHS[layout]
+    }  # fmt: skip
+
+
 def estimate_source() -> str:
     """Source of the shapes, in words."""
     table = toml_table("body_estimates")

@@ -10,7 +10,7 @@ from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.handles import BodyBands, estimate_keys
+from abu_calc.sizing.handles import BodyBands, body_advice, estimate_keys
 from abu_calc.sizing.places import HANDS
 from abu_calc.sizing.trials import Requirement
 from abu_calc.sizing.vibration import LevelsUnderLoad
@@ -167,8 +167,7 @@ def _body_warnings(case: Case, bands: BodyBands | None, added: float) -> list[st
     handles = " All handles move alike." if case.handles else ""
     return [
         f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
-        f"{handles} Specify {estimate_keys(case)} for an estimate, or machine.transverse_inertia_kg_m2 and "
-        "machine.center_of_mass_to_wheel_mm."
+        f"{handles} {body_advice(case, added)}"
     ]
 
 

@@ -7,6 +7,7 @@ from typing import Final
 from abu_calc.features.declare.records import WithAutobalancer
 from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.handles import body_advice
 from abu_calc.sizing.type_test import ChosenWheel
 from abu_calc.standards.type_test import uncertainty_source
 
@@ -22,9 +23,10 @@ def remarks(
     """Remarks, those that move the value most first. `imbalance_alone`: a_hv without background [m/s²]."""
     case = design.case
     if not case.body.is_rigid:
+        added = design.autobalancer.mass
         yield (
             "The machine is a point mass here, which judges the autobalancer too hard: a rigid body has up to 3.4 "
-            "times the break-even eccentricity. Give the moments of inertia and the handles."
+            f"times the break-even eccentricity. {body_advice(case, added)}"
         )
     if not case.handles:
         yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."
