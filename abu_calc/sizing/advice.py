@@ -165,6 +165,9 @@ def _body_warnings(case: Case, bands: BodyBands | None, added: float) -> list[st
         return [*signs, *_rotor_warning(case), *_hands_warning(case)]
     measured = " An imbalance that a measured level gives is as uncertain." if case.table.wheel.shown else ""
     handles = " All handles move alike." if case.handles else ""
+    unused = {"face": "length_mm", "angle": "height_mm"}.get(case.table.machine.layout)
+    if unused is not None and getattr(case.table.machine, unused) is not None:
+        handles += f" Alone machine.{unused} gives no estimate for this layout."
     return [
         f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
         f"{handles} {body_advice(case, added)}"

@@ -180,13 +180,13 @@ def body_advice(case: Case, added: float = 0.0) -> str:
         return unknown
     try:
         other = read_case(with_entries(case.table, entries))
-        before, after = find_imbalance(case).value, find_imbalance(other).value
+        imbalances = find_imbalance(case).value, find_imbalance(other).value
     except (AbuError, ValueError):
         return unknown
     masses = case.body.effective_mass(added), other.body.effective_mass(added)
     moved = [Moved("the effective mass at the wheel", *masses, "kg").text]
-    if abs(after / before - 1) > SAME:
-        moved.append(Moved("the imbalance", from_si(before, "g_mm"), from_si(after, "g_mm"), "g·mm").text)
+    if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
+        moved.append(Moved("the imbalance", *(from_si(each, "g_mm") for each in imbalances), "g·mm").text)
     options = " ".join(f"--set {entry}" for entry in overrides(entries))
     return f"Measure {keys}. With lengths usual for this mass {' and '.join(moved)} (calculated): {options}"
 
