@@ -30,11 +30,12 @@ def remarks(
         )
     if not case.handles:
         yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."
-    if with_ is not None and with_.shaken_free:
+    if with_ is not None and with_.horizontal_m_per_s2 is not None and spindle.balls.band:
+        value = with_.horizontal_m_per_s2
         yield (
-            "With the spindle horizontal, gravity shakes the balls free of rolling friction: the type test then gives "
-            f"{with_.no_friction_m_per_s2:.3g} m/s², declared {with_.factor * with_.no_friction_m_per_s2:.3g} m/s². "
-            "With the spindle upright, friction holds them."
+            f"These values are for the spindle held vertical. Held horizontal, gravity shakes "
+            f"{'all' if with_.shaken_free else 'some'} of the rolling friction out: the type test then gives "
+            f"{value:.3g} m/s², declared {with_.factor * value:.3g} m/s²."
         )
     yield from _background(spindle, imbalance_alone)
     yield from _sources(design, wheel)
@@ -42,8 +43,8 @@ def remarks(
         yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
     if test is not None and test.spindle.balls.band:
         yield (
-            "Balls start at rest in the race at random places. They pass each other as points, and gravity is left "
-            "out. `abu size` judges whether they stall and how soon they settle."
+            "Balls start at rest in the race at random places, and pass each other as points. Gravity is left out of "
+            "the simulation. `abu size` judges whether they stall and how soon they settle."
         )
 
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Annotated, ClassVar, Final
 
 import numpy as np
@@ -27,13 +28,14 @@ from abu_calc.features.declare.type_test_simulation import (
     search_break_even,
     simulated_test,
 )
+from abu_calc.formulas.shaken_friction import remaining_band
 from abu_calc.formulas.type_test import MANY, evenly, mean_over_orientations
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import GRAVITY, from_si
+from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
@@ -299,15 +301,28 @@ def _with(design: Design, test: SimulatedTest, band: tuple[float, float] | None)
         declared_low_m_per_s2=max(test.declared - spread, 0.0),
         declared_high_m_per_s2=test.declared + spread,
         no_friction_m_per_s2=spindle.gain * ideal,
-        shaken_free=_shaken_free(design, spindle),
+        horizontal_m_per_s2=_horizontal(design, test),
+        shaken_free=_remaining(design, spindle) == 0 < spindle.balls.band,
         declared_band_m_per_s2=None if band is None else _band(band, test.declared),
     )
 
 
-def _shaken_free(design: Design, spindle: Spindle) -> bool:
-    """True if gravity swings the balls of a horizontal spindle harder than friction holds them: k_r·R_p·Ω²/r < g."""
-    held = spindle.balls.band * spindle.balls.speed**2
-    return design.case.table.machine.spindle_axis == "horizontal" and 0 < held < GRAVITY
+def _remaining(design: Design, spindle: Spindle) -> float | None:
+    """Friction band [m] that gravity leaves on a horizontal spindle; None: the spindle is vertical."""
+    if design.case.table.machine.spindle_axis == "vertical":
+        return None
+    return remaining_band(spindle.balls.band, spindle.balls.speed)
+
+
+def _horizontal(design: Design, test: SimulatedTest) -> float | None:
+    """Mean a_hv [m/s²] at the highest handle with the friction that gravity leaves; None: the spindle is vertical."""
+    spindle = test.spindle
+    band = _remaining(design, spindle)
+    if band is None or band == spindle.balls.band:
+        return None if band is None else test.means[test.highest]
+    shaken = replace(spindle, balls=replace(spindle.balls, band=band))
+    again = simulated_test(shaken, test.imbalance, test.eccentricity, len(test.turns))
+    return again.means[again.highest]
 
 
 def _causes(test: SimulatedTest) -> tuple[Cause, ...]:

@@ -234,5 +234,14 @@ def test_gravity_is_told_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareR
     """k_r·R_p·Ω²/r = 3.8 m/s² is below g: gravity shakes the balls free."""
     lying = result(tmp_path, S150, 500, machine__spindle_axis="horizontal")
     assert lying.with_ is not None and lying.with_.shaken_free
-    assert rigid.with_ is not None and not rigid.with_.shaken_free
-    assert any("gravity shakes" in remark for remark in lying.warnings)
+    assert lying.with_.horizontal_m_per_s2 == pytest.approx(lying.with_.no_friction_m_per_s2, rel=0.03)
+    assert rigid.with_ is not None and not rigid.with_.shaken_free and rigid.with_.horizontal_m_per_s2 is None
+    assert any("gravity shakes all of" in remark for remark in lying.warnings)
+
+
+def test_gravity_leaves_friction_that_is_stronger(tmp_path: Path) -> None:
+    """Three times gravity: the value lies between that without friction and that of the whole band."""
+    arm = {"autobalancer__rolling_friction_mm": 0.016}
+    lying = result(tmp_path, S150, 500, machine__spindle_axis="horizontal", **arm).with_
+    assert lying is not None and lying.horizontal_m_per_s2 is not None and not lying.shaken_free
+    assert lying.no_friction_m_per_s2 < lying.horizontal_m_per_s2 < lying.a_hv_m_per_s2
