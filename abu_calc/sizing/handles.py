@@ -11,7 +11,7 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.actions import followed, overrides, pins, set_action, with_entries
+from abu_calc.sizing.actions import followed, overrides, pins, set_action, with_entries, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import WHEEL_PLANE, Case, read_case
 from abu_calc.sizing.imbalance import find_imbalance
@@ -205,7 +205,8 @@ def body_advice(case: Case, added: float = 0.0) -> str:
     if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
         moved.append(Moved("the imbalance", *(from_si(each, "g_mm") for each in imbalances), "g·mm").text)
     options = " ".join(f"--set {entry}" for entry in overrides(entries))
-    return f"Measure {keys}. With lengths usual for this mass {' and '.join(moved)} (calculated): {options}"
+    given = words(entries)
+    return f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {options}"
 
 
 def estimate_keys(case: Case) -> str:

@@ -6,6 +6,7 @@ from typing import Final
 
 from abu_calc.features.declare.records import WithAutobalancer
 from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle
+from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import body_advice
 from abu_calc.sizing.type_test import ChosenWheel
@@ -30,12 +31,15 @@ def remarks(
         )
     if not case.handles:
         yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."
-    if with_ is not None and with_.horizontal_m_per_s2 is not None and spindle.balls.band:
-        value = with_.horizontal_m_per_s2
+    if with_ is not None and with_.upright_m_per_s2 is not None:
+        number = friction_number(
+            case.friction_arm, design.autobalancer.pitch_radius, design.autobalancer.ball_diameter / 2, case.speed
+        )
+        left = "nothing" if with_.shaken_free else "a part of itself"
         yield (
-            f"These values are for the spindle held vertical. Held horizontal, gravity shakes "
-            f"{'all' if with_.shaken_free else 'some'} of the rolling friction out: the type test then gives "
-            f"{value:.3g} m/s², declared {with_.factor * value:.3g} m/s²."
+            f"On the horizontal spindle gravity shakes the balls (friction over gravity: {number:.2g}), and friction "
+            f"leaves {left}. With the spindle vertical friction holds them: {with_.upright_m_per_s2:.3g} m/s², declared "
+            f"{with_.factor * with_.upright_m_per_s2:.3g} m/s²."
         )
     yield from _background(spindle, imbalance_alone)
     yield from _sources(design, wheel)
@@ -43,8 +47,8 @@ def remarks(
         yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
     if test is not None and test.spindle.balls.band:
         yield (
-            "Balls start at rest in the race at random places, and pass each other as points. Gravity is left out of "
-            "the simulation. `abu size` judges whether they stall and how soon they settle."
+            "Balls start at rest in the race at random places, and pass each other as points. `abu size` judges whether "
+            "they stall and how soon they settle."
         )
 
 

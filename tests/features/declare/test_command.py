@@ -34,6 +34,13 @@ def test_a_common_tool_shows_its_handles_out_of_the_box() -> None:
     assert checks == {"ABU431": "pass", "ABU432": "pass", "ABU433": "pass"}
 
 
+def test_a_horizontal_spindle_tells_the_vertical_case_beside() -> None:
+    """Friction below gravity leaves nothing: no spread of runs is printed, and both cases stand in the table."""
+    seen = once("declare", "avtovaz-707-222", "--starts", "500")
+    assert "spindle vertical, friction holds" in seen.out and "every start" in seen.out
+    assert "standard error" not in seen.out and "rolling friction" not in seen.out.split("Causes")[1].split("Notes")[0]
+
+
 def test_the_document_has_the_fixed_keys(tmp_path: Path) -> None:
     result = abu("declare", written(tmp_path, S150), "--starts", "500", "--json").document["result"]
     assert result.keys() >= KEYS

@@ -231,17 +231,23 @@ def test_the_same_machine_gives_the_same_numbers(tmp_path: Path) -> None:
 
 
 def test_gravity_is_told_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareResult) -> None:
-    """k_r·R_p·Ω²/r = 3.8 m/s² is below g: gravity shakes the balls free."""
-    lying = result(tmp_path, S150, 500, machine__spindle_axis="horizontal")
+    """k_r·R_p·Ω²/r = 3.8 m/s² is below g: gravity shakes the balls free, and friction leaves nothing."""
+    lying = result(tmp_path, S150, 10_000, machine__spindle_axis="horizontal")
     assert lying.with_ is not None and lying.with_.shaken_free
-    assert lying.with_.horizontal_m_per_s2 == pytest.approx(lying.with_.no_friction_m_per_s2, rel=0.03)
-    assert rigid.with_ is not None and not rigid.with_.shaken_free and rigid.with_.horizontal_m_per_s2 is None
-    assert any("gravity shakes all of" in remark for remark in lying.warnings)
+    assert rigid.with_ is not None and not rigid.with_.shaken_free and rigid.with_.upright_m_per_s2 is None
+    assert any("gravity shakes" in remark and "friction leaves nothing" in remark for remark in lying.warnings)
+    assert lying.with_.a_hv_m_per_s2 == pytest.approx(0.43241, rel=0.01)
+    assert lying.with_.upright_m_per_s2 == rigid.with_.a_hv_m_per_s2
+    assert lying.friction_rms_mm == 0 and "rolling friction" not in {cause.name for cause in lying.causes}
+    assert lying.break_even_eccentricity_mm == pytest.approx(0.025946, rel=0.01)
 
 
-def test_gravity_leaves_friction_that_is_stronger(tmp_path: Path) -> None:
-    """Three times gravity: the value lies between that without friction and that of the whole band."""
-    arm = {"autobalancer__rolling_friction_mm": 0.016}
-    lying = result(tmp_path, S150, 500, machine__spindle_axis="horizontal", **arm).with_
-    assert lying is not None and lying.horizontal_m_per_s2 is not None and not lying.shaken_free
-    assert lying.no_friction_m_per_s2 < lying.horizontal_m_per_s2 < lying.a_hv_m_per_s2
+def test_friction_above_gravity_holds_balls_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareResult) -> None:
+    """k_r of 20 µm: 38 m/s² against g, so that most of the friction stays."""
+    rough = {"autobalancer__rolling_friction_mm": 0.02}
+    lying = result(tmp_path, S150, 2000, machine__spindle_axis="horizontal", **rough)
+    standing = result(tmp_path, S150, 2000, **rough)
+    assert lying.with_ is not None and standing.with_ is not None and rigid.with_ is not None
+    assert not lying.with_.shaken_free
+    assert lying.with_.upright_m_per_s2 == standing.with_.a_hv_m_per_s2
+    assert rigid.with_.a_hv_m_per_s2 < lying.with_.a_hv_m_per_s2 < standing.with_.a_hv_m_per_s2
