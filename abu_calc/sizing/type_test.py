@@ -194,10 +194,11 @@ def carried(case: Case, candidate: Candidate, imbalance: float) -> bool:
     return required(case, candidate, imbalance) <= candidate.capacity
 
 
-def required(case: Case, candidate: Candidate, imbalance: float) -> float:
-    """Capacity [kg m] that a test wheel requires: |g_rw/g_rr|·U + m_F·Δ."""
+def required(case: Case, candidate: Candidate, imbalance: float, eccentricity: float | None = None) -> float:
+    """Capacity [kg m] that a test wheel requires: |g_rw/g_rr|·U + m_F·Δ; `eccentricity`: another Δ than the file's."""
     body = type_test_body(case, candidate)
-    return abs(body.race_by_wheel / body.race_by_race) * imbalance + body.effective_mass * case.race_eccentricity
+    delta = case.race_eccentricity if eccentricity is None else eccentricity
+    return abs(body.race_by_wheel / body.race_by_race) * imbalance + body.effective_mass * delta
 
 
 def declared_check(without: float, declared: float, how: str, action: Callable[[], Action | str | None]) -> Check:

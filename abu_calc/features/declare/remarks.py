@@ -7,9 +7,10 @@ from typing import Final
 from abu_calc.features.declare.records import WithAutobalancer
 from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle
 from abu_calc.formulas.shaken_friction import friction_number
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import body_advice
-from abu_calc.sizing.type_test import ChosenWheel
+from abu_calc.sizing.type_test import ChosenWheel, required
 from abu_calc.standards.type_test import uncertainty_source
 
 DOUBTFUL: Final = 0.01
@@ -49,6 +50,19 @@ def remarks(
         yield (
             "Balls start at rest in the race at random places, and pass each other as points. `abu size` judges whether "
             "they stall and how soon they settle."
+        )
+
+
+def beyond_capacity(design: Design, wheel: ChosenWheel, even: float | None) -> Iterator[str]:
+    """Remark on a break-even eccentricity [m] at which the balls no longer carry the test wheel at every angle."""
+    if even is None:
+        return
+    case, candidate = design.case, design.autobalancer
+    need = required(case, candidate, wheel.imbalance, even)
+    if need > candidate.capacity:
+        yield (
+            f"At the break-even eccentricity the test wheel would require {from_si(need, 'g_mm'):.3g} g·mm, and the balls "
+            f"carry {from_si(candidate.capacity, 'g_mm'):.3g} g·mm: such a race needs larger balls."
         )
 
 

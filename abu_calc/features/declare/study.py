@@ -17,7 +17,7 @@ from abu_calc.features.declare.records import (
     WithAutobalancer,
     WithoutAutobalancer,
 )
-from abu_calc.features.declare.remarks import remarks
+from abu_calc.features.declare.remarks import beyond_capacity, remarks
 from abu_calc.features.declare.type_test_simulation import (
     STARTS,
     BreakEven,
@@ -213,7 +213,11 @@ def _result(
     return DeclareResult(
         title=table.machine.name,
         checks=(balancing, *_comparison(design, wheel, bare[highest], uncertainty, tested, with_)),
-        warnings=(*machine.warnings, *remarks(design, wheel, spindle, imbalance_alone, test, with_)),
+        warnings=(
+            *machine.warnings,
+            *remarks(design, wheel, spindle, imbalance_alone, test, with_),
+            *(() if tested is None else beyond_capacity(design, wheel, tested.even.simulated)),
+        ),
         provenance=Provenance.of(machine),
         model=DeclareModel(
             speed_rad_per_s=case.speed,

@@ -158,6 +158,20 @@ def test_background_above_its_limit(tmp_path: Path, rigid: DeclareResult) -> Non
     assert any("however perfect" in remark for remark in loud.warnings)
 
 
+def test_a_break_even_eccentricity_beyond_the_capacity_is_told(tmp_path: Path, rigid: DeclareResult) -> None:
+    """425 g·mm carry 68.4 + 2.04·25 of the reference; three small balls carry 111."""
+    assert not any("larger balls" in remark for remark in rigid.warnings)
+    small = {"autobalancer__ball_count": 3, "autobalancer__ball_diameter_mm": 7.0, "autobalancer__capacity_margin": 1.0}
+    tight = result(tmp_path, S150, 1000, wheel__imbalance_g_mm=70.0, **small)
+    even = tight.break_even_eccentricity_mm
+    assert even is not None
+    need = 65 * 1.0517 + 1e3 * even * tight.model.effective_mass_kg
+    capacity = next(check.value for check in tight.checks if check.code == "ABU433")
+    assert capacity is not None
+    assert any("larger balls" in remark for remark in tight.warnings) == (need > capacity)
+    assert need > capacity
+
+
 def test_a_test_wheel_beyond_the_capacity(tmp_path: Path) -> None:
     heavy = result(tmp_path, S150, type_test__test_wheel_imbalance_g_mm=500.0)
     assert heavy.status == "fail"
