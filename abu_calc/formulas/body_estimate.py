@@ -100,13 +100,13 @@ def estimate_source() -> str:
     "J_i = M·k_i²",
     "kg m²",
     where=(
-        "L is machine.length_mm, H is machine.height_mm. Straight: L runs from the wheel plane to the rear end; a is "
-        "0.44 L (0.39 … 0.50), k_x = k_y = 0.284 L (0.26 … 0.31), k_z = 0.06 L (0.05 … 0.07). Angle: L runs from the "
-        "spindle axis to the rear end, H from the body's axis to the wheel plane; b is 0.29 L (0.25 … 0.34), a is 0.80 "
-        "H (0.70 … 0.90), without H 0.176 L (0.137 … 0.229), k_x = 0.136 L (0.12 … 0.15), k_y = 0.29 L (0.265 … 0.315), k_z = 0.295 L (0.27 … 0.32), "
-        "J_xz is −0.2 (−0.30 … −0.13) times M·a·b. Face: H runs from the wheel plane to the top; a is 0.43 H (0.38 … "
-        "0.49), b is 0 (±0.03 H), k_x = 0.37 H (0.33 … 0.42), k_y = 0.285 H (0.255 … 0.315), k_z = 0.29 H (0.25 … "
-        "0.35). "
+        "L is machine.length_mm, H is machine.height_mm. Straight: L runs from the wheel plane to the rear end; a "
+        "is 0.44 L (0.39 … 0.50), k_x = k_y = 0.284 L (0.26 … 0.31), k_z = 0.06 L (0.05 … 0.07). Angle: L runs "
+        "from the spindle axis to the rear end, H from the body's axis to the wheel plane; b is 0.29 L (0.25 … "
+        "0.34), a is 0.80 H (0.70 … 0.90), without H 0.176 L (0.137 … 0.229), k_x = 0.136 L (0.12 … 0.15), k_y = "
+        "0.29 L (0.265 … 0.315), k_z = 0.295 L (0.27 … 0.32), J_xz is −0.2 (−0.30 … −0.13) times M·a·b. Face: H "
+        "runs from the wheel plane to the top; a is 0.43 H (0.38 … 0.49), b is 0 (±0.03 H), k_x = 0.37 H (0.33 … "
+        "0.42), k_y = 0.285 H (0.255 … 0.315), k_z = 0.29 H (0.25 … 0.35). "
         "a is the distance from the centre of mass to the wheel plane, b that to the spindle axis. In brackets: 95 % "
         "of such assemblies. The rotor's polar inertia is ½·m·R_w² of the wheel unless the file gives it."
     ),

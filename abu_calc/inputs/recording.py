@@ -81,7 +81,7 @@ def recording(
     path: str, content: bytes, quantity: MotionQuantity, axes: Sequence[tuple[str, NDArray[np.float64]]], rate: float,
     remarks: Sequence[str] = (), *, simulated: bool = False, handles: Sequence[str] = (), clipped: Sequence[str] = (),
 ) -> Recording:  # fmt: skip
-    """Recording of the data read; refused with more than three axes at a place, with two of one name, or with one that stands still."""
+    """Recording of the data read; refused with more than three axes at a place, two of one name, or one at rest."""
     names, samples = tuple(name for name, _ in axes), tuple(values for _, values in axes)
     for handle, members in by_handle(handles or ("",) * len(axes)).items():
         if len(members) > MOST_AXES:

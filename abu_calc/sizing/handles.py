@@ -201,12 +201,16 @@ def body_advice(case: Case, added: float = 0.0) -> str:
     except (AbuError, ValueError):
         return unknown
     masses = case.body.effective_mass(added), other.body.effective_mass(added)
-    moved = [Moved("the effective mass at the wheel", *masses, "kg").text]
+    moved = [Moved("the effective mass at the wheel", masses[0], masses[1], "kg").text]
     if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
-        moved.append(Moved("the imbalance", *(from_si(each, "g_mm") for each in imbalances), "g·mm").text)
+        moved.append(_moved_imbalance(*imbalances))
     options = " ".join(f"--set {entry}" for entry in overrides(entries))
     given = words(entries)
     return f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {options}"
+
+
+def _moved_imbalance(before: float, after: float) -> str:
+    return Moved("the imbalance", from_si(before, "g_mm"), from_si(after, "g_mm"), "g·mm").text
 
 
 def estimate_keys(case: Case) -> str:

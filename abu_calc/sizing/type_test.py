@@ -10,8 +10,8 @@ from dataclasses import replace
 from abu_calc.formulas.body_estimate import PlacedBody
 from abu_calc.formulas.body_motion import BodyMotion
 from abu_calc.formulas.rigid_body import Vector
-from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.formulas.shaken_friction import remaining_band
+from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.formulas.type_test import (
     MANY,
     HandleMotion,

@@ -147,7 +147,7 @@ def remark_in_list(text: str) -> str:
     'ax names no unit and is taken in m/s²; scale in [[recording]] says otherwise.'
     """
     text = re.sub(r"say --quantity (\w+)", r'specify quantity = "\1" in [[recording]]', text)
-    return re.sub(r"--(channels|handle|scale|quantity)\b( velocity)?", lambda found: f"{KEYS[found[1]]} in [[recording]]", text)
+    return re.sub(r"--(channels|handle|scale|quantity)\b", lambda found: f"{KEYS[found[1]]} in [[recording]]", text)
 
 
 def _sensitivity(entry: RecordedFile, columns: Sequence[str]) -> float | str | dict[str, float | str] | None:

@@ -37,10 +37,11 @@ def remarks(
             case.friction_arm, design.autobalancer.pitch_radius, design.autobalancer.ball_diameter / 2, case.speed
         )
         left = "nothing" if with_.shaken_free else "a part of itself"
+        upright = with_.upright_m_per_s2
         yield (
-            f"On the horizontal spindle gravity shakes the balls (friction over gravity: {number:.2g}), and friction "
-            f"leaves {left}. With the spindle vertical friction holds them: {with_.upright_m_per_s2:.3g} m/s², declared "
-            f"{with_.factor * with_.upright_m_per_s2:.3g} m/s²."
+            f"On the horizontal spindle gravity shakes the balls (friction over gravity: {number:.2g}), and "
+            f"friction leaves {left}. With the spindle vertical friction holds them: {upright:.3g} m/s², declared "
+            f"{with_.factor * upright:.3g} m/s²."
         )
     yield from _background(spindle, imbalance_alone)
     yield from _sources(design, wheel)
@@ -48,8 +49,8 @@ def remarks(
         yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
     if test is not None and test.spindle.balls.band:
         yield (
-            "Balls start at rest in the race at random places, and pass each other as points. `abu size` judges whether "
-            "they stall and how soon they settle."
+            "Balls start at rest in the race at random places, and pass each other as points. `abu size` judges "
+            "whether they stall and how soon they settle."
         )
 
 
@@ -61,8 +62,8 @@ def beyond_capacity(design: Design, wheel: ChosenWheel, even: float | None) -> I
     need = required(case, candidate, wheel.imbalance, even)
     if need > candidate.capacity:
         yield (
-            f"At the break-even eccentricity the test wheel would require {from_si(need, 'g_mm'):.3g} g·mm, and the balls "
-            f"carry {from_si(candidate.capacity, 'g_mm'):.3g} g·mm: such a race needs larger balls."
+            f"At the break-even eccentricity the test wheel would require {from_si(need, 'g_mm'):.3g} g·mm, and the "
+            f"balls carry {from_si(candidate.capacity, 'g_mm'):.3g} g·mm: such a race needs larger balls."
         )
 
 

@@ -63,7 +63,7 @@ class Spindle:
 
     @classmethod
     def of(cls, case: Case, candidate: Candidate, *, upright: bool = False) -> "Spindle":
-        """The type test of a design at its rated speed; `upright`: with the spindle vertical, whatever the file says."""
+        """The type test of a design at its rated speed; `upright`: with the spindle vertical in any case."""
         test = case.table.type_test
         given = None if test is None else test.orientations
         usual = usual_orientations()

@@ -20,7 +20,8 @@ ESTIMATED = (
     "only this column compares."
 )
 LOWERED = (
-    "Without: measured, and in the model. Lowered: measured, and in the model. Loudest: level with the autobalancer of the loudest start case, or expected from manufacture and "
+    "Without: measured, and in the model. Lowered: measured, and in the model. "
+    "Loudest: level with the autobalancer of the loudest start case, or expected from manufacture and "
     "friction if that is higher."
 )
 SPENT = (

@@ -12,8 +12,8 @@ import pytest
 
 from abu_calc.dynamics.averaging.resting_places import SlowBalls
 from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle, search_break_even, simulated_test
-from abu_calc.foundation.progress import silent
 from abu_calc.formulas.type_test import TypeTestBody, acceleration_per_displacement
+from abu_calc.foundation.progress import silent
 from abu_calc.standards.type_test import declared_uncertainty, reproducibility
 from tests.dynamics.averaging.test_resting_places import S100, S150
 from tests.formulas.test_type_test import POINT, RIGID
@@ -46,7 +46,10 @@ MACHINES = {
     ),
     "S150": Reference(
         RIGID, S150, 65e-6, 10e-6,
-        {"front": (0.5515, 0.0020, (0.148, 0.532, 1.035), 0.124), "rear": (0.3360, 0.0013, (0.090, 0.316, 0.669), 0.072)},
+        {
+            "front": (0.5515, 0.0020, (0.148, 0.532, 1.035), 0.124),
+            "rear": (0.3360, 0.0013, (0.090, 0.316, 0.669), 0.072),
+        },
         (8.84, 10.50, 8.12, 19.6), (1.458, 0.717), (0.639, 0.566), (25.946, 25.0, 0.2),
     ),
 }  # fmt: skip
