@@ -70,7 +70,7 @@ def test_a_truer_race_shows_what_the_remedy_promised(limit: float, status: str) 
 
 
 def test_the_level_names_each_case_with_its_number_and_its_limit() -> None:
-    """No handle is named if the file defines none. Held vertical, it has the vertical one's level."""
+    """No handle is named if the file defines none. The case held vertical is that of a vertical file."""
     message = check_of(size(machine()), "ABU401").message
     assert re.match(r"Wheel plane, 5800 rpm: expected [\d.]+ dB \(limit 109 dB\). Worst friction case: ", message)
     assert "handle" not in message
