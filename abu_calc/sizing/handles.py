@@ -5,19 +5,22 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final, NamedTuple
 
+from abu_calc.formulas.body_estimate import usual_lengths
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.actions import followed, pins, set_action
+from abu_calc.sizing.actions import followed, overrides, pins, set_action, with_entries, words
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.case import WHEEL_PLANE, Case
+from abu_calc.sizing.case import WHEEL_PLANE, Case, read_case
 from abu_calc.sizing.imbalance import find_imbalance
 from abu_calc.sizing.places import LevelPlace, PlaceBand, in_space, place_bands, place_numbers, settled_levels
 from abu_calc.sizing.vibration import idle_vibration, speed_levels, truer_races, worst_residuals
 
 Band = tuple[float, float]
+SAME = 1e-3
+"""Relative change of an imbalance that is not told."""
 
 SHOWN: Final = 1.005
 """Ratio of two accelerations that shows."""
@@ -174,12 +177,40 @@ def _remedy(
 def missing_body(case: Case) -> Action:
     """Keys to specify for levels at handles: those of a body that is missing, of handles, or measured inertias."""
     if not case.body.is_rigid:
-        return Action(f"Specify {estimate_keys(case)} for an estimate of the inertia, or the inertia itself.")
+        return Action(body_advice(case))
     if not case.handles:
         return Action("Add a [[machine.handle]] for each handle.")
     return Action(
         "Measure the inertia by a pendulum: specify machine.inertia_kg_m2 and machine.center_of_mass_from_wheel_mm."
     )
+
+
+def body_advice(case: Case, added: float = 0.0) -> str:
+    """How a point mass becomes a rigid body: usual lengths of such a machine, tried, and what they change.
+
+    `added`: mass [kg] of the autobalancer.
+    """
+    top, keys = case.table.machine, estimate_keys(case)
+    entries: dict[str, object] = dict(usual_lengths(top.layout, top.mass_kg))
+    unknown = f"Specify {keys} for an estimate of the inertia, or the inertia itself."
+    if not entries:
+        return unknown
+    try:
+        other = read_case(with_entries(case.table, entries))
+        imbalances = find_imbalance(case).value, find_imbalance(other).value
+    except (AbuError, ValueError):
+        return unknown
+    masses = case.body.effective_mass(added), other.body.effective_mass(added)
+    moved = [Moved("the effective mass at the wheel", masses[0], masses[1], "kg").text]
+    if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
+        moved.append(_moved_imbalance(*imbalances))
+    options = " ".join(f"--set {entry}" for entry in overrides(entries))
+    given = words(entries)
+    return f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {options}"
+
+
+def _moved_imbalance(before: float, after: float) -> str:
+    return Moved("the imbalance", from_si(before, "g_mm"), from_si(after, "g_mm"), "g·mm").text
 
 
 def estimate_keys(case: Case) -> str:

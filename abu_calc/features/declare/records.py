@@ -55,13 +55,13 @@ class WithAutobalancer(Record):
         tuple[float, float] | None, Quantity("95 % band of an estimated inertia", "a_hd", 3, "calculated")
     ]
     no_friction_m_per_s2: Annotated[float, Quantity("with, no rolling friction", "a_hv", 4, "without factor")]
-    horizontal_m_per_s2: Annotated[
-        float | None,
-        Quantity("with, friction that gravity leaves", "a_hv", 4, "on the file's horizontal spindle, without factor"),
-    ]
     shaken_free: Annotated[
         bool,
-        Quantity("gravity shakes the balls free", "", 4, "on a horizontal spindle; the value is then without friction"),
+        Quantity("gravity shakes the balls free", "", 4, "on a horizontal spindle; friction then leaves nothing"),
+    ]
+    upright_m_per_s2: Annotated[
+        float | None,
+        Quantity("with, spindle vertical", "a_hv", 4, "friction holds the balls; without factor; null: as in the file"),
     ]
 
 
