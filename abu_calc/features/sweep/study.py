@@ -79,7 +79,7 @@ def sweep(
     ACCURACY.check(accuracy)
     WORKERS.check(1 if workers is None else workers)
     hands = Workers(workers, executor, WAIT.check(cluster_wait_s))
-    path = None if store is None else _path(store, resume, force)
+    path = None if store is None else store_path(store, resume, force)
     hands.refuse_other_software()
     ask = asked(
         machine, vary, runs=runs, what=what, tolerances=tolerances, grid=grid, sensitivity=sensitivity,
@@ -116,7 +116,7 @@ def sweep(
         database.close()
 
 
-def _path(given: str | Path, resume: bool, force: bool) -> Path:
+def store_path(given: str | Path, resume: bool, force: bool) -> Path:
     """The path of the store; refused if a study is there that nobody asks to go on with, or a file of another kind."""
     path = checked_path(given)
     if not (resume or force) and study_of(path) is not None:
