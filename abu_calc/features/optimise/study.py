@@ -36,9 +36,9 @@ from abu_calc.simulation.simulate import ACCURACY
 
 RUNS: Final = Range("number of fresh samples", 100, MOST, key="runs")
 SAMPLES: Final = Range("number of samples of the race", 100, 100_000_000, key="samples")
-FRONT_BUDGET: Final = 2000
+FRONT_BUDGET: Final = 1000
 """Samples for the front and the runners-up, beside those of the race."""
-PER_VARIANT, AT_LEAST = 40, 4000
+PER_VARIANT, AT_LEAST = 20, 4000
 """Samples of the race, if no number is given: so many for each variant, and so many besides."""
 
 
