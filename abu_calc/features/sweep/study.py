@@ -16,6 +16,8 @@ from abu_calc.features.sweep import tolerance_costs as worth
 from abu_calc.features.sweep.cluster import software, versions
 from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
 from abu_calc.features.sweep.execution import Take, Workers, compute, described, once_more
+from abu_calc.features.sweep.failed_limits import failed_limits
+from abu_calc.features.sweep.limit_advice import advice
 from abu_calc.features.sweep.plan import Plan, SweepRequest, asked, planned
 from abu_calc.features.sweep.result import Failed, Kept, MeetsLimits, Members, Percentiles, SweepResult, Varied
 from abu_calc.features.sweep.samples import SweepStudy
@@ -220,6 +222,9 @@ def _answered(
     halves = worth.halves(store, sample, study.what, ranked)
     idle = [split.row.key for split in reversed(halves) if split.idle]
     tried = loosened(study, store, idle, again)
+    limits = _limits(plan)
+    failing = () if study.what != "build" or late else failed_limits(store, sample, met, limits)
+    given, many = ((), 0) if not isinstance(source, Machine) else advice(plan, ask, source, failing, store, again)
     quantities = answers.spreads(store, study.what)
     tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
     return SweepResult(
@@ -234,7 +239,7 @@ def _answered(
         varied=tuple(Varied(key=factor.key, how=factor.variation.text) for factor in sample.factors),
         failed=failed,
         quantities=quantities,
-        distributions=answers.distributions(store, study.what, _limits(plan)),
+        distributions=answers.distributions(store, study.what, limits),
         meets_limits=met,
         basins=answers.basins(store),
         sensitivity_of=first,
@@ -242,6 +247,9 @@ def _answered(
         sensitivity_by_quantity=by_name,
         unexplained=unexplained,
         prices=worth.prices(halves, tried),
+        failed_limits=failing,
+        advice=given,
+        tried=many,
         chart=None if plan.grid is None else answers.chart(store, sample, study.what, plan.grid),
         store=None if path is None else str(path),
         members=members,
