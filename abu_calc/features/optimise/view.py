@@ -30,10 +30,12 @@ LABELS: Final = {
 def percent(share: float) -> str:
     """A share as text; 100 % only where it is.
 
-    >>> percent(0.9987), percent(1.0)
-    ('99.87 %', '100 %')
+    >>> percent(0.9987), percent(0.99998), percent(1.0)
+    ('99.87 %', '99.99 %', '100 %')
     """
-    return "100 %" if share == 1 else f"{100 * share:.2f} %" if share >= 0.99 else f"{100 * share:.1f} %"
+    if share == 1:
+        return "100 %"
+    return f"{min(100 * share, 99.99):.2f} %" if share >= 0.99 else f"{100 * share:.1f} %"
 
 
 def optimise_blocks(result: OptimiseResult) -> tuple[Block, ...]:

@@ -67,8 +67,9 @@ def advice(
     after = _tried([study for _, study in picked], members, store, compute)
     before = [flags[member] for member in members]
     given = [_advice(change, before, its) for (change, _), its in zip(picked, after, strict=True) if its is not None]
-    better = [each for each in given if each.after > each.before]
-    return tuple(sorted(better, key=lambda each: -each.after)[:GIVEN]), len(changes)
+    better = sorted((each for each in given if each.after > each.before), key=lambda each: -each.after)
+    best = {each.change.partition(" ")[0]: each for each in reversed(better)}
+    return tuple(each for each in better if each in best.values())[:GIVEN], len(changes)
 
 
 def _screened(
@@ -92,7 +93,7 @@ def _screened(
         share = (len(failing) * mended + len(passing) * kept) / len(flags)
         ranked.append((-share, place))
     now = len(passing) / len(flags)
-    return [changes[place] for share, place in sorted(ranked)[:GIVEN] if -share > now]
+    return [changes[place] for share, place in sorted(ranked)[: GIVEN + 1] if -share > now]
 
 
 def _members(drawn: int, most: int, seed: int) -> list[int]:
@@ -162,7 +163,7 @@ def _changes(
     own, pins = design.case.autobalancer, _pins(design.autobalancer)
     varied = {key: way for key, way in ask.vary}
     for key, factors, most in (
-        (DRAG, (1.5, 2.5, 0.6), 1e5),
+        (DRAG, (1.5, 2.5, 6.0, 0.6), 1e5),
         (f"{ABU}.race_eccentricity_mm", (0.5,), 10.0),
         (f"{ABU}.rolling_friction_mm", (0.5,), 1.0),
     ):
