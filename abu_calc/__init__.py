@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from abu_calc.features.identification.plan import MeasurePlanResult, measure_plan
     from abu_calc.features.identification.study import IdentifyResult, identify
     from abu_calc.features.levels.study import LevelsResult, levels
-    from abu_calc.features.seats.study import CheckFitResult, check_fit
     from abu_calc.features.optimise.result import OptimiseResult
     from abu_calc.features.optimise.study import optimise
+    from abu_calc.features.seats.study import CheckFitResult, check_fit
     from abu_calc.features.simulate.study import SimulateResult, simulate
     from abu_calc.features.stability.study import StabilityResult, stability
     from abu_calc.features.sweep.result import SweepResult

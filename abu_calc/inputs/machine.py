@@ -23,9 +23,9 @@ from abu_calc.inputs.bearing_file import (
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
+from abu_calc.inputs.optimisation import COSTS, Costs, Optimise
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
-from abu_calc.inputs.optimisation import COSTS, Costs, Optimise
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 from abu_calc.inputs.type_test import TypeTest
 from abu_calc.inputs.variation import Sweep

@@ -3,6 +3,7 @@
 from functools import lru_cache
 from typing import Final
 
+import numpy as np
 from numpy.typing import NDArray
 
 CONFIDENCE: Final = 0.95
@@ -62,8 +63,8 @@ def chance(wins: int, losses: int) -> float:
     return float(betainc(wins, losses + 1, 0.5)) if wins else 1.0
 
 
-def compared(first: "NDArray[object]", second: "NDArray[object]") -> tuple[int, int]:
+def compared(first: NDArray[np.bool_], second: NDArray[np.bool_]) -> tuple[int, int]:
     """Samples that only the first one meets, and that only the second one does, of those that both have."""
     count = min(len(first), len(second))
-    one, other = first[:count].astype(bool), second[:count].astype(bool)
+    one, other = first[:count], second[:count]
     return int((one & ~other).sum()), int((other & ~one).sum())

@@ -1,4 +1,4 @@
-"""Cost of a candidate in relative units: 1 is about the housing of a hand grinder with its race, as a small series pays.
+"""Cost of a candidate in relative units: 1 is about the housing of a hand grinder with its race.
 
 The default costs are assumptions, each with its reason; [costs] of a file replaces them key by key. The cost of
 accuracy rises with the reciprocal of the tolerance (Chase & Greenwood 1988, Manuf. Rev. 1(1), 49).

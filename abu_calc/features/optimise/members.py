@@ -15,7 +15,17 @@ from numpy.typing import NDArray
 
 from abu_calc.features.sweep.batches import RenewableExecutor, Row, in_batches
 from abu_calc.features.sweep.cluster import software
-from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, MEETS, MEMBER, OUTSIDE, QUANTITIES, REASON, SEED, SampleColumn
+from abu_calc.features.sweep.columns import (
+    FLAGS,
+    IMPATIENT,
+    MEETS,
+    MEMBER,
+    OUTSIDE,
+    QUANTITIES,
+    REASON,
+    SEED,
+    SampleColumn,
+)
 from abu_calc.features.sweep.execution import Attributed
 from abu_calc.features.sweep.plan import SweepRequest, planned
 from abu_calc.features.sweep.samples import SweepStudy
@@ -127,7 +137,8 @@ class SampleSource:
             for worker, its_software, rows in entries:
                 self.store.put(rows, worker, its_software)
                 self.computed += len(rows)
-            self.progress(f"optimise: {self.computed - before} of {total} samples of this round, {self.computed} in all")
+            done = self.computed - before
+            self.progress(f"optimise: {done} of {total} samples of this round, {self.computed} in all")
 
         in_batches(Attributed(self.study, software()), iter(numbers), self.workers, take, size=4)
         if self.store.ask("SELECT COUNT(*) FROM members")[0][0] < total:

@@ -6,7 +6,8 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.result import Result
 
 SHARE = Quantity("share", "", 4, "share of samples that meet all limits", percent=True)
-LOW, HIGH = Quantity("from", "", 4, "95 % confidence", percent=True), Quantity("to", "", 4, "95 % confidence", percent=True)
+LOW = Quantity("from", "", 4, "95 % confidence", percent=True)
+HIGH = Quantity("to", "", 4, "95 % confidence", percent=True)
 
 
 @record

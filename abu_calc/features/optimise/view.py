@@ -72,7 +72,7 @@ def _about(result: OptimiseResult) -> list[Block]:
             f"{percent(fresh.low)} to {percent(fresh.high)}); wanted: {percent(result.share)}"
         )
     least = " of the machine that meets them least" if len(result.files) > 1 else ""
-    lines = [
+    lines: list[Block] = [
         Heading(f"{result.title}: optimum of a series"),
         Paragraph(f"Cost {recommended.cost:.3f}: {share}{least}.", result.status),
     ]
@@ -85,7 +85,7 @@ def _about(result: OptimiseResult) -> list[Block]:
             f"{result.rounds} rounds, seed {result.seed}. {'' if recommended.proven else FALLBACK}".rstrip()
         )
     )
-    return list(lines)
+    return lines
 
 
 def _values(values: Mapping[str, Any]) -> tuple[tuple[str, str, str], ...]:
@@ -204,4 +204,5 @@ def front_plot(result: OptimiseResult) -> Plot:
     limit = (100 * result.share, f"wanted {number(100 * result.share, 4)} %")
     across = Axis.around("cost [relative]", [point.x for point in points])
     summary = f"{'; '.join(texts)}; recommended: cost {best.cost:.3f}, {percent(value)}"
-    return Plot("Front of cost against share", summary, across, up._replace(high=min(up.high, 101.0)), lines, points, limit)
+    up = up._replace(high=min(up.high, 101.0))
+    return Plot("Front of cost against share", summary, across, up, lines, points, limit)

@@ -20,6 +20,7 @@ from abu_calc.features.sweep.store import Store
 from abu_calc.features.sweep.tolerance_costs import Compute, Trials
 from abu_calc.foundation.errors import AbuError, Place
 from abu_calc.foundation.units import from_si
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.variation import Variation, variation
 from abu_calc.simulation.start_cases import RUN_UP
@@ -38,12 +39,11 @@ BALLS: Final = (f"{ABU}.ball_count", f"{ABU}.ball_diameter_mm", f"{ABU}.race_rad
 
 
 class Change(NamedTuple):
-    """A change of the design (`values`) or of the scatter (`vary`); `resized`: its balls are sized anew."""
+    """A change of the design (`values`) or of the scatter (`vary`)."""
 
     text: str
     values: Mapping[str, Any]
     vary: Mapping[str, str]
-    resized: bool = False
 
 
 def advice(
@@ -161,7 +161,7 @@ def _changes(
 ) -> Iterator[Change]:
     """Drag, friction, eccentricity, balls, envelope, run-up; and half the scatter of other values that decide."""
     own, pins = design.case.autobalancer, _pins(design.autobalancer)
-    varied = {key: way for key, way in ask.vary}
+    varied = dict(ask.vary)
     for key, factors, most in (
         (DRAG, (1.5, 2.5, 6.0, 0.6), 1e5),
         (f"{ABU}.race_eccentricity_mm", (0.5,), 10.0),
@@ -186,7 +186,8 @@ def _changes(
 def _scaled(key: str, way: Variation, factor: float) -> Iterator[Change]:
     """A distribution of the user's about another middle."""
     if way.kind in ("lognormal", "normal"):
-        numbers = (way.numbers[0] * factor, way.numbers[1] * (1 if way.kind == "lognormal" else factor))
+        spread = way.numbers[1] if way.kind == "lognormal" else way.numbers[1] * factor
+        numbers: tuple[float, ...] = (way.numbers[0] * factor, spread)
     elif way.numbers:
         numbers = tuple(number * factor for number in way.numbers)
     else:
@@ -210,20 +211,28 @@ def _other_balls(design: Design) -> Iterator[Change]:
         f"{ABU}.max_width_mm": round(1.12 * own.max_width_mm, 1),
         f"{ABU}.max_mass_fraction": round(min(1.5 * own.max_mass_fraction, 1.0), 4),
     }
-    for text, values in (("", {}), (f"envelope Ø{own.max_outer_diameter_mm:g} → {round(1.12 * own.max_outer_diameter_mm, 1):g} mm, ", larger)):  # noqa: E501
-        table = free.model_copy(update={ABU: free.autobalancer.model_copy(  # type: ignore[union-attr]
-            update={key.partition(".")[2]: value for key, value in values.items()})})  # fmt: skip
-        try:
-            whole = sized(table)
-        except AbuError:
-            continue
-        there = candidates(whole.case, whole.imbalance.value)
-        fit = [each for each in there if each.mass_fraction <= whole.case.autobalancer.max_mass_fraction]
-        chosen = max(fit, key=lambda each: each.capacity_ratio, default=None)
+    diameters = f"Ø{own.max_outer_diameter_mm:g} → Ø{larger[f'{ABU}.max_outer_diameter_mm']:g} mm"
+    for text, values in (("", {}), (f"envelope {diameters}, ", larger)):
+        chosen = _strongest(free, values)
         if chosen is not None and _pins(chosen) != _pins(best):
             pins = _pins(chosen)
-            balls = "{} × Ø{:g} in R {:g} → ".format(*_pins(best).values()) + "{} × Ø{:g} in R {:g}".format(*pins.values())
-            yield Change(f"{text}balls {balls}", {**values, **pins}, {}, resized=True)
+            was, now = ("{} × Ø{:g} in R {:g}".format(*each.values()) for each in (_pins(best), pins))
+            yield Change(f"{text}balls {was} → {now}", {**values, **pins}, {})
+
+
+def _strongest(table: MachineFile, values: Mapping[str, Any]) -> Candidate | None:
+    """The autobalancer that carries most within the envelope and mass of a file with these values."""
+    own = table.autobalancer
+    if own is None:
+        return None
+    given = {key.partition(".")[2]: value for key, value in values.items()}
+    try:
+        design = sized(table.model_copy(update={ABU: own.model_copy(update=given)}))
+        there = candidates(design.case, design.imbalance.value)
+    except AbuError:
+        return None
+    fit = [each for each in there if each.mass_fraction <= design.case.autobalancer.max_mass_fraction]
+    return max(fit, key=lambda each: each.capacity_ratio, default=None)
 
 
 def _run_up(design: Design) -> float | None:

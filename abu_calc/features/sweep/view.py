@@ -320,7 +320,8 @@ def _failing(result: SweepResult) -> list[Block]:
     blocks: list[Block] = [Heading("What fails", "failing"), Grid(header, tuple(rows), frozenset({1, 3}))]
     if not result.advice:
         if result.tried:
-            blocks.append(Paragraph(f"{many(result.tried, 'change was', 'changes were')} tried; none raises the share."))
+            tried = many(result.tried, "change was", "changes were")
+            blocks.append(Paragraph(f"{tried} tried; none raises the share."))
         return blocks
     of = result.advice[0].of
     blocks.append(Heading(f"What helps, tried on the same {of} samples", "helps"))

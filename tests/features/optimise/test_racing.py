@@ -24,7 +24,8 @@ def meets(variant: int, places: np.ndarray) -> np.ndarray:
     own = eccentricity * np.sqrt(places[:, 0])
     imbalance = 250 * np.exp(0.2 * ndtri(places[:, 1]))
     capacity = 120 * balls
-    settling = 8 / (drag * np.exp(0.5 * ndtri(places[:, 2]))) * (1 + 0.3 * places[:, 3]) * (1 + imbalance / capacity / 3)
+    viscous = drag * np.exp(0.5 * ndtri(places[:, 2]))
+    settling = 8 / viscous * (1 + 0.3 * places[:, 3]) * (1 + imbalance / capacity / 3)
     return (own < 9) & (imbalance + 20 * own < capacity) & (settling < 1)
 
 
