@@ -10,9 +10,9 @@ from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.handles import BodyBands, estimate_keys
+from abu_calc.sizing.handles import BodyBands, body_advice, estimate_keys
 from abu_calc.sizing.places import HANDS
-from abu_calc.sizing.trials import Requirement
+from abu_calc.sizing.trials import TriedRequirement
 from abu_calc.sizing.vibration import LevelsUnderLoad
 from abu_calc.standards.balls import stock_diameter
 
@@ -24,7 +24,7 @@ def candidate_checks(case: Case, chosen: Candidate) -> tuple[Check, ...]:
 
 def _capacity(case: Case, candidate: Candidate) -> Check:
     margin = case.autobalancer.capacity_margin
-    required = Requirement("the capacity", "g·mm", lambda _, other: from_si(other.capacity, "g_mm"), _with_margin,
+    required = TriedRequirement("the capacity", "g·mm", lambda _, other: from_si(other.capacity, "g_mm"), _with_margin,
                            enough, "the required capacity with its margin")  # fmt: skip
     passed = enough(case, candidate)
     return coded("ABU201", verdict(passed), f"{candidate.ball_count} balls side by side must carry the required "
@@ -49,7 +49,7 @@ def _budget(candidate: Candidate) -> Check:
 
 def _mass(case: Case, candidate: Candidate) -> Check:
     passed = light(case, candidate)
-    required = Requirement("the autobalancer's share of the machine's mass", "%",
+    required = TriedRequirement("the autobalancer's share of the machine's mass", "%",
                            lambda _, other: 100 * other.mass_fraction,
                            lambda other, _: 100 * other.autobalancer.max_mass_fraction, light)  # fmt: skip
     return coded("ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",
@@ -165,10 +165,12 @@ def _body_warnings(case: Case, bands: BodyBands | None, added: float) -> list[st
         return [*signs, *_rotor_warning(case), *_hands_warning(case)]
     measured = " An imbalance that a measured level gives is as uncertain." if case.table.wheel.shown else ""
     handles = " All handles move alike." if case.handles else ""
+    unused = {"face": "length_mm", "angle": "height_mm"}.get(case.table.machine.layout)
+    if unused is not None and getattr(case.table.machine, unused) is not None:
+        handles += f" Alone machine.{unused} gives no estimate for this layout."
     return [
         f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
-        f"{handles} Specify {estimate_keys(case)} for an estimate, or machine.transverse_inertia_kg_m2 and "
-        "machine.center_of_mass_to_wheel_mm."
+        f"{handles} {body_advice(case, added)}"
     ]
 
 
