@@ -169,9 +169,7 @@ def _beaten(race: CandidateRace, candidate: int, rival: int) -> bool:
     return any(chance(wins, losses) < DROP for wins, losses in pairs)
 
 
-def _next_samples(
-    race: CandidateRace, alive: NDArray[np.bool_], order: Sequence[int], group: int
-) -> dict[int, int]:
+def _next_samples(race: CandidateRace, alive: NDArray[np.bool_], order: Sequence[int], group: int) -> dict[int, int]:
     """Samples of the next round: of the first candidates that are alive, until there are arms enough."""
     wanted: dict[int, int] = {}
     for k in order:

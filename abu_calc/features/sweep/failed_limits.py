@@ -108,4 +108,3 @@ def flags_of(store: Store) -> Iterator[tuple[int, tuple[bool, ...]]]:
     names = ", ".join(column.name for column in FLAGS["build"])
     for member, *flags in store.ask(f"SELECT member, {names} FROM members WHERE member < ?", (store.drawn,)):
         yield member, tuple(map(bool, flags))
-

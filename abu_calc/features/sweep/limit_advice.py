@@ -156,9 +156,7 @@ def _failing(design: Design) -> set[str]:
     return {check.code for check in design.checks if check.status == "fail"}
 
 
-def _changes(
-    design: Design, ask: SweepRequest, study: SweepStudy, failed: Sequence[FailedLimit]
-) -> Iterator[Change]:
+def _changes(design: Design, ask: SweepRequest, study: SweepStudy, failed: Sequence[FailedLimit]) -> Iterator[Change]:
     """Drag, friction, eccentricity, balls, envelope, run-up; and half the scatter of other values that decide."""
     own, pins = design.case.autobalancer, _pins(design.autobalancer)
     varied = dict(ask.vary)
