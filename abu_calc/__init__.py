@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from abu_calc.features.identification.plan import MeasurePlanResult, measure_plan
     from abu_calc.features.identification.study import IdentifyResult, identify
     from abu_calc.features.levels.study import LevelsResult, levels
+    from abu_calc.features.optimise.result import OptimiseResult
+    from abu_calc.features.optimise.study import optimise
     from abu_calc.features.seats.study import CheckFitResult, check_fit
     from abu_calc.features.simulate.study import SimulateResult, simulate
     from abu_calc.features.stability.study import StabilityResult, stability
@@ -104,6 +106,8 @@ _ROOMS: Final = {
         "LevelsResult",
         "levels",
     ),
+    "features.optimise.result": ("OptimiseResult",),
+    "features.optimise.study": ("optimise",),
     "features.seats.study": (
         "CheckFitResult",
         "check_fit",
@@ -161,6 +165,7 @@ __all__ = [
     "MeasurePlanResult",
     "MeasuredDeclareResult",
     "NotTrustworthyError",
+    "OptimiseResult",
     "OutputError",
     "Race",
     "RangeError",
@@ -187,6 +192,7 @@ __all__ = [
     "identify",
     "levels",
     "measure_plan",
+    "optimise",
     "planar",
     "read",
     "read_readings",

@@ -187,6 +187,13 @@ FEATURES: Final[tuple[Feature, ...]] = (
         ),
     ),
     Feature(
+        "optimise",
+        "optimise.command",
+        ("optimise.result:OptimiseResult",),
+        "optimise.view:optimise_extras",
+        figures=(Known("front"),),
+    ),
+    Feature(
         "levels",
         "levels.command",
         ("levels.study:LevelsResult",),

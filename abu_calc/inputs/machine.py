@@ -23,6 +23,7 @@ from abu_calc.inputs.bearing_file import (
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
+from abu_calc.inputs.optimisation import COSTS, Costs, Optimise
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
@@ -118,6 +119,8 @@ class MachineFile(Table):
     limits: Limits = Field(default_factory=Limits)
     type_test: TypeTest | None = None
     sweep: Sweep | None = None
+    optimise: Optimise | None = None
+    costs: Costs = Field(default_factory=dict, description=COSTS)
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 
     def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:

@@ -283,6 +283,10 @@ VARIED = "vary {}"
 """Name in messages of a value that a sweep gave."""
 
 
+NOT_OF_THE_MACHINE: Final = ("sweep", "optimise", "costs", "expected")
+"""Tables that say nothing of the machine itself."""
+
+
 @dataclass(frozen=True)
 class Variants(Generic[Model]):
     """A file with its overrides put in, as data that processes can hand on; `model`: its tables."""
@@ -295,7 +299,7 @@ class Variants(Generic[Model]):
         """Variants of a file that was read."""
         content = reading.document.content
         apply(content, reading.overrides, model)
-        return cls({name: table for name, table in content.items() if name not in ("sweep", "expected")}, model)
+        return cls({name: table for name, table in content.items() if name not in NOT_OF_THE_MACHINE}, model)
 
     def table(self, values: Mapping[tuple[Part, ...], object]) -> Model:
         """The tables with these values. Raises InputError that names the key."""

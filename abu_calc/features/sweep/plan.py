@@ -18,7 +18,7 @@ from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneDescription, SceneFile
-from abu_calc.inputs.variation import MOST_RUNS, Sweep, Variants, Variation, path_of, variation
+from abu_calc.inputs.variation import MOST_RUNS, NOT_OF_THE_MACHINE, Sweep, Variants, Variation, path_of, variation
 from abu_calc.inputs.variation import RUNS as USUAL
 from abu_calc.simulation.arguments import one_of
 from abu_calc.simulation.scene_of_file import scene_from
@@ -288,7 +288,7 @@ def _path(key: str, what: str) -> tuple[str | int, ...]:
             known = ", ".join(KEYS[what]) or "none: each machine is judged from all of its starts"
             raise InputError("no such key of the start", place=Place(key=f"vary {key}"), allowed=known)
         return ()
-    if key.split(".")[0] in ("sweep", "expected"):
+    if key.split(".")[0] in NOT_OF_THE_MACHINE:
         raise InputError("no value of a machine", place=Place(key=f"vary {key}"))
     return path_of(key)
 

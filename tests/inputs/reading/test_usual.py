@@ -23,7 +23,7 @@ FREE = {
     "Start.angles_deg",  # wherever they lie
     "Wheel.runout_angle_deg", "Wheel.measured_axes", "MeasuredAfter.measured_axes",
     "Grinding.rotation_sense", "Tilting.ball_tilt_inertia",
-    "Sweep.least_share", "Sweep.runs", "Sweep.seed", "Sweep.time_limit_s",
+    "Sweep.least_share", "Sweep.runs", "Sweep.seed", "Optimise.seed", "Optimise.share", "Sweep.time_limit_s",
     "TypeTest.orientations", "TypeTest.runs", "TypeTest.operators",
 }  # fmt: skip
 """Numbers of which every permitted one is usual."""
