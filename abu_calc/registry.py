@@ -246,6 +246,13 @@ FEATURES: Final[tuple[Feature, ...]] = (
         group="Files",
     ),
     Feature(
+        "migrate",
+        "files.migrate",
+        (),
+        computes=False,
+        group="Files",
+    ),
+    Feature(
         "init",
         "files.init",
         (),

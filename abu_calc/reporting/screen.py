@@ -162,13 +162,14 @@ def _passed(checks: Iterable[Check]) -> str:
 
 
 def _next(result: Result, more: Sequence[str]) -> str:
-    """Last line of a screen: commands for more, with the defaults and replaced entries behind the result."""
+    """Last line of a screen: commands for more, with the defaults, replaced and converted entries of the result."""
     source, codes = result.provenance, [check.code for check in result.checks if check.status != "pass"]
     codes = codes or [check.code for check in result.checks]
     asked = [f"`abu explain {codes[0]}`, what a check asks"] if codes else []
     defaults = [f"{many(len(source.defaults), 'default')} used"] if source.defaults else []
     replaced = [f"{many(len(source.overrides), 'entry', 'entries')} replaced"] if source.overrides else []
-    within = f" ({', '.join([*defaults, *replaced])})" if defaults or replaced else ""
+    converted = [f"{many(len(source.converted), 'value')} converted"] if source.converted else []
+    within = f" ({', '.join([*defaults, *replaced, *converted])})" if defaults or replaced or converted else ""
     return f"More: {'; '.join([f'--full, the whole report{within}', *more, *asked])}."
 
 

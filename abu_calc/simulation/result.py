@@ -34,7 +34,8 @@ NOTHING: Final = Record()
 class Provenance:
     """Provenance of a result: file as named, its hash, entries replaced, defaults in force, version, date.
 
-    `file` None: the input was no file.
+    `file` None: the input was no file; of a text or a dictionary there is a hash all the same. `converted`: keys whose
+    values were written with a unit, what was written, and the value in the unit of the key.
     """
 
     file: str | None
@@ -43,32 +44,42 @@ class Provenance:
     defaults: tuple[tuple[str, object], ...]
     version: str
     date: str
+    converted: tuple[tuple[str, str, object], ...] = ()
 
     @classmethod
     def of(cls, reading: "FileReading") -> "Provenance":
         """Provenance of a file that was read."""
         replaced = {override.key: override.value for override in reading.overrides}
-        return cls.today(reading.file or None, reading.sha256 or None, tuple(replaced.items()), reading.defaults_used)
+        converted = tuple((each.key, each.entry, each.rounded) for each in reading.converted)
+        return cls.today(
+            reading.file or None, reading.sha256 or None, tuple(replaced.items()), reading.defaults_used, converted
+        )
 
     @classmethod
     def today(
         cls, file: str | None = None, sha256: str | None = None, overrides: tuple[tuple[str, object], ...] = (),
-        defaults: tuple[tuple[str, object], ...] = (),
+        defaults: tuple[tuple[str, object], ...] = (), converted: tuple[tuple[str, str, object], ...] = (),
     ) -> "Provenance":  # fmt: skip
         """Provenance of this day and this version."""
-        return cls(file, sha256, overrides, defaults, __version__, datetime.date.today().isoformat())
+        return cls(file, sha256, overrides, defaults, __version__, datetime.date.today().isoformat(), converted)
 
     @property
     def input(self) -> dict[str, Any] | None:
-        """Input as the JSON document has it; null if that was no file."""
-        if self.file is None:
+        """Input as the JSON document has it; null if there was none, its file null if that was a text."""
+        if self.file is None and self.sha256 is None:
             return None
         return {
             "file": self.file,
             "sha256": self.sha256,
             "overrides": as_plain(dict(self.overrides)),
             "defaults": as_plain(dict(self.defaults)),
+            **({"converted": self._conversions} if self.converted else {}),
         }
+
+
+    @property
+    def _conversions(self) -> dict[str, Any]:
+        return {key: {"written": written, "value": as_plain(value)} for key, written, value in self.converted}
 
 
 @record

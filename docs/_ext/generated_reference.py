@@ -74,6 +74,8 @@ def keys(kind: str) -> str:
         lines += [f"## {path}", "", _escaped(table.get("description", "")), "", "| key | meaning |", "|---|---|"]
         required = set(table.get("required", ()))
         for key, entry in table["properties"].items():
+            if "x-canonical-key" in entry:
+                continue  # the page on units lists these
             needed = " (required)" if key in required else ""
             lines.append(f"| `{key}`{needed} | {_cell(_described(entry, schema))} |")
         lines.append("")

@@ -37,10 +37,11 @@ def result_schema() -> Schema:
 def _envelope(definitions: dict[str, Schema]) -> Schema:
     """Properties of every document; a document of an error has `error` and no result."""
     text, anything = {"type": "string"}, {"type": "object"}
+    text_or_null = {"anyOf": [text, {"type": "null"}]}
     check = {name: _type(hint, definitions) for name, hint in get_type_hints(Check).items()}
     return {
         "abu": _object(version=text, command=text, schema={"type": "integer"}, date=text),
-        "input": {"anyOf": [_object(file=text, sha256=text, overrides=anything, defaults=anything), {"type": "null"}]},
+        "input": {"anyOf": [_object(file=text_or_null, sha256=text, overrides=anything, defaults=anything), {"type": "null"}]},
         "status": _type(Status, definitions),
         "checks": {"type": "array", "items": _object(**check)},
         "result": {},
