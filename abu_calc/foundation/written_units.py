@@ -97,7 +97,7 @@ ZEROS: Final[Mapping[str, str]] = {"K": "-273.15", "°F": "-160/9"}
 """Temperature [°C] of zero in the units that begin elsewhere; a temperature difference has no such zero."""
 
 _TEXT: Final = re.compile(r"([+-]?[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]{1,3})?)(?: ?(?![0-9 ])(.+)| (1/.+))?", re.DOTALL)
-_SIGNS: Final = str.maketrans({"⋅": "·", "*": "·", " ": "·", "μ": "µ"})  # noqa: RUF001 - the signs that people type
+_SIGNS: Final = str.maketrans({"⋅": "·", "*": "·", " ": "·", "μ": "µ"})
 _WORDS: Final = {
     "um": "µm", "um/s": "µm/s", "N/um": "N/µm", "inch": "in", "mL": "ml", "L": "l", "degC": "°C",
 }  # fmt: skip

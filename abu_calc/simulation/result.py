@@ -2,14 +2,17 @@
 
 import datetime
 import importlib
+import os
 import re
 import shlex
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from abu_calc.foundation.checks import Check, Status, number_of, overall
+from abu_calc.foundation.checks import Check, Status, number_of, overall, verdict_words
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Record, as_plain, record
+from abu_calc.foundation.rows import Rows
 from abu_calc.version import __version__
 
 if TYPE_CHECKING:
@@ -19,9 +22,9 @@ if TYPE_CHECKING:
 
 
 FIGURES: Final = "abu_calc.registry"
-"""Module that draws results, in a layer above this one.
+"""Module that draws, prints and writes results, in a layer above this one.
 
-It is imported by its name when somebody wants a figure, as a plugin is.
+It is imported by its name when somebody wants that, as a plugin is.
 """
 
 COMMAND: Final = re.compile(r"(`abu [a-z-]+ )FILE\b")
@@ -76,7 +79,6 @@ class Provenance:
             **({"converted": self._conversions} if self.converted else {}),
         }
 
-
     @property
     def _conversions(self) -> dict[str, Any]:
         return {key: {"written": written, "value": as_plain(value)} for key, written, value in self.converted}
@@ -100,7 +102,7 @@ class Result(Record):
     def __init__(self, **values: object) -> None:
         super().__init__(**values)
         # Checks stand in the order of their codes; several of one code keep theirs.
-        self.__dict__["checks"] = tuple(
+        self.__dict__["checks"] = Rows(
             replace(check, message=self._named(check.message), remedy=check.remedy and self._named(check.remedy))
             for check in sorted(self.checks, key=lambda check: number_of(check.code))
         )
@@ -115,6 +117,29 @@ class Result(Record):
     def status(self) -> Status:
         """The worst of the checks."""
         return overall(self.checks)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {verdict_words(self.status, self.checks)}; {self.title}>"
+
+    def _repr_html_(self) -> str:
+        html: str = importlib.import_module(FIGURES).html(self)
+        return html
+
+    def text(self, full: bool = False) -> str:
+        """The report as the command prints it, on one screen of 80 columns; `full`: the whole of it, as --full."""
+        text: str = importlib.import_module(FIGURES).text(self, full=full)
+        return text
+
+    def save(self, path: str | os.PathLike[str], force: bool = False) -> Path:
+        """Write the result as --output does, whole or not at all, and return the path; the ending is the format.
+
+        .html page with figures · .json, .toml, .csv all numbers · .txt the whole report · of results with a drawing
+        also .svg and .dxf. `force`: over a file that is there. Raises OutputError, with the remedy, for an unknown
+        ending, a file that exists, a folder that does not, and a package that is not installed.
+        """
+        target = Path(path)
+        importlib.import_module(FIGURES).save(self, target, force=force)
+        return target
 
     @property
     def figures(self) -> tuple[str, ...]:

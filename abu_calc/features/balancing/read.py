@@ -47,9 +47,7 @@ class Readings(FileReading):
         return own_path.absolute().parent / name
 
 
-def read_readings(
-    source: str | os.PathLike[str] | Mapping[str, object], overrides: Sequence[str] = ()
-) -> Readings:
+def read_readings(source: str | os.PathLike[str] | Mapping[str, object], overrides: Sequence[str] = ()) -> Readings:
     """Reads readings (a file, a TOML text, tables as a dictionary) with entries overridden (`rig.key=value`).
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.

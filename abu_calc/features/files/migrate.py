@@ -37,7 +37,11 @@ def migrated_text(document: Document, changes: Sequence[KeyChange] = CHANGES) ->
     rows = document.text.split(newline)
     entries = list(statements(document.text))
     given = next((entry for entry in entries if entry.path == (KEY,)), None)
-    notes = [note for change in since(_format(rows, given), tuple(changes)) for note in _renamed(rows, entries, change, document)]
+    notes = [
+        note
+        for change in since(_format(rows, given), tuple(changes))
+        for note in _renamed(rows, entries, change, document)
+    ]
     if given is None:
         notes.append(f"{KEY} = {FORMAT} added")
         # Below the comment that opens the file, above that of the first table.
@@ -57,9 +61,7 @@ def _format(rows: Sequence[str], given: Statement | None) -> int | None:
     return None if number is None else int(number[1])
 
 
-def _renamed(
-    rows: list[str], entries: Sequence[Statement], change: KeyChange, document: Document
-) -> Iterator[str]:
+def _renamed(rows: list[str], entries: Sequence[Statement], change: KeyChange, document: Document) -> Iterator[str]:
     """Renames a key in each line that has it; what was renamed, in words."""
     old = change.path[-1]
     for entry in entries:

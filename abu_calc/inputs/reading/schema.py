@@ -1,7 +1,6 @@
 """JSON Schema of the files, in Draft 4, which TOML editors (Taplo, Even Better TOML) read."""
 
 import json
-import re
 from typing import Any, Final
 
 from pydantic.json_schema import models_json_schema
@@ -85,9 +84,8 @@ def _with_unit(entry: dict[str, Any], key: str) -> dict[str, Any]:
     listed = {"type": "array", "items": {"anyOf": [text, {"type": "array", "items": text}]}}
     kinds = json.dumps(entry)
     takes = {"anyOf": [text, listed]} if '"array"' in kinds else text
-    allowed = ", ".join(unit.allowed)
-    return {"description": f"{key} with its unit: a text of a number and one of {allowed}. {entry.get('description', '')}".strip(),
-            **takes}  # fmt: skip
+    words = f"{key} with its unit: a text of a number and one of {', '.join(unit.allowed)}."
+    return {"description": f"{words} {entry.get('description', '')}".strip(), **takes}
 
 
 _FORMAT: Final = {
@@ -96,10 +94,12 @@ _FORMAT: Final = {
     "maximum": FORMAT,
     "description": f"Format of the file; newest: {FORMAT}. Optional; `abu migrate FILE` brings older files up to date.",
 }
+
+
 def _spelled(unit: str) -> str:
     """A pattern for a unit in all its spellings, with the blank before it."""
     blank = " " if unit[0] == "1" else " ?"
-    for sign, spellings in (("·", "[·⋅* ]"), ("²", "(²|\\^?2)"), ("³", "(³|\\^?3)"), ("µ", "[µμu]")):  # noqa: RUF001
+    for sign, spellings in (("·", "[·⋅* ]"), ("²", "(²|\\^?2)"), ("³", "(³|\\^?3)"), ("µ", "[µμu]")):
         unit = unit.replace(sign, spellings)
     return blank + unit
 

@@ -42,7 +42,10 @@ def scene_template() -> str:
 def template_of(kind: str, model: type[Table]) -> str:
     """Text of a complete file of a kind, made from its model."""
     head = f"{HEAD.format(kind=kind)} {FIRST}" if kind == "machine" else HEAD.format(kind=kind)
-    return "\n".join([*_comment(head), "", *_comment(ABOUT_FORMAT), f"{KEY} = {FORMAT}", *_tables(model, (), live=True)]) + "\n"
+    return (
+        "\n".join([*_comment(head), "", *_comment(ABOUT_FORMAT), f"{KEY} = {FORMAT}", *_tables(model, (), live=True)])
+        + "\n"
+    )
 
 
 def _tables(model: type[Table], path: tuple[str, ...], *, live: bool) -> list[str]:

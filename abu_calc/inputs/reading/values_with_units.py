@@ -112,10 +112,14 @@ def convert_entry(
     # A table that is set as a whole: its keys are looked at as those of a file are.
     content: dict[str, object] = {key: value}
     done = convert(content, table, lambda below: where(_around(parent, places, below)))
-    return path, content[key], [
-        Conversion(_around(parent, places, each.written), _around(parent, places, each.path), each.text, each.value)
-        for each in done
-    ]
+    return (
+        path,
+        content[key],
+        [
+            Conversion(_around(parent, places, each.written), _around(parent, places, each.path), each.text, each.value)
+            for each in done
+        ],
+    )
 
 
 def _around(parent: tuple[Part, ...], places: tuple[Part, ...], below: tuple[Part, ...]) -> tuple[Part, ...]:
@@ -178,9 +182,7 @@ def _converted(value: object, canonical: str, place: Place) -> object:
 
 
 def _both(place: Place, key: str, canonical: str) -> InputError:
-    return InputError(
-        f"the value stands twice, as {key} and as {canonical}", place=place, remedy="keep one of the two"
-    )
+    return InputError(f"the value stands twice, as {key} and as {canonical}", place=place, remedy="keep one of the two")
 
 
 def _at(content: dict[str, object], path: Sequence[Part]) -> dict[str, object]:

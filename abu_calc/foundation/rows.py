@@ -1,0 +1,138 @@
+"""Tables of results: rows to go through, and columns for pandas, Polars and everything else that reads Arrow.
+
+    for check in result.checks: …                 rows, as they are
+    result.checks.to_pandas()                     a pandas.DataFrame; likewise pandas.DataFrame(result.checks.rows)
+    polars.DataFrame(result.members)              by the Arrow PyCapsule interface, as pandas.DataFrame.from_arrow does
+    result.checks.to_dict("list")                 columns as lists, by name
+
+No library of tables is imported unless `to_pandas` asks for it.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, is_dataclass
+from html import escape
+from itertools import islice
+from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeVar, overload
+
+from abu_calc.foundation.errors import InputError, OutputError, Place
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+Row = TypeVar("Row", covariant=True)
+
+SHOWN: Final = 20
+"""Rows of a table that a notebook shows."""
+ORIENTATIONS: Final = ("list", "records")
+
+
+class Columns:
+    """A table by its columns: whoever derives from it gives `columns`."""
+
+    __slots__ = ()
+
+    @property
+    def columns(self) -> Mapping[str, Any]:
+        """Values of each column by its name, which ends in the unit."""
+        raise NotImplementedError
+
+    @property
+    def rows(self) -> list[dict[str, Any]]:
+        """Each row as a dictionary by column."""
+        columns = {name: list(values) for name, values in self.columns.items()}
+        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+    @overload
+    def to_dict(self, orientation: Literal["list"] = "list") -> dict[str, list[Any]]: ...
+
+    @overload
+    def to_dict(self, orientation: Literal["records"]) -> list[dict[str, Any]]: ...
+
+    def to_dict(self, orientation: str = "list") -> dict[str, list[Any]] | list[dict[str, Any]]:
+        """Columns as lists by name, or with "records" a dictionary for each row. Raises InputError for other words."""
+        if orientation not in ORIENTATIONS:
+            raise InputError(
+                "not a form of a table", place=Place(key="orientation"), found=str(orientation),
+                allowed=", ".join(ORIENTATIONS),
+            )  # fmt: skip
+        if orientation == "records":
+            return self.rows
+        return {name: list(values) for name, values in self.columns.items()}
+
+    def to_pandas(self) -> "DataFrame":
+        """A pandas.DataFrame. Raises OutputError if pandas is not installed."""
+        try:
+            from pandas import DataFrame
+        except ImportError:
+            raise OutputError(
+                "a DataFrame needs the package pandas, which is not installed", remedy="Install it: pip install pandas"
+            ) from None
+        return DataFrame(self.to_dict("list"))
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        from abu_calc.foundation.arrow import arrow_stream
+
+        return arrow_stream(self.columns)
+
+    def _repr_html_(self) -> str:
+        columns = self.columns
+        head = "".join(f"<th>{escape(name)}</th>" for name in columns)
+        body = [
+            f"<tr>{''.join(f'<td>{escape(_cell(value))}</td>' for value in row)}</tr>"
+            for row in islice(zip(*columns.values(), strict=True), SHOWN)
+        ]
+        left = max((len(values) for values in columns.values()), default=0) - len(body)
+        more = f"<p>and {left} more</p>" if left else ""
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>{more}"
+
+
+class Rows(tuple[Row, ...], Columns, Generic[Row]):
+    """Records of a result in their order: a tuple that is a table, too.
+
+    Columns are the entries of the records; those of a record within have both names, with a point between.
+    """
+
+    __slots__ = ()
+
+    @property
+    def columns(self) -> dict[str, list[Any]]:
+        """Values of each column by its name; None where a row has no such entry."""
+        rows = [dict(_flat(_entries(row))) for row in self]
+        names = dict.fromkeys(name for row in rows for name in row)
+        return {name: [row.get(name) for row in rows] for name in names}
+
+    def __repr__(self) -> str:
+        kind = type(self[0]).__name__ if self else "row"
+        return f"<{len(self)} × {kind}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (tuple(self),)
+
+
+def as_rows(value: Any) -> Any:
+    """A tuple of records as a table; anything else as it is."""
+    if type(value) is tuple and value and is_dataclass(value[0]):
+        return Rows(value)
+    return value
+
+
+def _entries(row: Any) -> Mapping[str, Any]:
+    """Entries of a record as its JSON has them."""
+    if isinstance(row, Mapping):
+        return row
+    entries: Mapping[str, Any] = row.to_dict() if hasattr(row, "to_dict") else asdict(row)
+    return entries
+
+
+def _flat(entries: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    for name, value in entries.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{before}{name}.")
+        else:
+            yield f"{before}{name}", list(value) if isinstance(value, tuple) else value
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
