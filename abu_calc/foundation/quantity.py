@@ -17,7 +17,7 @@ from operator import attrgetter
 from types import NoneType
 from typing import Any, ClassVar, Final, NamedTuple, Never, Self, TypeVar, dataclass_transform, get_args, get_type_hints
 
-from abu_calc.foundation.rows import as_rows
+from abu_calc.foundation.rows import Rows, as_rows
 from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit, unit_of
 
 T = TypeVar("T")
@@ -222,7 +222,7 @@ def _conversion(kind: type[Record], field: "Field[Any]", unit: str) -> Callable[
         return None
 
     def converted(value: Any) -> object:
-        if isinstance(value, tuple) and not (inner and hasattr(value, "_fields")):
+        if isinstance(value, (tuple, Rows)) and not (inner and hasattr(value, "_fields")):
             return tuple(map(converted, value))
         if inner is not None:
             known = value is None or isinstance(value, Record)
@@ -251,7 +251,7 @@ def as_plain(value: object) -> Any:
         return value.to_dict()
     if isinstance(value, Mapping):
         return {key: as_plain(inner) for key, inner in value.items()}
-    if isinstance(value, (tuple, list)):
+    if isinstance(value, (tuple, list, Rows)):
         return [as_plain(inner) for inner in value]
     if isinstance(value, (datetime.date, datetime.time)):
         return value.isoformat()

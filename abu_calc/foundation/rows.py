@@ -8,11 +8,11 @@
 No library of tables is imported unless `to_pandas` asks for it.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, is_dataclass
 from html import escape
 from itertools import islice
-from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeVar, overload
 
 from abu_calc.foundation.errors import InputError, OutputError, Place
 
@@ -42,13 +42,7 @@ class Columns:
         columns = {name: list(values) for name, values in self.columns.items()}
         return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
-    @overload
-    def to_dict(self, orientation: Literal["list"] = "list") -> dict[str, list[Any]]: ...
-
-    @overload
-    def to_dict(self, orientation: Literal["records"]) -> list[dict[str, Any]]: ...
-
-    def to_dict(self, orientation: str = "list") -> dict[str, list[Any]] | list[dict[str, Any]]:
+    def to_dict(self, orientation: Literal["list", "records"] = "list") -> Any:
         """Columns as lists by name, or with "records" a dictionary for each row. Raises InputError for other words."""
         if orientation not in ORIENTATIONS:
             raise InputError(
@@ -86,13 +80,46 @@ class Columns:
         return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>{more}"
 
 
-class Rows(tuple[Row, ...], Columns, Generic[Row]):
-    """Records of a result in their order: a tuple that is a table, too.
+class Rows(Sequence[Row], Columns):
+    """Records of a result in their order: a sequence that cannot be changed, and a table.
 
-    Columns are the entries of the records; those of a record within have both names, with a point between.
+    Columns are the entries of the records; those of a record within have both names, with a point between. It is no
+    tuple, since readers of Arrow take tuples apart; it equals a tuple of the same records.
     """
 
-    __slots__ = ()
+    __slots__ = ("_records",)
+
+    def __init__(self, records: Iterable[Row] = ()) -> None:
+        self._records = tuple(records)
+
+    @overload
+    def __getitem__(self, index: int) -> Row: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> "Rows[Row]": ...
+
+    def __getitem__(self, index: int | slice) -> "Row | Rows[Row]":
+        return Rows(self._records[index]) if isinstance(index, slice) else self._records[index]
+
+    def __len__(self) -> int:
+        return len(self._records)
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self._records)
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Rows):
+            return bool(self._records == other._records)
+        return self._records == other if isinstance(other, tuple) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._records)
+
+    def __add__(self, other: Iterable[Any]) -> tuple[Any, ...]:
+        return (*self._records, *other)
+
+    def __radd__(self, other: Iterable[Any]) -> tuple[Any, ...]:
+        return (*other, *self._records)
 
     @property
     def columns(self) -> dict[str, list[Any]]:
@@ -104,9 +131,6 @@ class Rows(tuple[Row, ...], Columns, Generic[Row]):
     def __repr__(self) -> str:
         kind = type(self[0]).__name__ if self else "row"
         return f"<{len(self)} × {kind}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (tuple(self),)
 
 
 def as_rows(value: Any) -> Any:

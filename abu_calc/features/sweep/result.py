@@ -7,11 +7,11 @@ import weakref
 from collections.abc import Iterator, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
 from numpy.typing import NDArray
 
-from abu_calc.features.sweep.columns import SampleColumn
+from abu_calc.features.sweep.columns import MEMBER, SEED, SampleColumn
 from abu_calc.features.sweep.store import Store, connected
 from abu_calc.features.sweep.store_faults import faults_of
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -150,6 +150,10 @@ class Varied(Record):
     how: Annotated[str, Quantity("varies")]
 
 
+WHOLE: Final = frozenset({MEMBER.name, SEED.name})
+"""Columns of whole numbers."""
+
+
 class Members(Columns):
     """The members as arrays, read when asked for: `members["level_db"]`; `names` and `units` of all columns.
 
@@ -186,7 +190,9 @@ class Members(Columns):
     @property
     def columns(self) -> dict[str, list[Any]]:
         """Values of each column by its name, as Python's own numbers and texts."""
-        return {name: self[name].tolist() for name in self.names}
+        return {
+            name: [int(value) for value in self[name]] if name in WHOLE else self[name].tolist() for name in self.names
+        }
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         return iter(self.rows)
@@ -196,7 +202,7 @@ class Members(Columns):
         from abu_calc.foundation.arrays import dataset
 
         index, *others = self.names
-        return dataset({index: self[index]}, {name: ((index,), self[name]) for name in others}, self.units)
+        return dataset({index: self[index].astype(int)}, {name: ((index,), self[name]) for name in others}, self.units)
 
     def __repr__(self) -> str:
         return f"<Members {self._runs} × {', '.join(self.names)}>"

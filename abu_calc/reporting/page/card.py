@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from abu_calc.simulation.result import Result
 
 COLOURS: Final = {"pass": "#1a7f37", "warn": "#9a6700", "fail": "#cf222e", "not-done": "#8250df"}
-WIDEST: Final = 460
+WIDEST: Final = 720
 """Width of the drawing [px]."""
 MOST_NOTES: Final = 5
 
