@@ -8,11 +8,14 @@
 No library of tables is imported unless `to_pandas` asks for it.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import importlib
+import math
+import sys
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, is_dataclass
 from html import escape
 from itertools import islice
-from typing import TYPE_CHECKING, Any, Final, Literal, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeVar, overload
 
 from abu_calc.foundation.errors import InputError, OutputError, Place
 
@@ -23,6 +26,8 @@ Row = TypeVar("Row", covariant=True)
 
 SHOWN: Final = 20
 """Rows of a table that a notebook shows."""
+ARROW_LIBRARIES: Final = {"pyarrow": "table", "polars": "DataFrame"}
+"""Libraries that make an Arrow stream of columns; one of them is there when somebody wants a stream."""
 ORIENTATIONS: Final = ("list", "records")
 
 
@@ -39,7 +44,7 @@ class Columns:
     @property
     def rows(self) -> list[dict[str, Any]]:
         """Each row as a dictionary by column."""
-        columns = {name: list(values) for name, values in self.columns.items()}
+        columns = {name: _listed(values) for name, values in self.columns.items()}
         return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
     def to_dict(self, orientation: Literal["list", "records"] = "list") -> Any:
@@ -51,7 +56,7 @@ class Columns:
             )  # fmt: skip
         if orientation == "records":
             return self.rows
-        return {name: list(values) for name, values in self.columns.items()}
+        return {name: _listed(values) for name, values in self.columns.items()}
 
     def to_pandas(self) -> "DataFrame":
         """A pandas.DataFrame. Raises OutputError if pandas is not installed."""
@@ -64,9 +69,17 @@ class Columns:
         return DataFrame(self.to_dict("list"))
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        from abu_calc.foundation.arrow import arrow_stream
-
-        return arrow_stream(self.columns)
+        """The columns as an Arrow stream, made by the library that asks for it. Raises OutputError without one."""
+        columns = {name: _arrow_values(_listed(values)) for name, values in self.columns.items()}
+        for library, kind in sorted(ARROW_LIBRARIES.items(), key=lambda pair: pair[0] not in sys.modules):
+            try:
+                table = getattr(importlib.import_module(library), kind)(columns)
+            except ImportError:
+                continue
+            return table.__arrow_c_stream__(requested_schema)
+        raise OutputError(
+            "an Arrow stream needs pyarrow or polars, which are not installed", remedy="Install one: pip install polars"
+        )
 
     def _repr_html_(self) -> str:
         columns = self.columns
@@ -80,11 +93,11 @@ class Columns:
         return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>{more}"
 
 
-class Rows(Sequence[Row], Columns):
+class Rows(Columns, Generic[Row]):
     """Records of a result in their order: a sequence that cannot be changed, and a table.
 
     Columns are the entries of the records; those of a record within have both names, with a point between. It is no
-    tuple, since readers of Arrow take tuples apart; it equals a tuple of the same records.
+    tuple, since readers of Arrow take sequences apart; it equals a tuple of the same records.
     """
 
     __slots__ = ("_records",)
@@ -114,6 +127,14 @@ class Rows(Sequence[Row], Columns):
 
     def __hash__(self) -> int:
         return hash(self._records)
+
+    def index(self, record: object) -> int:
+        """The place of a record. Raises ValueError if it is not there."""
+        return self._records.index(record)
+
+    def count(self, record: object) -> int:
+        """Times that a record is there."""
+        return self._records.count(record)
 
     def __add__(self, other: Iterable[Any]) -> tuple[Any, ...]:
         return (*self._records, *other)
@@ -154,6 +175,29 @@ def _flat(entries: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, A
             yield from _flat(value, f"{before}{name}.")
         else:
             yield f"{before}{name}", list(value) if isinstance(value, tuple) else value
+
+
+def _listed(values: Any) -> list[Any]:
+    """A column as a list of Python's own numbers; arrays of NumPy have a way for that."""
+    listed: list[Any] = values.tolist() if hasattr(values, "tolist") else list(values)
+    return listed
+
+
+def _arrow_values(values: list[Any]) -> list[Any]:
+    """A column of one type: numbers and truth values as they are, NaN as missing, what is mixed as JSON text."""
+    values = [None if isinstance(value, float) and math.isnan(value) else value for value in values]
+    kinds = {type(value) for value in values if value is not None}
+    if kinds <= {int, float}:
+        return [float(value) if value is not None and float in kinds else value for value in values]
+    if len(kinds) == 1 and kinds <= {bool, str}:
+        return values
+    return [value if value is None or isinstance(value, str) else _json(value) for value in values]
+
+
+def _json(value: object) -> str:
+    import json
+
+    return json.dumps(value, ensure_ascii=False, default=str)
 
 
 def _cell(value: object) -> str:
