@@ -224,7 +224,10 @@ def verdict_words(status: Status, checks: Iterable[Check]) -> str:
     verb = "passes" if count["pass"] == 1 else "pass"
     clauses = [f"{count['pass']} of {total} check{'' if total == 1 else 's'} {verb}"]
     if count["pass"] < total:
-        clauses += [f"{count['warn']} {'warns' if count['warn'] == 1 else 'warn'}", f"{count['fail']} fail"]
+        clauses += [
+            f"{count['warn']} {'warns' if count['warn'] == 1 else 'warn'}",
+            f"{count['fail']} {'fails' if count['fail'] == 1 else 'fail'}",
+        ]
     if count["not-done"]:
         clauses.append(f"{count['not-done']} not evaluated")
     if status == "pass" and count["warn"]:

@@ -139,6 +139,9 @@ class Rows(Columns, Generic[Row]):
     def __add__(self, other: Iterable[Any]) -> tuple[Any, ...]:
         return (*self._records, *other)
 
+    def __mul__(self, times: int) -> "Rows[Row]":
+        return Rows(self._records * times)
+
     def __radd__(self, other: Iterable[Any]) -> tuple[Any, ...]:
         return (*other, *self._records)
 
