@@ -97,6 +97,14 @@ def simulate_members(
     return Ensemble(design.case.drag, outcomes, tuple(result for result in results if isinstance(result, Lost)))
 
 
+def simulate_first(design: Design, accuracy: float = 0.01) -> Ensemble:
+    """The first of the start cases alone, at the tighter tolerance: an ensemble of one, which proves nothing."""
+    start = next(iter(members(design, 0.0, (1.0,))))
+    result = start_once(design, start, accuracy, TIGHTER * first_tolerance(design), early_end=False)
+    done = isinstance(result, StartOutcome)
+    return Ensemble(design.case.drag, (result,) if done else (), () if done else (result,))  # type: ignore[arg-type]
+
+
 def first_tolerance(design: Design) -> float:
     """Tolerance of the first run of each start; tighter with a pause, whose slow turns amplify errors."""
     return TIGHTER * TOLERANCE if guided(design, 0.0).pause else TOLERANCE

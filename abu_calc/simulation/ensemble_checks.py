@@ -70,6 +70,12 @@ BALANCE = "See the action of ABU701; else reduce the friction and the eccentrici
 
 JUDGED = "ABU701", "ABU702", "ABU704"
 
+FULL, ONE, NONE = "full", "one", "none"
+"""Start cases that `size` simulates: all, the first at the given drag rate, none."""
+STARTS: Final = (FULL, ONE, NONE)
+NEED_STARTS: Final = (*JUDGED, "ABU401")
+"""Checks that no calculation without all start cases can pass."""
+
 UNCARRIED = "The balls, side by side, cannot carry the imbalance"
 CARRY = "Add balls or specify larger ones, see ABU201."
 
@@ -88,6 +94,16 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, change: TriedChan
         earlier = next((check.code for check in checks if check.remedy), None)
         checks.append(judged(design, ensemble, change, earlier))
     return tuple(checks)
+
+
+def unproven(check: Check, starts: str) -> Check:
+    """A check of a calculation that left start cases out: one that needs them fails or is NOT EVALUATED."""
+    if starts == FULL or check.code not in NEED_STARTS or check.status == "fail":
+        return check
+    known = f"{check.message}. " if starts == ONE or check.code == "ABU401" else ""
+    message = f'{known}Start cases were left out: starts="{starts}"'
+    value = check.value if known else None
+    return coded(check.code, "not-done", message, value, check.limit, check.unit, 'Call size with starts="full".')
 
 
 def level_check(closed: Check, ensemble: Ensemble | None, change: TriedChange | None = None) -> Check:

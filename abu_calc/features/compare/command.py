@@ -12,6 +12,8 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.features.compare.study import CompareResult
+
     pass
 
 
@@ -35,9 +37,7 @@ def compare(
     ] = 0.01,
 ) -> Outcome:
     """Compare machines or variants of one machine side by side."""
-    from abu_calc.features.compare.screen import compare_screen
     from abu_calc.features.compare.study import compare as study
-    from abu_calc.features.compare.view import compare_blocks
     from abu_calc.inputs.read_machine import read_machine, variant_of
 
     if variants and len(machines) > 1:
@@ -49,9 +49,15 @@ def compare(
     read += [variant_of(read[0], variant) for variant in variants or ()]
     with progress(how) as tell:
         result = study(read, accuracy, tell, os.cpu_count() or 1)
-    return Outcome.of(
-        result, lambda: compare_blocks(result, full=how.full), lambda: compare_screen(result),
-    )  # fmt: skip
+    return outcome_of(result, full=how.full)
+
+
+def outcome_of(result: "CompareResult", *, full: bool = True) -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.compare.screen import compare_screen
+    from abu_calc.features.compare.view import compare_blocks
+
+    return Outcome.of(result, lambda: compare_blocks(result, full=full), lambda: compare_screen(result))
 
 
 def register(app: typer.Typer) -> None:

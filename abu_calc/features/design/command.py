@@ -33,6 +33,11 @@ def size(
 
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
+    return outcome_of(result, explain=explain)
+
+
+def outcome_of(result: "SizeResult", *, explain: bool = False) -> Outcome:
+    """Outcome of a result: how it is shown and written; `explain`: with every formula."""
     short = None if explain else lambda: _screen(result)
     return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
 

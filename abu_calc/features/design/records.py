@@ -13,7 +13,7 @@ from abu_calc.features.grinding.outcomes import LoadedStarts
 from abu_calc.formulas.body_estimate import estimate_source
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.shaken_friction import friction_number
-from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
@@ -83,7 +83,7 @@ class Frequency(Record):
 
 @record
 class AutobalancerRecord(Record):
-    """One candidate."""
+    """An autobalancer, chosen or a runner-up: its balls, race and housing, and the numbers that judge them."""
 
     schema_title: ClassVar[str] = "Autobalancer"
 
@@ -233,7 +233,7 @@ class SpeedLevel(Record):
     """Level with the autobalancer at one speed, at the loudest place."""
 
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    level_after_db: Annotated[float, Quantity("level after", "L")]
+    level_after_db: Annotated[float, LEVEL_AFTER]
 
 
 @record
@@ -242,7 +242,7 @@ class IdleSpeedLevels(Record):
 
     speed_rpm: Annotated[float, Quantity("idle speed of the motor", "Ω", 6)]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
 
     @classmethod
@@ -290,7 +290,7 @@ class Vibration(Record):
     )
 
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     handles: tuple[HandleLevels, ...]
     place: Annotated[str, Quantity("place of the level")] = WHEEL_PLANE

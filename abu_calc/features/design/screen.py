@@ -468,6 +468,8 @@ def starts_and_defaults(result: SizeResult) -> str:
         sentences.append(f"The motor idles at {result.idle_speed_rpm:.0f} rpm.")
     if used:
         sentences.append(f"{many(used, 'default')} used.")
+    if converted := len(result.provenance.converted):
+        sentences.append(f"{many(converted, 'value')} converted.")
     return " ".join(sentences)
 
 

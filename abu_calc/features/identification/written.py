@@ -5,6 +5,7 @@ from typing import Final
 
 from abu_calc.features.identification.study import IdentifyResult
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.written_units import written_unit
 from abu_calc.inputs.reading.document import open_document
 
 NUMBER: Final = r"[-+]?[\d_.]+(?:[eE][-+]?\d+)?"
@@ -30,6 +31,9 @@ def identified_text(source: str, result: IdentifyResult) -> str:
     for key, value in values.items():
         name = SCENE_KEYS.get(key, key) if scene else key
         text, count = re.subn(rf"(?m)^([^#\n]*\b{name}\s*=\s*){NUMBER}", rf"\g<1>{value:.4g}", text)
+        if not count and (unit := written_unit(name)):  # the value stands there with its unit
+            pattern = rf"(?m)^([^#\n]*\b){unit.stem}\s*=\s*(?:\"[^\"\n]*\"|'[^'\n]*')"
+            text, count = re.subn(pattern, rf"\g<1>{name} = {value:.4g}", text)
         if not count and scene:
             raise InputError(
                 "the scene has no place for a value",
