@@ -23,6 +23,7 @@ from abu_calc.inputs.bearing_file import (
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
+from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
@@ -104,6 +105,7 @@ class MachineFile(Table):
     wheel: Wheel
     measured_after: MeasuredAfter | None = None
     autobalancer: Autobalancer | None = None
+    oil: Oil | None = None
     grinding: Grinding | None = None
     run_up: RunUp | None = None
     start: Start | None = None
@@ -125,6 +127,19 @@ class MachineFile(Table):
         if self.autobalancer is not None:
             yield from larger_than_its_wheel(self.autobalancer, self.wheel)
         yield from rim_too_fast(self.machine, self.wheel, self.motor)
+
+    @model_validator(mode="after")
+    def _oil_is_in_a_race(self) -> Self:
+        if self.oil is None:
+            return self
+        if self.autobalancer is None:
+            raise problem(
+                "oil needs a race to be in",
+                "oil",
+                remedy="add [autobalancer] with max_outer_diameter_mm and max_width_mm, or remove [oil]",
+            )
+        self.autobalancer._drag_by_oil = True
+        return self
 
     @model_validator(mode="after")
     def _measured_at_a_handle(self) -> Self:

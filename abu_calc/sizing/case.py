@@ -5,7 +5,7 @@ Elsewhere sizing asks the tables only which of several ways people have chosen.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from abu_calc.formulas.balls import INERTIA_FACTORS
 from abu_calc.formulas.body_estimate import BodyEstimate, PlacedBody, estimated_body
@@ -16,6 +16,9 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import Autobalancer, Grinding, MachineFile, Motor
 from abu_calc.standards.vibration import hand
+
+if TYPE_CHECKING:
+    from abu_calc.formulas.oil import OilDrag
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,9 @@ class RigidMachine:
 WHEEL_PLANE: Final = "wheel plane"
 """Name of the place at which levels are given without handles."""
 
+UNKNOWN_OIL: Final = (1.0, 1 / 3, 3.0)
+"""Factors on the viscous drag rate that stand for working, hot and cold oil if the oil is not known."""
+
 EQUAL_SPEEDS: Final = 1e-3
 """Relative difference of two speeds that counts as none: 0.01 dB of a level, 0.2 % of a stress."""
 
@@ -123,6 +129,13 @@ class Case:
     """Velocity level with a balanced wheel [dB]; None: not given."""
     idle_speed: float | None = None
     """Speed [rad/s] at which the motor's torque equals what the settled machine takes; None: no motor is given."""
+    oil: "OilDrag | None" = None
+    """Drag by the oil in the race; None: the file has no [oil], or no race is chosen yet."""
+
+    @property
+    def drag_shares(self) -> tuple[float, float, float]:
+        """Factors on the viscous drag rate: at work, in hot oil, in cold oil; of oil that is not known 1, 1/3, 3."""
+        return UNKNOWN_OIL if self.oil is None else self.oil.shares
 
     @property
     def race_place(self) -> Vector:

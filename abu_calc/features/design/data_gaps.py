@@ -131,6 +131,8 @@ def data_gaps(design: Design, ensemble: Ensemble | None, accuracy: float) -> tup
 def assumed_values(file: MachineFile) -> Iterator[tuple[str, UsualRange]]:
     """The values of a file that are assumed: left to the default, or just that figure."""
     for key, usual in RANGES.items():
+        if key == DRAG and file.oil is not None:
+            continue
         table, name = key.split(".")
         value = getattr(getattr(file, table), name, None)
         figures = set(value) if isinstance(value, tuple) else {value}

@@ -16,6 +16,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneDescription, SceneFile
 from abu_calc.inputs.variation import MOST_RUNS, Sweep, Variants, Variation, path_of, variation
@@ -141,8 +142,18 @@ def of_starts(tables: MachineFile, varied: frozenset[str]) -> Iterator[tuple[str
     if abu is not None and abu.race_eccentricity_mm == 0 and "autobalancer.race_eccentricity_mm" not in varied:
         del ways["start.eccentricity_deg"]
     if abu is not None and abu.rolling_drag_per_s > 0 and not varied & {DRAG, WARMTH}:
-        ways[DRAG] = f"lognormal({abu.rolling_drag_per_s!r}, {WARM})"
+        if tables.oil is None:
+            ways[DRAG] = f"lognormal({abu.rolling_drag_per_s!r}, {WARM})"
+        else:
+            ways[WARMTH] = _warmth(tables.oil)
     yield from _scatter_ways({key: way for key, way in ways.items() if key not in varied})
+
+
+def _warmth(oil: Oil | None) -> str:
+    """Scatter of the temperature of the oil [°C]: that of the file, or the usual one."""
+    if oil is None:
+        return "triangular(15, 40, 70)"
+    return f"triangular({oil.cold_temperature_C!r}, {oil.temperature_C!r}, {oil.hot_temperature_C!r})"
 
 
 def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Variation]]:
@@ -156,7 +167,7 @@ def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Vari
         diameter, radius = from_si(autobalancer.ball_diameter, "mm"), from_si(autobalancer.race_radius, "mm")
         ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
         ways["autobalancer.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
-        ways[WARMTH] = "triangular(15, 40, 70)"
+        ways[WARMTH] = _warmth(tables.oil)
     if (off := case.autobalancer.race_eccentricity_mm) > 0:
         ways["autobalancer.race_eccentricity_mm"] = f"triangular(0, {off / 3!r}, {off!r})"
     if (arm := case.autobalancer.rolling_friction_mm) > 0:
