@@ -195,7 +195,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "identify",
         "identification.command",
-        ("identification.study:IdentifyResult",),
+        ("identification.results:IdentifyResult",),
         "identification.view:identify_extras",
         figures=(Known("starts", "starts were recorded"),),
         group="Measure",

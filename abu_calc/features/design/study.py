@@ -53,8 +53,8 @@ from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
-from abu_calc.sizing.oil import drag_source
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.oil import drag_source
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats

@@ -12,15 +12,9 @@ import numpy as np
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.bank import WIDE, simulated_track
 from abu_calc.features.identification.estimate import TrackReading
-from abu_calc.features.identification.study import (
-    IdentifiedValue,
-    Measured,
-    estimated,
-    identified_values,
-    known_scene,
-    machine_subject,
-    without_balls,
-)
+from abu_calc.features.identification.fit import Measured, estimated, identified_values, without_balls
+from abu_calc.features.identification.results import IdentifiedValue
+from abu_calc.features.identification.study import known_scene, machine_subject
 from abu_calc.features.identification.tracks import RecordedStart, window_centres
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent

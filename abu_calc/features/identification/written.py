@@ -3,7 +3,7 @@
 import re
 from typing import Final
 
-from abu_calc.features.identification.study import IdentifyResult
+from abu_calc.features.identification.results import IdentifyResult
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.inputs.reading.document import open_document
 
