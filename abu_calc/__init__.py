@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from abu_calc.features.factory.study import FactoryResult, factory
     from abu_calc.features.grinding.study import GrindingResult, grinding
     from abu_calc.features.identification.plan import MeasurePlanResult, measure_plan
-    from abu_calc.features.identification.results import IdentifyResult, identify
+    from abu_calc.features.identification.results import IdentifyResult
+    from abu_calc.features.identification.study import identify
     from abu_calc.features.levels.study import LevelsResult, levels
     from abu_calc.features.seats.study import CheckFitResult, check_fit
     from abu_calc.features.simulate.study import SimulateResult, simulate
@@ -96,10 +97,8 @@ _ROOMS: Final = {
         "MeasurePlanResult",
         "measure_plan",
     ),
-    "features.identification.study": (
-        "IdentifyResult",
-        "identify",
-    ),
+    "features.identification.results": ("IdentifyResult",),
+    "features.identification.study": ("identify",),
     "features.levels.study": (
         "LevelsResult",
         "levels",

@@ -22,6 +22,7 @@ from abu_calc.inputs.bearing_file import (
 )
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
+from abu_calc.inputs.identified import Identified
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
@@ -106,6 +107,7 @@ class MachineFile(Table):
     measured_after: MeasuredAfter | None = None
     autobalancer: Autobalancer | None = None
     oil: Oil | None = None
+    identified: Identified | None = None
     grinding: Grinding | None = None
     run_up: RunUp | None = None
     start: Start | None = None
@@ -139,6 +141,14 @@ class MachineFile(Table):
                 remedy="add [autobalancer] with max_outer_diameter_mm and max_width_mm, or remove [oil]",
             )
         self.autobalancer._drag_by_oil = True
+        return self
+
+    @model_validator(mode="after")
+    def _identified_values_are_those_in_force(self) -> Self:
+        if self.identified is not None:
+            if self.autobalancer is None:
+                raise problem("there is no autobalancer whose values are identified", "identified")
+            self.identified.check_values(self.autobalancer)
         return self
 
     @model_validator(mode="after")

@@ -1,7 +1,8 @@
 """`abu compare MACHINE MACHINE …`, `abu compare MACHINE --variant "key=value,key=value" …`: what differs."""
 
 import os
-from typing import TYPE_CHECKING, Annotated
+from collections.abc import Sequence
+from typing import Annotated
 
 import typer
 
@@ -10,9 +11,6 @@ from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
-
-if TYPE_CHECKING:
-    pass
 
 
 def compare(
@@ -28,6 +26,10 @@ def compare(
             metavar="KEY=VALUE,KEY=VALUE",
             help="Add a variant of the machine with these entries replaced; repeatable.",
         ),
+    ] = None,
+    measured: Annotated[
+        list[str] | None,
+        typer.Option("--measured", metavar="FILE", help="Set a recorded start beside predicted ones; repeatable."),
     ] = None,
     set_: Overrides = None,
     accuracy: Annotated[
@@ -45,6 +47,8 @@ def compare(
             "variants are of one machine", place=Place(key="--variant"), found=f"{len(machines)} machines",
             remedy="Name one machine, or write a file for each variant.",
         )  # fmt: skip
+    if measured:
+        return _measured(how, machines, set_ or (), variants or (), measured)
     read = [read_machine(machine, set_ or ()) for machine in machines]
     read += [variant_of(read[0], variant) for variant in variants or ()]
     with progress(how) as tell:
@@ -52,6 +56,27 @@ def compare(
     return Outcome.of(
         result, lambda: compare_blocks(result, full=how.full), lambda: compare_screen(result),
     )  # fmt: skip
+
+
+def _measured(
+    how: Delivery, files: Sequence[str], overrides: Sequence[str], variants: Sequence[str], recordings: list[str]
+) -> Outcome:
+    """Recorded starts beside the starts that files of machines or scenes predict."""
+    from abu_calc.features.compare.measured import compare_measured
+    from abu_calc.features.compare.measured_view import measured_blocks
+    from abu_calc.inputs.read_machine import Machine, variant_of
+    from abu_calc.inputs.scene import read_any
+
+    read = [read_any(file, overrides) for file in files]
+    if variants and not isinstance(read[0], Machine):
+        raise InputError(
+            "variants are of a machine", place=Place(key="--variant"), found=files[0],
+            remedy="Name a machine file, or write a scene file for each variant.",
+        )  # fmt: skip
+    read += [variant_of(read[0], variant) for variant in variants]  # type: ignore[arg-type]
+    with progress(how) as tell:
+        result = compare_measured(read, recordings, progress=tell)
+    return Outcome.of(result, lambda: measured_blocks(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -99,7 +99,7 @@ def oil_blocks(oil: OilRecord | None, optimum: float | None) -> Iterator[Block]:
     )
     slips = (f"{slip:g} m/s" for slip in SLIPS)
     yield Grid(("oil", "°C", "mm²/s", "drag, 1/s", "band", *slips), rows, frozenset(range(1, 8)))
-    yield Paragraph(f"Other grades and fills at {oil.temperatures[1].temperature_C:g} °C give these drag rates, in 1/s:")
+    yield Paragraph(f"Drag rates by grade and fill at {oil.temperatures[1].temperature_C:g} °C, in 1/s:")
     fills = tuple(
         (f"{number(each.fill_ml, 2)} ml", *(number(rate, 2) for rate in each.by_grade_per_s)) for each in oil.fills
     )

@@ -39,6 +39,7 @@ from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.identified import identified_note
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.arguments import checked
@@ -204,6 +205,7 @@ def size(
             *machine.warnings,
             *_types_taken(seats),
             *tried.warnings,
+            *identified_note(tables.identified, tables.autobalancer),
             *(() if design.case.oil is None else (drag_source(design.case),)),
             *design.warnings,
             *remarks,

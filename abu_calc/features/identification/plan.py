@@ -79,7 +79,7 @@ def measure_plan(
     subject = machine_subject(source)
     with subject.located():
         scene = known_scene(subject.scene, run_up_s)
-        point = _point(scene)
+        point = point_of(scene)
     scene = replace(scene, duration=_length(scene))
     centres = window_centres(scene)
     reading = TrackReading(centres, scene.full_speed, abs(without_balls(scene)), to_si(noise_um, "um"), marked=True)
@@ -108,7 +108,7 @@ def measure_plan(
     )  # fmt: skip
 
 
-def _point(scene: Scene) -> np.ndarray:
+def point_of(scene: Scene) -> np.ndarray:
     """The file's drag, lever arm and eccentricity as a point of the box. Raises InputError outside of it."""
     friction, offset = scene.effect("dry_rolling_friction"), scene.effect("race_eccentricity")
     lever = 2e-6 if friction is None else friction.lever_arm  # type: ignore[attr-defined]

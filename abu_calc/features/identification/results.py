@@ -1,6 +1,7 @@
 """Results of `abu identify`: values with intervals, every start, and what they rest on."""
 
-from typing import Annotated, ClassVar, Self
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Final, Self
 
 from abu_calc.features.identification.bench import BenchValues
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -15,6 +16,26 @@ class IdentifiedValue(Record):
     value: Annotated[float, Quantity("value", "", 4)]
     low: Annotated[float, Quantity("low", "", 4)]
     high: Annotated[float, Quantity("high", "", 4)]
+
+
+KEYS: Final = ("rolling_drag_per_s", "rolling_friction_mm", "race_eccentricity_mm")
+"""Keys of [autobalancer] that are identified."""
+
+
+def interval_lines(starts: int, known: Mapping[str, IdentifiedValue]) -> list[str]:
+    """Lines of the table [identified]: intervals that hold the values as they are written."""
+    ends = {
+        key: (min(value.low, float(f"{value.value:.4g}")), max(value.high, float(f"{value.value:.4g}")))
+        for key, value in known.items()
+    }
+    lines = [f"{key} = [{_outward(low, -1):.4g}, {_outward(high, 1):.4g}]" for key, (low, high) in ends.items()]
+    return ["[identified]", f"starts = {starts}", *lines]
+
+
+def _outward(value: float, way: int) -> float:
+    """The next number with four digits that way; the lower end of an interval stays above zero."""
+    rounded = float(f"{max(value, 1e-9):.4g}")
+    return rounded if (rounded - value) * way >= 0 else float(f"{rounded * (1 + way * 2e-3):.4g}")
 
 
 @record

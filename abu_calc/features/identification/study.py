@@ -25,7 +25,14 @@ from abu_calc.features.identification.fit import (
 )
 from abu_calc.features.identification.formulas import friction_number
 from abu_calc.features.identification.judgement import FEWEST, checks_of
-from abu_calc.features.identification.results import BenchRecord, IdentifiedValue, IdentifyResult, StartCourse
+from abu_calc.features.identification.results import (
+    KEYS,
+    BenchRecord,
+    IdentifiedValue,
+    IdentifyResult,
+    StartCourse,
+    interval_lines,
+)
 from abu_calc.features.identification.tracks import (
     Signal,
     recorded,
@@ -73,7 +80,7 @@ def identify(
         raise InputError("no recordings", place=Place(key="RECORDING"), remedy="Name the CSV files of the starts.")
     subject, starts = machine_subject(source), [recorded(file) for file in recordings]
     with subject.located():
-        scene = _as_long(known_scene(subject.scene, run_up_s), starts)
+        scene = as_long(known_scene(subject.scene, run_up_s), starts)
     film = None if bench is None else bench_values(bench, scene)
     measured = _measured(scene, starts, without, mark_angle_deg)
     estimate = estimated(scene, measured, progress) if len(recordings) >= FEWEST else None
@@ -122,7 +129,7 @@ def known_scene(scene: Scene, run_up: float | None) -> Scene:
     return replace(scene, imbalance_angle=0.0)
 
 
-def _as_long(scene: Scene, starts: Sequence[Signal]) -> Scene:
+def as_long(scene: Scene, starts: Sequence[Signal]) -> Scene:
     """The scene as long as the shortest recording."""
     first = min(starts, key=lambda start: start.duration)
     shortest, longest = first.duration, max(start.duration for start in starts)
@@ -216,7 +223,7 @@ def _result(
             )
             for start, track, end in zip(measured.starts, measured.tracks, ends_um, strict=True)
         ),
-        toml=_toml(drag, friction, eccentricity, angle),
+        toml=_toml(len(measured.starts), drag, friction, eccentricity, angle),
         bench=None if film is None else BenchRecord.of(film),
         assumed=(*_assumed(scene, measured), *(() if film is None else (bench_text(film),))),
     )
@@ -237,15 +244,13 @@ def _predicted(scene: Scene, measured: Measured, best: Best) -> tuple[float, ...
     return tuple(float(d) * 1e6 for d in np.median(kept, axis=0)) if kept else None
 
 
-def _toml(*values: IdentifiedValue | None) -> str | None:
-    """Lines to paste under [autobalancer] of a machine file."""
-    keys = ("rolling_drag_per_s", "rolling_friction_mm", "race_eccentricity_mm")
-    lines = [
-        f"{key} = {value.value:.4g}  # measured: {value.low:.3g} … {value.high:.3g}, 95 %"
-        for key, value in zip(keys, values, strict=False)
-        if value is not None
-    ]
-    return "\n".join(("[autobalancer]", *lines)) if lines else None
+def _toml(starts: int, *values: IdentifiedValue | None) -> str | None:
+    """Lines to paste into a machine file: values of [autobalancer], and their intervals."""
+    known = {key: value for key, value in zip(KEYS, values, strict=False) if value is not None}
+    if not known:
+        return None
+    lines = [f"{key} = {value.value:.4g}" for key, value in known.items()]
+    return "\n".join(("[autobalancer]", *lines, *interval_lines(starts, known)))
 
 
 def _assumed(scene: Scene, measured: Measured) -> Iterator[str]:

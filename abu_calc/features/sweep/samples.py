@@ -124,7 +124,9 @@ class Builds(SweepStudy):
         assert table.autobalancer is not None
         oil, given = self.design.case.oil, "rolling_drag_per_s" in table.autobalancer.model_fields_set
         rate = self.design.case.drag if oil is not None and not given else table.autobalancer.rolling_drag_per_s
-        return rate * (drag_ratio(temperature) if oil is None else drag_share(self.design.case, self.design.autobalancer, temperature))
+        if oil is None:
+            return rate * drag_ratio(temperature)
+        return rate * drag_share(self.design.case, self.design.autobalancer, temperature)
 
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
         """One start of one machine."""

@@ -55,8 +55,8 @@ def record(
     """
     known = read_any(str(path)).scene  # type: ignore[union-attr]
     stiffer = {
-        "stiffness_N_per_m": tuple(value * stiffness for value in known.stiffness_N_per_m),
-        "damping_N_s_per_m": tuple(value * math.sqrt(stiffness) for value in known.damping_N_s_per_m),
+        "stiffness_N_per_m": tuple(value * stiffness for value in known.stiffness_N_per_m or ()),
+        "damping_N_s_per_m": tuple(value * math.sqrt(stiffness) for value in known.damping_N_s_per_m or ()),
     }
     scene = scene_from(known.model_copy(update=stiffer))
     rng = np.random.default_rng(seed)
