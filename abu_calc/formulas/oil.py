@@ -258,4 +258,3 @@ class OilDrag:
     def shares(self) -> tuple[float, float, float]:
         """Drag rates at work, hot and cold over that at work."""
         return 1.0, self.hot.drag / self.working.drag, self.cold.drag / self.working.drag
-

@@ -32,19 +32,16 @@ class Identified(Table):
         default=None,
         description="Interval of autobalancer.rolling_drag_per_s [1/s]: [low, high].",
         examples=[[11.0, 14.0]],
-        json_schema_extra=usual(0.5, 300),
     )
     rolling_friction_mm: Interval | None = Field(
         default=None,
         description="Interval of autobalancer.rolling_friction_mm [mm]: [low, high].",
         examples=[[0.001, 0.003]],
-        json_schema_extra=usual(0.0001, 0.1),
     )
     race_eccentricity_mm: Interval | None = Field(
         default=None,
         description="Interval of autobalancer.race_eccentricity_mm [mm]: [low, high].",
         examples=[[0.008, 0.012]],
-        json_schema_extra=usual(0.0005, 0.2),
     )
 
     def intervals(self) -> dict[str, tuple[float, float]]:

@@ -64,7 +64,6 @@ class Oil(Table):
         "Default: {default}, assumed.",
         ge=-20,
         le=120,
-        json_schema_extra=usual(-20, 40),
     )
     hot_temperature_C: float = Field(
         default=80.0,
@@ -72,7 +71,7 @@ class Oil(Table):
         "{default}, assumed.",
         ge=-20,
         le=120,
-        json_schema_extra=usual(40, 120),
+        json_schema_extra=usual(40, 110),
     )
     fill_ml: float = Field(
         description="Oil in the race [ml]; {range}, hand grinders 0.5 … 5.",

@@ -17,6 +17,7 @@ from abu_calc.formulas.oil import (
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.inputs.identified import identified_note
 from abu_calc.inputs.oil import Oil
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
@@ -118,6 +119,13 @@ def drag_share(case: Case, candidate: Candidate, temperature: float) -> float:
         raise ValueError("the file has no [oil]")
     viscosity = oil_viscosity(temperature, oil.viscosity_at_40, _at_100(oil, oil.viscosity_at_40))
     return _rate(oil, candidate, drag.depth, viscosity, oil.slip_m_per_s) / drag.working.drag
+
+
+def value_sources(case: Case) -> Iterator[str]:
+    """Where drag, friction and eccentricity come from, if they are identified or follow from an oil."""
+    yield from identified_note(case.table.identified, case.autobalancer)
+    if case.oil is not None:
+        yield drag_source(case)
 
 
 def drag_source(case: Case) -> str:

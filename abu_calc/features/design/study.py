@@ -39,7 +39,6 @@ from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
-from abu_calc.inputs.identified import identified_note
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.arguments import checked
@@ -55,7 +54,6 @@ from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.oil import drag_source
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -205,8 +203,6 @@ def size(
             *machine.warnings,
             *_types_taken(seats),
             *tried.warnings,
-            *identified_note(tables.identified, tables.autobalancer),
-            *(() if design.case.oil is None else (drag_source(design.case),)),
             *design.warnings,
             *remarks,
             *_under_load(work, loads, bound),

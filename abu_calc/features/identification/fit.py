@@ -110,6 +110,7 @@ def without_balls(scene: Scene) -> complex:
 
 
 def horizontal(scene: Scene) -> bool:
+    """True if the spindle is horizontal: gravity acts in the plane of the race."""
     return scene.effect("gravity") is not None
 
 

@@ -26,6 +26,7 @@ RUN_UP_OFF: Final = 0.15
 
 
 def checks_of(scene: Scene, measured: Measured, estimate: Estimate | None) -> Iterator[Check]:
+    """Checks of recorded starts; without an estimate there are too few of them."""
     count, marked = len(measured.starts), measured.reading.marked
     if estimate is None:
         yield coded("ABU1101", "not-done", f"{count} starts were recorded", count, FEWEST, "", bound="least")
