@@ -45,7 +45,10 @@ def _cells(numbers: CourseNumbers) -> tuple[str, str, str]:
 def measured_extras(result: MeasuredCompareResult) -> Extras:
     """The figure of all courses."""
     times = result.times_s
-    curves = [Curve(tuple(zip(times, course.distance_um, strict=True))) for course in result.measured]
+    curves = [
+        Curve(tuple(zip(times, course.distance_um, strict=True)), "" if k else "measured")
+        for k, course in enumerate(result.measured)
+    ]
     curves += [
         Curve(tuple(zip(times, course.distance_um, strict=True)), f"{course.title}, predicted median", 2 + k)
         for k, course in enumerate(result.predicted)
