@@ -58,24 +58,14 @@ class Identified(Table):
                 )
         return self
 
-    def check_values(self, values: object) -> None:
-        """Raise a problem for a value that is outside of its interval."""
-        for key, (low, high) in self.intervals().items():
-            value = getattr(values, key)
-            if not low <= value <= high:
-                raise problem(
-                    "the value lies outside its identified interval",
-                    "identified",
-                    key,
-                    found=f"autobalancer.{key} = {value:g}",
-                    allowed=f"{low:g} … {high:g}",
-                    remedy="give the identified value in [autobalancer], or remove the interval",
-                )
+    def in_force(self, values: object) -> dict[str, tuple[float, float]]:
+        """Intervals that hold the value in force; one that was changed since is identified no more."""
+        return {key: ends for key, ends in self.intervals().items() if ends[0] <= getattr(values, key) <= ends[1]}
 
 
 def identified_note(identified: Identified | None, values: object) -> Iterator[str]:
     """Which values are identified, in a sentence; nothing if none is."""
-    known = {} if identified is None else identified.intervals()
+    known = {} if identified is None else identified.in_force(values)
     if identified is None or not known:
         return
     told = (

@@ -128,6 +128,11 @@ class MachineFile(Table):
         """An autobalancer larger than the wheel, a rim faster than wheels bear."""
         if self.autobalancer is not None:
             yield from larger_than_its_wheel(self.autobalancer, self.wheel)
+        if self.identified is not None and self.autobalancer is not None:
+            held = self.identified.in_force(self.autobalancer)
+            for key in self.identified.intervals().keys() - held.keys():
+                value = getattr(self.autobalancer, key)
+                yield ("identified", key), f"does not hold autobalancer.{key} = {bounded(value)}: it is not used."
         yield from rim_too_fast(self.machine, self.wheel, self.motor)
 
     @model_validator(mode="after")
@@ -144,11 +149,9 @@ class MachineFile(Table):
         return self
 
     @model_validator(mode="after")
-    def _identified_values_are_those_in_force(self) -> Self:
-        if self.identified is not None:
-            if self.autobalancer is None:
-                raise problem("there is no autobalancer whose values are identified", "identified")
-            self.identified.check_values(self.autobalancer)
+    def _identified_values_have_an_autobalancer(self) -> Self:
+        if self.identified is not None and self.autobalancer is None:
+            raise problem("there is no autobalancer whose values are identified", "identified")
         return self
 
     @model_validator(mode="after")

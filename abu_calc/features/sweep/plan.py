@@ -149,21 +149,23 @@ def of_starts(tables: MachineFile, varied: frozenset[str]) -> Iterator[tuple[str
         if tables.oil is None:
             known = _identified(tables).get("rolling_drag_per_s", 0.0)
             ways[DRAG] = f"lognormal({abu.rolling_drag_per_s!r}, {math.hypot(WARM, known) if known else WARM})"
-        else:
-            ways[WARMTH] = _warmth(tables.oil)
+        elif warmth := _warmth(tables.oil):
+            ways[WARMTH] = warmth
     yield from _scatter_ways({key: way for key, way in ways.items() if key not in varied})
 
 
 def _identified(tables: MachineFile) -> dict[str, float]:
     """Standard deviation of the logarithm of identified values: their intervals hold 95 %."""
-    known = {} if tables.identified is None else tables.identified.intervals()
+    known = {} if tables.identified is None else tables.identified.in_force(tables.autobalancer)
     return {key: max(math.log(high / low) / (2 * SIDES), 1e-6) for key, (low, high) in known.items()}
 
 
 def _warmth(oil: Oil | None) -> str:
-    """Scatter of the temperature of the oil [°C]: that of the file, or the usual one."""
+    """Scatter of the temperature of the oil [°C]: that of the file, or the usual one; empty if it has none."""
     if oil is None:
         return "triangular(15, 40, 70)"
+    if oil.cold_temperature_C == oil.hot_temperature_C:
+        return ""
     return f"triangular({oil.cold_temperature_C!r}, {oil.temperature_C!r}, {oil.hot_temperature_C!r})"
 
 
@@ -178,7 +180,8 @@ def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Vari
         diameter, radius = from_si(autobalancer.ball_diameter, "mm"), from_si(autobalancer.race_radius, "mm")
         ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
         ways["autobalancer.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
-        ways[WARMTH] = _warmth(tables.oil)
+        if warmth := _warmth(tables.oil):
+            ways[WARMTH] = warmth
     if (off := case.autobalancer.race_eccentricity_mm) > 0:
         ways["autobalancer.race_eccentricity_mm"] = f"triangular(0, {off / 3!r}, {off!r})"
     if (arm := case.autobalancer.rolling_friction_mm) > 0:
