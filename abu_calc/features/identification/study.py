@@ -23,7 +23,6 @@ from abu_calc.features.identification.fit import (
     identified_values,
     without_balls,
 )
-from abu_calc.features.identification.formulas import friction_number
 from abu_calc.features.identification.judgement import FEWEST, checks_of
 from abu_calc.features.identification.results import (
     KEYS,
@@ -39,6 +38,7 @@ from abu_calc.features.identification.tracks import (
     recorded_start,
     window_centres,
 )
+from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
