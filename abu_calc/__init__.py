@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from abu_calc.features.factory.study import FactoryResult, factory
     from abu_calc.features.grinding.study import GrindingResult, grinding
     from abu_calc.features.identification.plan import MeasurePlanResult, measure_plan
-    from abu_calc.features.identification.study import IdentifyResult, identify
+    from abu_calc.features.identification.results import IdentifyResult
+    from abu_calc.features.identification.study import identify
     from abu_calc.features.levels.study import LevelsResult, levels
     from abu_calc.features.optimise.result import OptimiseResult
     from abu_calc.features.optimise.study import optimise
@@ -100,10 +101,8 @@ _ROOMS: Final = {
         "MeasurePlanResult",
         "measure_plan",
     ),
-    "features.identification.study": (
-        "IdentifyResult",
-        "identify",
-    ),
+    "features.identification.results": ("IdentifyResult",),
+    "features.identification.study": ("identify",),
     "features.levels.study": (
         "LevelsResult",
         "levels",

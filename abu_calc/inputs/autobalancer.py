@@ -2,7 +2,7 @@
 
 from typing import Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from abu_calc.inputs.reading.table import Table, problem, usual
 
@@ -139,9 +139,15 @@ class Autobalancer(Table):
         json_schema_extra=usual(8, 300),
     )
 
+    _drag_by_oil: bool = PrivateAttr(default=False)
+    """True if the file has [oil]."""
+
     def unused(self) -> frozenset[str]:
-        """The stock to choose from, where the diameter is pinned."""
-        return frozenset() if self.ball_diameter_mm is None else frozenset({"ball_sizes"})
+        """The stock to choose from, where the diameter is pinned; the default drag, where the file has [oil]."""
+        unused = set[str]() if self.ball_diameter_mm is None else {"ball_sizes"}
+        if self._drag_by_oil and "rolling_drag_per_s" not in self.model_fields_set:
+            unused.add("rolling_drag_per_s")
+        return frozenset(unused)
 
     @model_validator(mode="after")
     def _bore_fits_inside(self) -> Self:

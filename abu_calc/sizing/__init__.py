@@ -15,6 +15,7 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.handles import body_bands, handle_checks
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
+from abu_calc.sizing.oil import value_sources, with_oil
 from abu_calc.sizing.operating_speed import frequency_region, region_check
 from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.type_test import declared_checks
@@ -46,6 +47,7 @@ def instead(design: Design, candidate: Candidate, why: str) -> Design:
 
 def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:
     best = choice.best
+    case = with_oil(case, best)
     frequency = frequency_region(case, best.ball_mass, best.mass)
     race = track(case, best, frequency.natural_frequencies)
     others = tuple(track(case, runner_up, frequency.natural_frequencies) for runner_up, _ in choice.runners_up)
@@ -67,7 +69,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *power_checks(case, best),
         *(arm.checks if arm else ()),
     )
-    warnings = design_warnings(case, best, loaded, bands)
+    warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, arm, advice, checks,
         warnings, bands,

@@ -6,6 +6,7 @@ from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.inputs.oil import oil_name
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
 from abu_calc.sizing.case import Case
@@ -130,8 +131,11 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
     return (
         DrawingRequirement(
             "oil",
-            f"for a viscous drag rate of about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
-            "to 50 1/s, depending on slip, more when cold; specify grade and volume",
+            f"for a viscous drag rate of about {case.drag:g} 1/s{optimum}; VG 46 gives 3 "
+            "to 50 1/s, depending on slip, more when cold; specify grade and volume"
+            if case.table.oil is None
+            else f"{case.table.oil.fill_ml:g} ml of {oil_name(case.table.oil)}, for a viscous drag rate of about "
+            f"{case.drag:.3g} 1/s{optimum} at {case.table.oil.temperature_C:g} °C",
         ),
         DrawingRequirement(
             "web and cover",

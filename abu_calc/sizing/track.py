@@ -26,7 +26,7 @@ OVER = 1.05
 class Track:
     """Groove, slow motion of the balls [SI]; null where there is none.
 
-    `decay_rates`: drag and slowest rate [1/s] at the drag of the file, a third of it and three times it.
+    `decay_rates`: drag and slowest rate [1/s] at the drag rate at work, in hot and in cold oil.
     """
 
     groove_radius: float | None
@@ -63,7 +63,7 @@ def track(case: Case, candidate: Candidate, frequencies: tuple[float, float]) ->
         ball_stiffness=kappa,
         optimum_drag=optimum_drag(slowest, case.inertia_factor) if slowest > 0 else None,
         decay_rates=tuple(
-            (drag, _rate(case, candidate, kappa, drag)) for drag in (case.drag, case.drag / 3, 3 * case.drag)
+            (drag, _rate(case, candidate, kappa, drag)) for drag in (share * case.drag for share in case.drag_shares)
         ),
     )
 

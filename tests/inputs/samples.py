@@ -194,6 +194,22 @@ FULL: dict[str, dict[str, str]] = {
         "source": '"own measurement"',
         "remark": '"Two sensors."',
     },
+    "[oil]": {
+        "grade": '"VG 46"',
+        "viscosity_100C_mm2_per_s": "6.7",
+        "density_g_per_cm3": "0.87",
+        "temperature_C": "40.0",
+        "cold_temperature_C": "5.0",
+        "hot_temperature_C": "80.0",
+        "fill_ml": "2.0",
+        "slip_m_per_s": "0.5",
+    },
+    "[identified]": {
+        "starts": "10",
+        "rolling_drag_per_s": "[11.0, 18.0]",
+        "rolling_friction_mm": "[0.001, 0.003]",
+        "race_eccentricity_mm": "[0.008, 0.012]",
+    },
     "[type_test]": {
         "test_wheel_diameter_mm": "150.0",
         "test_wheel_imbalance_g_mm": "65.0",

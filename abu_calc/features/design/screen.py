@@ -371,18 +371,26 @@ def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[
     others = [drag for drag in slowest_by_drag if drag != given]
     # A file from the template gives the default.
     usual = DRAG in dict(result.provenance.defaults) or given == RANGES[DRAG].assumed
-    nominal = "default" if usual else "as given"
+    oils = _oils(result, "default" if usual else "as given")
     shown = [given] * (given in slowest_by_drag)
     shown += [max(others, key=lambda drag: _time_of(slowest_by_drag[drag]))] if others else []
     for drag in shown:
         slowest = slowest_by_drag[drag]
-        oil = nominal if drag == given else "hot oil" if drag < given else "cold oil"
+        oil = oils[0] if drag == given else oils[1] if drag < given else oils[2]
         label = f"Slowest, drag rate {number(drag, 3)} 1/s {oil}: {slowest.start}"
         cases.append(judged(label, slowest.settling_time_s, decides=drag == given))
     return [
         *cases,
         *(judged(label, time, decides=False) for label, time in _late_ones(many_starts.further_starts, check)),
     ]
+
+
+def _oils(result: SizeResult, given: str) -> tuple[str, str, str]:
+    """The oil at work, hot and cold in words; `given`: for a drag rate that is not by the oil."""
+    if result.oil is None:
+        return given, "hot oil", "cold oil"
+    cold, work, hot = (f"{each.temperature_C:g} °C" for each in result.oil.temperatures)
+    return given if result.oil.overridden else f"oil {work}", f"hot oil {hot}", f"cold oil {cold}"
 
 
 def _late_ones(further: FurtherStarts | None, check: Check | None) -> list[tuple[str, float | None]]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.later_settling import with_later_settling
+from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
@@ -141,7 +142,7 @@ class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 
     command: ClassVar[str] = "size"
-    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion"})
+    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion", "oil"})
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
 
     model: SizeModel
@@ -161,6 +162,7 @@ class SizeResult(Result):
     vibration: Vibration
     vibration_loaded: Vibration | None
     measured_after: MeasuredAfterRecord | None
+    oil: OilRecord | None
     ensemble: EnsembleResult | None
     data_gaps: tuple[DataGap, ...]
     simulation: tuple[SimulatedScene, ...]
@@ -301,6 +303,7 @@ def size(
             compared_starts(design, tried.ensemble),
             level_where_measured(design, work.moved) if isinstance(work, Work) else None,
         ),
+        oil=OilRecord.of(design),
         ensemble=None
         if tried.ensemble is None
         else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
