@@ -481,8 +481,8 @@ def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
     """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
     hidden = [many(count, name) for count, name in ((gaps, "more data gap"), (notes, "note")) if count]
     sentences = [starts_and_defaults(result), f"{', '.join(hidden)}: --full." if hidden else ""]
-    code = next((check.code for check in sorted(result.checks, key=_rank) if check.requested and check.status != "pass"),
-                "ABU401")  # fmt: skip
+    asked = [check for check in sorted(result.checks, key=_rank) if check.requested and check.status != "pass"]
+    code = asked[0].code if asked else "ABU401"
     commands = ["--full", "--explain", "--output report.html", f"`abu explain {code}`"]
     if result.swing_arm:
         commands[2:2] = [f"`abu stability {file_of(result)} --scene swing-arm-cutting`"]
