@@ -12,7 +12,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.sizing.bearing_ring import fitting_rings, nearest_ring, pinned_ring, ring_of
+from abu_calc.sizing.bearing_ring import fitting_rings, nearest_ring, pinned_ring, ring_of, sphere_band
 from abu_calc.sizing.budget import (
     CandidateBalls,
     ResidualBudget,
@@ -91,7 +91,15 @@ def _ring_radii(case: Case, diameter: float) -> tuple[float, ...]:
 
 
 def _no_ring(case: Case, diameter: float) -> InputError:
-    """The refusal of the design "bearing-ring" where no ring of a bearing fits."""
+    """The refusal of the design "bearing-ring" where no ring of a bearing fits, or none has the pinned race."""
+    given, fitting = case.autobalancer.race_radius_mm, fitting_rings(case, diameter)
+    if given is not None and fitting:
+        ring = min(fitting, key=lambda each: abs(each.sphere_radius - to_si(given, "mm")))
+        low, high = (from_si(radius, "mm") for radius in sphere_band(ring))
+        return impossible(
+            "race_radius_mm", given, f"no ring of a bearing in this envelope has this sphere; the nearest is "
+            f"{ring.designation}", f"{low:.2f} … {high:.2f}",
+        )  # fmt: skip
     return InputError(
         "no outer ring of a self-aligning ball bearing (series 12, 13, 22, 23) fits the envelope, bore, wall and race",
         place=Place(key="autobalancer.design"),
