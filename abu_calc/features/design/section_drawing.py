@@ -165,7 +165,7 @@ def _balls_cut(result: "SizeResult") -> Iterator[Shape]:
 def _diameters(result: "SizeResult", unit: float) -> Iterator[Shape]:
     """Left of the closed web, the smallest nearest to it."""
     abu, section = result.autobalancer, result.section
-    bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}", bore_limits(section)
+    bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}".rstrip(), bore_limits(section)
     if not fits(section.bore_diameter_mm, limits, 1 / unit):
         limits = ""
     rows = [(section.bore_diameter_mm, bore, 0.0)]

@@ -36,7 +36,7 @@ MACHINES: dict[str, tuple[str, ...]] = {
                "autobalancer.ball_diameter_mm=2", "autobalancer.ball_count=7", "autobalancer.design=light"),
     "small scale": ("autobalancer.max_outer_diameter_mm=378.8", "autobalancer.bore_diameter_mm=296.2",
                     "autobalancer.ball_diameter_mm=20", "autobalancer.ball_count=9",
-                    "autobalancer.design=bearing-ring"),
+                    "autobalancer.design=light"),
     "hostile name": (f"machine.name='{HOSTILE}'",),
 }  # fmt: skip
 
