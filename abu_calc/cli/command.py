@@ -143,7 +143,7 @@ def _output_option(formats: Iterable[str]) -> Any:
 
 def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
     yield from (".json", ".toml", ".csv", ".txt (whole report)", ".html (page with figures)" if figures else ".html")
-    yield from (f"{suffix} (drawing)" for suffix in drawn)
+    yield from (f"{suffix} ({'solids' if suffix in ('.step', '.stp') else 'drawing'})" for suffix in drawn)
 
 
 def _shared(

@@ -59,6 +59,22 @@ def as_dxf(outcome: Outcome) -> str:
     return dxf_text((outcome.drawings() if outcome.drawings else ())[0])
 
 
+def as_pdf(outcome: Outcome) -> bytes:
+    """Every sheet of the drawing on a page of its own size."""
+    from abu_calc.reporting.charts.matplotlib_draw import drawings_pdf
+
+    return drawings_pdf(outcome.drawings() if outcome.drawings else ())
+
+
+def as_step(outcome: Outcome) -> str:
+    """The parts as solids."""
+    from abu_calc.reporting.solids.step import step_text
+
+    if outcome.solids is None:
+        raise OutputError("this result has no solids", found=".step", allowed=" ".join(FORMATS))
+    return step_text(outcome.solids())
+
+
 def as_html(outcome: Outcome) -> str:
     """One page that needs no other file."""
     from abu_calc.reporting.page.document import page
@@ -66,13 +82,14 @@ def as_html(outcome: Outcome) -> str:
     return page(outcome)
 
 
-def as_file(outcome: Outcome, suffix: str) -> str:
+def as_file(outcome: Outcome, suffix: str) -> str | bytes:
     """The text of a file with this suffix; a text that stands for itself is written as it is, under its own suffix.
 
     Raises OutputError for a suffix by which such a text would be taken for something else.
     """
     if outcome.plain is None or (suffix == ".json" and outcome.plain_suffix != ".json"):
-        return {**FORMATS, **DRAWN}[suffix](outcome)
+        makers: dict[str, Callable[[Outcome], str | bytes]] = {**FORMATS, **DRAWN}
+        return makers[suffix](outcome)
     if suffix in (outcome.plain_suffix, ".txt"):
         return outcome.plain
     raise OutputError(
@@ -91,9 +108,11 @@ FORMATS: dict[str, Callable[[Outcome], str]] = {
     ".html": as_html,
 }
 
-DRAWN: dict[str, Callable[[Outcome], str]] = {".dxf": as_dxf, ".svg": as_svg}
+DRAWN: dict[str, Callable[[Outcome], str | bytes]] = {
+    ".dxf": as_dxf, ".svg": as_svg, ".pdf": as_pdf, ".step": as_step, ".stp": as_step
+}  # fmt: skip
 """Formats of those commands alone that draw."""
-NEEDS = {".dxf": "ezdxf"}
+NEEDS = {".dxf": "ezdxf", ".pdf": "matplotlib"}
 """Packages of the extra `report`."""
 
 

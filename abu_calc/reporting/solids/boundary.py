@@ -43,7 +43,7 @@ class _Boundary:
     def __init__(self, file: EntityFile, solid: RevolvedSolid) -> None:
         self.file, self.solid = file, solid
         self.corners = solid.profile
-        self.vertices = [self._vertex_pair(corner) for corner in self.corners]
+        self.known: dict[int, tuple[Entity, Entity]] = {}
         self.circles = [self._circle_pair(index) for index in range(len(self.corners))]
 
     def faces(self, index: int) -> tuple[Entity, ...]:
@@ -60,9 +60,13 @@ class _Boundary:
     def _next(self, index: int) -> int:
         return (index + 1) % len(self.corners)
 
-    def _vertex_pair(self, corner: ProfileCorner) -> tuple[Entity, Entity]:
-        """Vertices at 0° and 180°; one for both on the axis."""
-        x, r, _ = corner
+    def _vertices(self, index: int) -> tuple[Entity, Entity]:
+        """Vertices of a corner at 0° and 180°; one for both on the axis. They are written where an edge needs them."""
+        if index not in self.known:
+            self.known[index] = self._vertex_pair(*self.corners[index][:2])
+        return self.known[index]
+
+    def _vertex_pair(self, x: float, r: float) -> tuple[Entity, Entity]:
         if r < SAME:
             pole = self.file.own("VERTEX_POINT", "", _point(self.file, (0.0, 0.0, x)))
             return pole, pole
@@ -75,7 +79,7 @@ class _Boundary:
         if r < SAME:
             return None
         circle = self.file.add("CIRCLE", "", placement(self.file, (0.0, 0.0, x), (0, 0, 1), (1, 0, 0)), float(r))
-        first, second = self.vertices[index]
+        first, second = self._vertices(index)
         return (self.file.own("EDGE_CURVE", "", first, second, circle, True),
                 self.file.own("EDGE_CURVE", "", second, first, circle, True))  # fmt: skip
 
@@ -87,7 +91,7 @@ class _Boundary:
     def _meridian(self, index: int, half: int) -> Entity:
         (x, r, bulge), there = self.solid.edges[index]
         side = HALVES[half]
-        start, end = self.vertices[index][half], self.vertices[self._next(index)][half]
+        start, end = self._vertices(index)[half], self._vertices(self._next(index))[half]
         if bulge:
             (cx, cr), radius, _, _ = arc_of((x, r, bulge), there)
             # Counter-clockwise with x to the right and r up is a turn about the circumference's direction.
