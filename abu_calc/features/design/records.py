@@ -4,10 +4,9 @@ The section holds every length that its drawing shows, and the outlines.
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from abu_calc.features.design.region import TrueRegion
-from abu_calc.features.design.section import section
 from abu_calc.features.grinding.lower_bound import LevelBound
 from abu_calc.features.grinding.outcomes import LoadedStarts
 from abu_calc.formulas.body_estimate import estimate_source
@@ -32,12 +31,10 @@ from abu_calc.sizing.drawing_requirements import (
 )
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.parts.housing_parts import TurnedPart, housing_parts
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
-
-if TYPE_CHECKING:
-    from abu_calc.features.design.section import TurnedPart
 
 
 @record
@@ -355,14 +352,14 @@ class SectionPart(Record):
     outline_mm: Annotated[tuple[tuple[float, float, float], ...], Quantity("outline of the half section")]
 
     @classmethod
-    def of(cls, part: "TurnedPart") -> Self:
+    def of(cls, part: TurnedPart) -> Self:
         """Record in user units."""
         return cls(
             name=part.name,
             material=part.material,
             mass_g=from_si(part.mass, "g"),
             section_area_mm2=1e6 * part.area,
-            outline_mm=tuple((_mm(v.x), _mm(v.r), v.bulge) for v in part.outline),
+            outline_mm=tuple((_mm(edge.start.z), _mm(edge.start.r), edge.bulge) for edge in part.profile),
         )
 
 
@@ -393,7 +390,8 @@ class Section(Record):
     @classmethod
     def of(cls, design: "Design") -> Self:
         """Record of a design."""
-        cut = section(design.case, design.autobalancer)
+        parts = housing_parts(design.case, design.autobalancer)
+        cut = parts.dimensions
         limits = bore_limits(2 * cut.bore_radius)
         return cls(
             design=design.case.autobalancer.design,
@@ -414,7 +412,7 @@ class Section(Record):
             roughness_Ra_um=_micrometres(ROUGHNESS),
             hardness=HARDNESS,
             case_depth_mm=_mm(CASE_DEPTH),
-            parts=tuple(map(SectionPart.of, cut.parts)),
+            parts=tuple(map(SectionPart.of, parts.turned)),
         )
 
 
