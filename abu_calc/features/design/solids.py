@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from abu_calc.features.design.section import MATERIALS
+from abu_calc.sizing.parts.housing_parts import MATERIALS
 from abu_calc.reporting.drawings.shapes import plain
 from abu_calc.reporting.solids.assembly import (
     PlacedSolid,

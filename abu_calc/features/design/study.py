@@ -53,6 +53,7 @@ from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -117,7 +118,7 @@ class SizeResult(Result):
 
     command: ClassVar[str] = "size"
     optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion"})
-    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts", "parts"}
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -149,6 +150,8 @@ class SizeResult(Result):
     """The same at work."""
     starts: Starts = field(compare=False, repr=False)
     """Some starts of the ensemble, run again when they are asked for."""
+    parts: HousingParts = field(compare=False, repr=False)
+    """Geometry of the parts, for drawings and solids."""
 
 
 WORKERS: Final = Range("workers", 1, 1024, key="workers")
@@ -252,6 +255,7 @@ def size(
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
+        parts=housing_parts(design.case, design.autobalancer),
     )
 
 

@@ -65,8 +65,9 @@ def _draw(axes: "Axes", drawing: Drawing, shape: Any) -> None:
             axes.add_patch(Polygon([at(corner) for corner in corners], facecolor=INK, edgecolor="none"))
         case Region():
             outline = Polygon(
-                [at(point) for point in _outline(shape)], fill=False, joinstyle="miter", **_pen("outline")
-            )
+                [at(point) for point in _outline(shape)], fill=False, joinstyle="miter",
+                **(_pen("outline") if shape.outlined else {"linewidth": 0.0}),
+            )  # fmt: skip
             axes.add_patch(outline)
             _hatch(axes, shape, outline)
         case Text():

@@ -10,6 +10,7 @@ from abu_calc.features.design.study import SizeResult
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing import trials
+from abu_calc.sizing.parts.housing_parts import housing_parts
 from tests.remembered import recalled
 
 HOSTILE = '<script>alert("1")</script> & Schleifer ÄÖÜß ]]> %%c ^J \\U+0041 шлиф ' + "long " * 30
@@ -61,6 +62,7 @@ def result(name: str) -> SizeResult:
         title=machine.tables.machine.name,
         autobalancer=AutobalancerRecord.of(table, one, design.track),
         section=Section.of(design),
+        parts=housing_parts(design.case, design.autobalancer),
         drawing=tuple(
             DrawingLine(feature=each.feature, requirement=each.requirement, cost_db=each.cost_db)
             for each in design.drawing
