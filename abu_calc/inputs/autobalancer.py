@@ -1,10 +1,13 @@
 """The table of the autobalancer: the room for it, how it is made, and values that may be pinned."""
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from abu_calc.inputs.reading.table import Table, problem, usual
+
+Temperature = Annotated[float, Field(ge=-60, le=250)]
+"""A temperature of the housing [°C]."""
 
 
 class Autobalancer(Table):
@@ -90,6 +93,37 @@ class Autobalancer(Table):
         le=10,
         json_schema_extra=usual(0.0005, 0.2),
     )
+    eccentricity_sum: Literal["worst-case", "rss"] = Field(
+        default="worst-case",
+        description="Rule by which the drawing's parts of the eccentricity (race run-out, fit, spindle run-out, "
+        "housing imbalance) add up to race_eccentricity_mm: worst-case or rss (root of the sum of squares). Default: "
+        "{default}.",
+    )
+    closure: Literal["pressed", "screwed"] = Field(
+        default="pressed",
+        description="Cover that closes the housing: pressed (interference fit) or screwed (a fine thread on its rim). "
+        "Default: {default}.",
+    )
+    fastening: Literal["clamped", "shrunk", "flange"] = Field(
+        default="clamped",
+        description="Fastening on the spindle: clamped (by a nut), shrunk (interference fit alone) or flange (part of "
+        "the flange that drives the wheel). Default: {default}.",
+    )
+    clamp_force_N: float | None = Field(
+        default=None,
+        description="Axial force of the nut that clamps the housing or the flange [N]; {range}. Without it the slip "
+        "torque is not evaluated.",
+        examples=[8000.0],
+        gt=0,
+        le=1e7,
+        json_schema_extra=usual(500, 200000),
+    )
+    temperature_range_C: Annotated[tuple[Temperature, ...], Field(strict=False, min_length=2, max_length=2)] = Field(
+        default=(0.0, 60.0),
+        description="Lowest and highest temperature of the housing [°C]; each {range}. Interferences are judged at "
+        "both, from 20 °C at assembly. Default: 0 and 60, assumed.",
+        examples=[(0.0, 80.0)],
+    )
     race_hardness_HRC: float = Field(
         default=60.0,
         description="Hardness of the race [HRC]; {range}, at least 58 for balls not to dent it. Default: {default}, "
@@ -152,5 +186,18 @@ class Autobalancer(Table):
                 found=f"bore_diameter_mm = {self.bore_diameter_mm:g}, "
                 f"max_outer_diameter_mm = {self.max_outer_diameter_mm:g}",
                 allowed="bore_diameter_mm below max_outer_diameter_mm",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _temperatures_in_order(self) -> Self:
+        low, high = self.temperature_range_C
+        if low > high:
+            raise problem(
+                "the lowest temperature is above the highest",
+                "temperature_range_C",
+                found=f"[{low:g}, {high:g}]",
+                allowed="the lowest first",
+                remedy=f"write temperature_range_C = [{high:g}, {low:g}]",
             )
         return self

@@ -13,6 +13,7 @@ from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_moto
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
+from abu_calc.sizing.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.handles import body_bands, handle_checks
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.operating_speed import frequency_region, region_check
@@ -54,12 +55,14 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
     arm = _arm(case, imbalance.value, best)
-    advice = drawing(case, best, race)
+    eccentricity = split_eccentricity(case, best)
+    advice = drawing(case, best, race, eccentricity)
     bands = body_bands(case, best, frequency.balancing_possible)
     checks = (
         region_check(case, best, frequency),
         *_motor(case, best),
         *candidate_checks(case, best),
+        eccentricity_check(case, best, eccentricity),
         *track_checks(case, best, race),
         *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
         *handle_checks(case, imbalance.value, best, frequency.balancing_possible, bands),
@@ -70,7 +73,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     warnings = design_warnings(case, best, loaded, bands)
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, arm, advice, checks,
-        warnings, bands,
+        warnings, bands, eccentricity,
     )  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.drawing_requirements import DrawingRequirement
+from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.operating_speed import FrequencyRegion, frequency_region
@@ -44,6 +45,8 @@ class Design:
     warnings: tuple[str, ...]
     bands: BodyBands | None
     """Bands of an estimated body; None: nothing is estimated, or the design was built as one machine."""
+    eccentricity: EccentricitySplit
+    """Parts of the eccentricity that the drawing permits."""
 
     @property
     def autobalancer(self) -> Candidate:

@@ -19,20 +19,13 @@ from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import WHEEL_PLANE
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.drawing_requirements import (
-    BORE,
-    CASE_DEPTH,
-    GROOVE_TOLERANCE,
-    HARDNESS,
-    OVALITY,
-    RACE_TOLERANCE,
-    ROUGHNESS,
-    bore_limits,
-)
+from abu_calc.sizing.drawing_requirements import GROOVE_TOLERANCE, RACE_TOLERANCE, hardness_text
+from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
 from abu_calc.sizing.parts.housing_parts import TurnedPart, housing_parts
 from abu_calc.sizing.places import VibrationLevels as Levelled
+from abu_calc.sizing.race_quality import race_quality
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
 
@@ -338,6 +331,44 @@ class DrawingLine(Record):
 
 
 @record
+class Eccentricity(Record):
+    """Parts of the eccentricity that the drawing permits; the simulation uses `total_um`."""
+
+    rule: Annotated[str, Quantity("rule of the sum")]
+    total_um: Annotated[float, Quantity("permitted in all", "Δ", 3)]
+    sum_um: Annotated[float, Quantity("sum of the parts", "", 3)]
+    race_um: Annotated[float, Quantity("race to bore", "Δ_r", 3)]
+    clearance_um: Annotated[float, Quantity("clearance of bore and spindle", "Δ_f", 3)]
+    spindle_um: Annotated[float, Quantity("spindle", "Δ_s", 3)]
+    housing_um: Annotated[float, Quantity("imbalance of the housing", "Δ_h", 3)]
+    least_um: Annotated[float, Quantity("least attainable sum", "", 3)]
+    bore_class: Annotated[str | None, Quantity("tolerance class of the bore")]
+    spindle_class: Annotated[str | None, Quantity("tolerance class of the spindle")]
+    spindle_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the spindle")]
+    balance_grade: Annotated[str, Quantity("balance grade of the housing")]
+
+    @classmethod
+    def of(cls, split: EccentricitySplit) -> Self:
+        """Record in user units."""
+        fit = split.fit
+        return cls(
+            rule=split.rule,
+            total_um=_micrometres(split.total),
+            sum_um=_micrometres(split.sum),
+            race_um=_micrometres(split.race),
+            clearance_um=_micrometres(split.clearance),
+            spindle_um=_micrometres(split.spindle),
+            housing_um=_micrometres(split.housing),
+            least_um=_micrometres(split.least),
+            bore_class=None if fit is None else fit.bore_class,
+            spindle_class=None if fit is None else fit.spindle_class,
+            spindle_limits_um=None if fit is None else
+            (_micrometres(fit.spindle.lower), _micrometres(fit.spindle.upper)),
+            balance_grade=split.balance_grade,
+        )  # fmt: skip
+
+
+@record
 class SectionPart(Record):
     """One part of the housing.
 
@@ -380,7 +411,7 @@ class Section(Record):
     wall_mm: Annotated[float, Quantity("wall outside the race")]
     web_mm: Annotated[float, Quantity("web and cover")]
     inner_width_mm: Annotated[float, Quantity("between web and cover")]
-    runout_um: Annotated[float, Quantity("runout race to bore, all in", "TIR")]
+    runout_um: Annotated[float, Quantity("runout of the race to the bore", "TIR")]
     circularity_um: Annotated[float, Quantity("circularity of the race")]
     roughness_Ra_um: Annotated[float, Quantity("roughness of the race", "Ra")]
     hardness: Annotated[str, Quantity("hardness of the race")]
@@ -392,12 +423,12 @@ class Section(Record):
         """Record of a design."""
         parts = housing_parts(design.case, design.autobalancer)
         cut = parts.dimensions
-        limits = bore_limits(2 * cut.bore_radius)
+        fit, quality = design.eccentricity.fit, race_quality(design.case, design.autobalancer)
         return cls(
             design=design.case.autobalancer.design,
             bore_diameter_mm=_mm(2 * cut.bore_radius),
-            bore_class=BORE,
-            bore_limits_um=None if limits is None else (_micrometres(limits.lower), _micrometres(limits.upper)),
+            bore_class="" if fit is None else fit.bore_class,
+            bore_limits_um=None if fit is None else (_micrometres(fit.bore.lower), _micrometres(fit.bore.upper)),
             hub_diameter_mm=_mm(2 * cut.hub_radius),
             race_diameter_mm=_mm(2 * cut.race_radius),
             race_tolerance_mm=_mm(RACE_TOLERANCE),
@@ -407,11 +438,11 @@ class Section(Record):
             wall_mm=_mm(cut.ring_radius - cut.race_radius),
             web_mm=_mm(cut.web),
             inner_width_mm=_mm(cut.inner_width),
-            runout_um=_micrometres(2 * design.case.race_eccentricity),
-            circularity_um=_micrometres(OVALITY),
-            roughness_Ra_um=_micrometres(ROUGHNESS),
-            hardness=HARDNESS,
-            case_depth_mm=_mm(CASE_DEPTH),
+            runout_um=_micrometres(2 * design.eccentricity.race),
+            circularity_um=_micrometres(quality.circularity),
+            roughness_Ra_um=_micrometres(quality.roughness),
+            hardness=hardness_text(quality),
+            case_depth_mm=_mm(quality.case_depth),
             parts=tuple(map(SectionPart.of, parts.turned)),
         )
 

@@ -16,6 +16,7 @@ from abu_calc.features.design.records import (
     AutobalancerRecord,
     BodyRecord,
     DrawingLine,
+    Eccentricity,
     Frequency,
     IdleSpeedLevels,
     Section,
@@ -132,6 +133,7 @@ class SizeResult(Result):
     required_capacity_compliant_g_mm: Annotated[float | None, Quantity("required by the compliant contact")]
     autobalancer: AutobalancerRecord
     section: Section
+    eccentricity: Eccentricity
     alternatives: tuple[AutobalancerRecord, ...]
     accuracy_budget: AccuracyBudget
     vibration: Vibration
@@ -221,6 +223,7 @@ def size(
         required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
         autobalancer=AutobalancerRecord.of(design.case.autobalancer, design.autobalancer, design.track),
         section=Section.of(design),
+        eccentricity=Eccentricity.of(design.eccentricity),
         alternatives=tuple(
             AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why)
             for (runner_up, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)

@@ -81,6 +81,9 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.budget:ovality_residual",
             "sizing.budget:permitted_displacement",
             "sizing.place_response:plane_rest",
+            "sizing.eccentricity:eccentricity_sum",
+            "sizing.eccentricity:fit_eccentricity",
+            "sizing.eccentricity:housing_eccentricity",
         ),
     ),
     "balls": Step(
