@@ -5,11 +5,12 @@ lies along the lines.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from abu_calc.features.design.records import AutobalancerRecord, Section
+from abu_calc.reporting.drawings.callouts import balloon
 from abu_calc.reporting.drawings.dimensions import arrow, datum, extent, fits, leader, moved, roughness, tolerance_frame
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
@@ -43,8 +44,10 @@ OVERHANG = 4.0
 """Overhang of centre lines, on paper [mm]."""
 
 
-def section_view(result: "SizeResult", scale: float, right: float = 0.0) -> tuple[Shape, ...]:
-    """The section, the axis along y = 0; its closed web stands at x = `right`."""
+def section_view(
+    result: "SizeResult", scale: float, right: float = 0.0, items: Mapping[str, str] | None = None
+) -> tuple[Shape, ...]:
+    """The section, the axis along y = 0; its closed web stands at x = `right`. `items`: numbers instead of names."""
     abu, unit = result.autobalancer, 1 / scale
     outer = abu.outer_diameter_mm / 2
     shapes = (
@@ -55,7 +58,7 @@ def section_view(result: "SizeResult", scale: float, right: float = 0.0) -> tupl
         *_diameters(result, unit),
         *_widths(result, unit),
         *_race_notes(result, scale),
-        *_part_names(result, scale),
+        *_part_names(result, scale, items or {}),
         Text((abu.width_mm / 2, outer + (STACK + 2 * STEP) * unit), "A–A", 1.4 * HEIGHT, "centre"),
     )
     return tuple(moved(shape, (right, 0.0)) for shape in shapes)
@@ -237,11 +240,14 @@ def _on_race(result: "SizeResult", share: float) -> Point:
     return abu.width_mm / 2 + x, abu.race_radius_mm - drop
 
 
-def _part_names(result: "SizeResult", scale: float) -> Iterator[Shape]:
-    """Balls and parts by name, right of the section."""
+def _part_names(result: "SizeResult", scale: float, items: Mapping[str, str]) -> Iterator[Shape]:
+    """Balls and parts by name right of the section, or by their numbers in balloons."""
     column = result.autobalancer.width_mm + COLUMN / scale
     for tip, text, pointed, y in _named(result, 1 / scale):
-        yield from leader(tip, (column, y), text, scale, pointed=pointed)
+        if text in items:
+            yield from balloon(tip, (column + 6 / scale, y), items[text], scale)
+        else:
+            yield from leader(tip, (column, y), text, scale, pointed=pointed)
 
 
 def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool, float]]:
@@ -260,7 +266,7 @@ def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool
     for tip, text, pointed in sorted(named, key=lambda row: -row[0][1]):
         top = min(top, tip[1])
         yield tip, text, pointed, top
-        top -= 2.2 * HEIGHT * unit
+        top -= 3.2 * HEIGHT * unit
 
 
 def _cutting_plane(outer: float, scale: float) -> Iterator[Shape]:

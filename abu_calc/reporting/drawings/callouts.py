@@ -16,12 +16,14 @@ FRAME_ROW: Final = 7.0
 DATUM_ROW: Final = 14.5
 BETWEEN: Final = 3.0
 """Heights of a callout's rows and the distance to the next one, on paper [mm]."""
+RISE: Final = 6.0
+"""Height of a shelf above its tip, so that no leader lies in a surface, on paper [mm]."""
 SIGN: Final = 9.0
 """Width of the sign of roughness without its value, on paper [mm]."""
 
 
 class Callout(NamedTuple):
-    """Demands on a surface at a point: a text, roughness as it is written, frames, the letter of a datum."""
+    """Demands on a surface at a point: a text, one below it, roughness as written, frames, the letter of a datum."""
 
     tip: Point
     text: str = ""
@@ -29,6 +31,7 @@ class Callout(NamedTuple):
     frames: tuple[tuple[str, ...], ...] = ()
     datum: str = ""
     pointed: bool = True
+    below: str = ""
 
     @property
     def above(self) -> float:
@@ -38,13 +41,13 @@ class Callout(NamedTuple):
     @property
     def height(self) -> float:
         """Height on paper [mm]."""
-        return self.above + FRAME_ROW * len(self.frames) + (DATUM_ROW if self.datum else 0.0)
+        return self.above + (PLAIN_ROW if self.below else 0.0) + FRAME_ROW * len(self.frames) + (DATUM_ROW if self.datum else 0.0)
 
     @property
     def width(self) -> float:
         """Width on paper [mm]."""
         sign = SIGN + text_width(self.rough, HEIGHT) if self.rough else 0.0
-        rows = [text_width(self.text, HEIGHT) + sign + 1]
+        rows = [text_width(self.text, HEIGHT) + sign + 1, text_width(self.below, HEIGHT) + 1]
         rows += [2 * HEIGHT + sum(max(2 * HEIGHT, text_width(cell, HEIGHT) + 2) for cell in cells[1:])
                  for cells in self.frames]  # fmt: skip
         return max(rows)
@@ -67,7 +70,7 @@ def rising_column(callouts: Sequence[Callout], x: float, side: Side, scale: floa
     low = -math.inf
     for callout in sorted(callouts, key=lambda each: each.tip[1]):
         hanging = callout.height - callout.above
-        shelf = max(callout.tip[1], low + (BETWEEN + hanging) / scale)
+        shelf = max(callout.tip[1] + RISE / scale, low + (BETWEEN + hanging) / scale)
         yield from _drawn(callout, x, shelf + callout.above / scale, side, scale)
         low = shelf + callout.above / scale
 
@@ -84,6 +87,9 @@ def _drawn(callout: Callout, x: float, top: float, side: str, scale: float) -> I
         at = left + (text_width(callout.text, HEIGHT) + 4) * unit
         yield from roughness((at, shelf), callout.rough, scale)
     y = shelf
+    if callout.below:
+        y -= PLAIN_ROW * unit
+        yield Text((left + 0.5 * unit, y + ABOVE * unit), callout.below)
     for cells in callout.frames:
         yield ToleranceFrame((left, y), cells)
         y -= FRAME_ROW * unit

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.design.sheet import ratio, section_sheet, size_sheets, verdict
+from abu_calc.features.design.sheet import section_sheet, size_sheets
+from abu_calc.features.design.sheets.part_sheet import ratio, verdict
 from abu_calc.foundation.checks import Check, Grade
 from abu_calc.reporting.drawings.shapes import SCALES, Text
 from tests.reporting.drawings.samples import result

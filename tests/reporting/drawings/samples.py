@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 
-from abu_calc.features.design.records import AutobalancerRecord, DrawingLine, Section
+from abu_calc.features.design.records import AutobalancerRecord, DrawingLine, Eccentricity, Section
 from abu_calc.features.design.study import SizeResult
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size as size_design
@@ -63,6 +63,7 @@ def result(name: str) -> SizeResult:
         autobalancer=AutobalancerRecord.of(table, one, design.track),
         section=Section.of(design),
         parts=housing_parts(design.case, design.autobalancer),
+        eccentricity=Eccentricity.of(design.eccentricity),
         drawing=tuple(
             DrawingLine(feature=each.feature, requirement=each.requirement, cost_db=each.cost_db)
             for each in design.drawing

@@ -107,7 +107,7 @@ def limits_text(surface: Surface) -> str:
 
 
 def _signed(value: float) -> str:
-    return f"{'+' if value > 0 else ''}{digits(value, 4)}"
+    return f"{value:+.3f}" if value else "0"
 
 
 def diameter_text(value: float, surface: Surface | None) -> tuple[str, str]:

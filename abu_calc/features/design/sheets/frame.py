@@ -86,7 +86,8 @@ def title_block(block: TitleBlock) -> Iterator[Shape]:
                 yield Text((x + 2, y + 1.2), *fitted(plain(value), wide - 4, 0.8 * HEIGHT))
             x += wide
     yield from projection_symbol((left + 167.5, low + 4 * high + 1.0), 0.65)
-    yield from general_roughness((left + 138, low + 3 * high + 1.2), block.roughness)
+    if block.roughness:
+        yield from general_roughness((left + 138, low + 3 * high + 1.2), block.roughness)
 
 
 def general_roughness(corner: tuple[float, float], value: str) -> Iterator[Shape]:

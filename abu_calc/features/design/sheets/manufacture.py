@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.reporting.drawings.shapes import digits
-from abu_calc.sizing.drawing_requirements import BORE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Surface
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
@@ -56,14 +55,16 @@ def _usual(result: "SizeResult", part: TurnedPart, sizes: dict[str, float]) -> I
         yield _race(result)
         yield _seat("cover seat", sizes, SEATS[result.parts.body.material][0], "", frames=_form("run-out", 0.02, "A"))
     if part.name == "body":
-        bore = _limits("housing", BORE, sizes["bore"])
+        bore = _bore(result)
         round_ = None if bore is None else math.floor(from_si(bore.tolerance, "um") / 2) / 1000
-        yield Surface("bore", "cylinder", sizes["bore"], tolerance_class=BORE, limits=bore, roughness=to_si(0.4, "um"),
+        yield Surface("bore", "cylinder", sizes["bore"], tolerance_class=result.section.bore_class, limits=bore, roughness=to_si(0.4, "um"),
                       geometrical=() if not round_ else _form("cylindricity", round_), datum="A")  # fmt: skip
         across = GeometricalTolerance("perpendicularity", FACE_RUNOUT, "A")
         yield Surface("mounting face", "plane", roughness=to_si(0.8, "um"),
                       geometrical=(across, GeometricalTolerance("run-out", FACE_RUNOUT, "A")), datum="B")  # fmt: skip
         yield Surface("hub end", "plane", roughness=to_si(0.8, "um"), geometrical=_form("parallelism", 0.01, "B"))
+        hub = _limits("shaft", "h7", sizes["hub"])
+        yield Surface("hub", "cylinder", tolerance_class="h7", limits=hub, roughness=to_si(1.6, "um"))
         yield _seat("ring seat", sizes, SEATS[part.material][0], "", frames=_form("run-out", 0.01, "A"))
     elif part.name == "cover":
         yield _seat("outside", sizes, "", SEATS[part.material][1])
@@ -73,6 +74,11 @@ def _usual(result: "SizeResult", part: TurnedPart, sizes: dict[str, float]) -> I
         yield _seat("outside", sizes, "", SEATS[result.parts.body.material][1], datum="A")
         yield Surface("web face", "plane", roughness=to_si(0.8, "um"),
                       geometrical=_form("perpendicularity", 0.01, "A"))  # fmt: skip
+
+
+def _bore(result: "SizeResult") -> DeviationLimits | None:
+    limits = result.section.bore_limits_um
+    return None if limits is None else DeviationLimits(*(to_si(limit, "um") for limit in limits))
 
 
 def _form(kind: str, value: float, datum: str = "") -> tuple[GeometricalTolerance, ...]:
@@ -130,18 +136,21 @@ def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
 
 def assembly_notes(result: "SizeResult") -> Iterator[str]:
     """Closure, fill and balance of the assembly."""
-    abu, count = result.autobalancer, result.autobalancer.ball_count
-    yield (f"Assembly: wash and oil the race, lay {count} {abu.corrector}s of one lot into the open race, press the cover "
-           "(3) evenly to its stop; it is flush with the body." if result.parts.closure == "pressed" else
-           f"Assembly: wash and oil the race, lay {count} {abu.corrector}s of one lot into the open race, then screw on "
-           "the cover to its stop.").replace("(3) ", "")  # fmt: skip
+    abu = result.autobalancer
+    close = "press on the cover evenly" if result.parts.closure == "pressed" else "screw on the cover"
+    yield (f"Assembly: wash and oil the race, lay in {abu.ball_count} {abu.corrector}s of one lot before the cover, fill "
+           f"the oil, {close} to its stop; its face is flush with the body.")  # fmt: skip
     yield from _balance(result)
 
 
 def _balance(result: "SizeResult") -> Iterator[str]:
+    """Data of the unbalance tolerance: condition, speed, mass, plane, grade, permitted value, method (ISO 21940-11)."""
+    abu, grade_name = result.autobalancer, result.eccentricity.balance_grade
     speed = max(result.model.speed_range_rad_per_s)
-    mass = result.autobalancer.mass_g - result.autobalancer.ball_count * result.autobalancer.ball_mass_g
-    permitted = 6.3 / speed * mass
-    yield (f"Balance without {result.autobalancer.corrector}s and oil, one plane (middle of the race): ISO 21940-11 G6.3 "
-           f"at {from_si(speed, 'rpm'):.0f} rpm, {digits(mass, 1)} g: residual imbalance {permitted:.3g} g·mm at most. "
-           "Remove material from the rim's outside face; centre on the bore (A).")  # fmt: skip
+    mass = abu.mass_g - abu.ball_count * abu.ball_mass_g
+    permitted = float(grade_name.removeprefix("G")) / speed * mass
+    yield (
+        f"Balance (ISO 21940-11): assembled, without {abu.corrector}s and oil; mass {digits(mass, 1)} g; highest speed "
+        f"{from_si(speed, 'rpm'):.0f} rpm; grade {grade_name}; one tolerance plane, the middle of the race; permissible "
+        f"residual imbalance {permitted:.3g} g·mm about the bore (A). Correct by drilling the rim's outside, ≤ 1 mm deep."
+    )

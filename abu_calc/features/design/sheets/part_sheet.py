@@ -27,6 +27,7 @@ from abu_calc.sizing.parts.housing_parts import TurnedPart
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
+    from abu_calc.simulation.result import Result
 
 GAP: Final = 8.0
 """Distance between views, and between views and the frame, on paper [mm]."""
@@ -62,13 +63,19 @@ def number(result: "SizeResult", sheet: int) -> str:
 
 def origin(result: "SizeResult") -> dict[str, str]:
     """Fields of the title block that say what the sheet stands on."""
-    from abu_calc.features.design.sheet import verdict
-
     source = result.provenance
     name = PurePath(source.file.replace("\\", "/")).name if source.file else "no file"
     replaced = f", {many(len(source.overrides), 'entry', 'entries')} replaced" if source.overrides else ""
     return {"date": source.date, "creator": f"abu-calc {source.version}", "status": "design", "file": f"{name}{replaced}",
             "sha256": source.sha256 or "–", "checks": verdict(result)}  # fmt: skip
+
+
+def verdict(result: "Result") -> str:
+    """Verdict in a word, with the codes of the checks that stand in the way."""
+    if result.status == "pass":
+        return "PASS"
+    codes = dict.fromkeys(check.code for check in result.checks if check.status == result.status)
+    return f"{'FAIL' if result.status == 'fail' else 'NOT EVALUATED'}: {' '.join(codes)}"
 
 
 def ratio(scale: float) -> str:

@@ -31,6 +31,8 @@ CUT: Final = 0.35
 """Depth of the detail below the shoulder of the race, as a share of its height above it."""
 NEAR: Final = 1e-5
 """A step [mm] to either side of a place."""
+Words = dict[tuple[str, bool], tuple[str, str]]
+"""Texts of diameters without room, by surface and whether they are references: text, and what stands below."""
 NAMES: Final = {"run-out": "runout"}
 
 
@@ -116,16 +118,16 @@ def _top(edges: Sequence[Edge], x: float) -> float:
     return max(corners or arcs)
 
 
-def _diameter_lines(plan: DimensionPlan, unit: float) -> tuple[list[Shape], dict[str, str]]:
+def _diameter_lines(plan: DimensionPlan, unit: float) -> tuple[list[Shape], Words]:
     """Lines of diameters on both sides, the smallest nearest; texts without room, by the surface that shall tell them."""
-    shapes, wordy = list[Shape](), dict[str, str]()
+    shapes, wordy = list[Shape](), Words()
     for side in ("left", "right"):
         own = sorted((each for each in plan.diameters if each.side == side), key=lambda each: each.value)
         rows = 0.0
         for each in own:
             text = max(each.text, each.below, key=len)
             if each.value / unit < 2 * text_width(text, HEIGHT):
-                wordy[each.surface] = " ".join(filter(None, (each.text, each.below)))
+                wordy[each.surface, each.reference] = each.text, each.below
                 continue
             rows += 0.6 if each.below and side == "left" else 0.0
             away = (STACK + STEP * rows) * unit
@@ -140,7 +142,7 @@ def _upright(each: Diameter, at: float) -> Length:
 
 
 def _demands(
-    part: TurnedPart, edges: Sequence[Edge], only: frozenset[str], but: frozenset[str], wordy: dict[str, str],
+    part: TurnedPart, edges: Sequence[Edge], only: frozenset[str], but: frozenset[str], wordy: Words,
     place: Callable[[Point], Point],
 ) -> Iterator[Callout]:  # fmt: skip
     """Demands on the surfaces of a view, each at a point of its longest edge; `wordy`: sizes told beside them."""
@@ -150,10 +152,10 @@ def _demands(
             continue
         longest = max(along, key=lambda edge: math.dist(edge.start, edge.end))
         surface = part.surface(name)
-        tip = place(edge_point(longest, 0.3))
+        tip = place(edge_point(longest, 0.2))
         callout = Callout(tip) if surface is None else surface_callout(surface, tip)
-        words = " ".join(filter(None, (wordy.get(name, ""), callout.text)))
-        callout = callout._replace(text=words)
+        text, below = wordy.get((name, False), ("", ""))
+        callout = callout._replace(text=" ".join(filter(None, (text, callout.text))), below=below)
         if callout.text or callout.rough or callout.frames or callout.datum:
             yield callout
 
@@ -220,7 +222,7 @@ def race_detail(part: TurnedPart, plan: DimensionPlan, scale: float, enlarged: f
         shapes.append(Line("centre", place((x, low)), place((x, top + 2 / enlarged))))
     (_, _), (right, high) = extent(shapes, scale)
     told = detail_surfaces(plan.edges)
-    callouts = [*_radii(plan, place), *_demands(part, plan.edges, told, frozenset(), {}, place)]
+    callouts = [*_radii(plan, place), *_demands(part, plan.edges, told, frozenset(), _diameter_lines(plan, 1 / scale)[1], place)]
     left = [each for each in callouts if each.tip[0] < 0.02 * plan.length * factor]
     shapes += column(left, -10 / scale, high, "left", scale)
     shapes += column([each for each in callouts if each not in left], right + 10 / scale, high, "right", scale)
