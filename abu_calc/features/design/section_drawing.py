@@ -79,10 +79,10 @@ def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
         Line("centre", (-reach, 0), (reach, 0)),
         *_cutting_plane(outer, scale),
         *_balls_seen(result),
-        *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text) for (radius, text), angle in zip((
-            (abu.race_radius_mm, f"R{digits(abu.race_radius_mm)} ±{digits(section.race_tolerance_mm)}"),
-            (pitch, f"(R{digits(pitch)})"),
-            (section.hub_diameter_mm / 2, f"R{digits(section.hub_diameter_mm / 2)}"),
+        *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text, True) for (radius, text), angle in zip((
+            (abu.race_radius_mm, f"Ø{digits(2 * abu.race_radius_mm)} ±{digits(2 * section.race_tolerance_mm)}"),
+            (pitch, f"(Ø{digits(2 * pitch)})"),
+            (section.hub_diameter_mm / 2, f"Ø{digits(section.hub_diameter_mm)}"),
         ), _clear_of_balls(abu), strict=True)),
         Text((0, outer + (STACK + 2 * STEP) * unit), "cover off", HEIGHT, "centre"),
     )  # fmt: skip

@@ -19,7 +19,7 @@ from abu_calc.features.design.sheets.frame import (
     title_block,
     written_notes,
 )
-from abu_calc.features.design.sheets.manufacture import BALL_STEEL, assembly_notes, grade
+from abu_calc.features.design.sheets.manufacture import BALL_STEEL, SHOWN, assembly_notes, grade, race_lines
 from abu_calc.features.design.sheets.part_sheet import number, on_paper, origin, part_sheets, ratio
 from abu_calc.features.seats.figures import seats_of
 from abu_calc.reporting.drawings.dimensions import extent, fits, moved
@@ -35,8 +35,6 @@ GAP = 12.0
 """Distance between views, and between views and the frame. All lengths are on paper [mm]."""
 BALLS: Final = "{0.ball_count} × Ø{0.ball_diameter_mm:g}"
 """The balls as the section names them."""
-SHOWN: Final = frozenset({"race", "groove", "race circularity", "race surface", "rolling friction"})
-"""Lines of the drawing table that the views say themselves."""
 
 
 def section_sheet(result: "SizeResult") -> Drawing:
@@ -89,8 +87,9 @@ def _views(result: "SizeResult", room: Point, items: Mapping[str, str]) -> tuple
 
 
 def _notes(result: "SizeResult") -> Iterator[str]:
-    """The lines of the drawing table that no dimension says."""
-    yield from (f"{line.feature}: {line.requirement}" for line in result.drawing if line.feature not in SHOWN)
+    """The lines of the drawing table that neither a dimension nor the sheet of the race's part says."""
+    told = SHOWN | {line.feature for line in race_lines(result)} | {"housing without balls"}
+    yield from (f"{line.feature}: {line.requirement}" for line in result.drawing if line.feature not in told)
 
 
 def size_sheets(result: "SizeResult") -> tuple[Drawing, ...]:

@@ -65,14 +65,17 @@ def column(callouts: Sequence[Callout], x: float, top: float, side: Side, scale:
         y -= (callout.height + BETWEEN) / scale
 
 
-def rising_column(callouts: Sequence[Callout], x: float, side: Side, scale: float) -> Iterator[Shape]:
-    """Callouts above one another, no shelf below its tip."""
-    low = -math.inf
+def rising_column(callouts: Sequence[Callout], x: float, limit: float, side: Side, scale: float) -> Iterator[Shape]:
+    """Callouts above one another, no shelf below its tip unless all have to go down to stay below `limit`."""
+    low, shelves = -math.inf, list[tuple[Callout, float]]()
     for callout in sorted(callouts, key=lambda each: each.tip[1]):
         hanging = callout.height - callout.above
         shelf = max(callout.tip[1] + RISE / scale, low + (BETWEEN + hanging) / scale)
-        yield from _drawn(callout, x, shelf + callout.above / scale, side, scale)
+        shelves.append((callout, shelf))
         low = shelf + callout.above / scale
+    down = max(low - limit, 0.0) if shelves else 0.0
+    for callout, shelf in shelves:
+        yield from _drawn(callout, x, shelf - down + callout.above / scale, side, scale)
 
 
 def _drawn(callout: Callout, x: float, top: float, side: str, scale: float) -> Iterator[Shape]:

@@ -155,6 +155,10 @@ def _dimension(document: "Document", space: "BaseLayout", dim: Length | Radius, 
         entity = space.add_linear_dim(
             base, dim.start, dim.end, angle=angle, text=text, dimstyle=STYLE, dxfattribs=attributes
         ).dimension
+    elif dim.full:
+        entity = space.add_diameter_dim(
+            dim.centre, mpoint=dim.touch, text=text, dimstyle=STYLE, dxfattribs=attributes
+        ).dimension
     else:
         entity = space.add_radius_dim(
             dim.centre, mpoint=dim.touch, text=text, dimstyle=STYLE, dxfattribs=attributes
@@ -162,7 +166,7 @@ def _dimension(document: "Document", space: "BaseLayout", dim: Length | Radius, 
     block = document.blocks.new_anonymous_block(type_char="D")
     _draw(block, drawn, scale)
     entity.dxf.geometry = block.name
-    entity.dxf.actual_measurement = dim.value
+    entity.dxf.actual_measurement = 2 * dim.value if isinstance(dim, Radius) and dim.full else dim.value
     entity.dxf.text_midpoint = next(shape.at for shape in drawn if isinstance(shape, Text))
 
 

@@ -133,13 +133,14 @@ class Length:
 @dataclass(frozen=True)
 class Radius:
     """A dimension of a circle's radius: its arrow touches at an angle [degrees] from outside, its text stands on a
-    shelf at `shelf`."""
+    shelf at `shelf`. `full`: a full circle, whose text and measure are its diameter."""
 
     centre: Point
     value: float
     angle: float
     shelf: Point
     text: str
+    full: bool = False
 
     @property
     def touch(self) -> Point:

@@ -13,6 +13,7 @@ from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Surface
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
 
 if TYPE_CHECKING:
+    from abu_calc.features.design.records import DrawingLine
     from abu_calc.features.design.study import SizeResult
 
 
@@ -113,6 +114,16 @@ def _limits(seat: str, tolerance_class: str, size: float) -> DeviationLimits | N
         return None
 
 
+SHOWN: Final = frozenset({"race", "groove", "race circularity", "race surface", "race hardness", "race run-out",
+                          "rolling friction"})  # fmt: skip
+"""Lines of the drawing table that dimensions and signs say themselves."""
+
+
+def race_lines(result: "SizeResult") -> "tuple[DrawingLine, ...]":
+    """Lines of the drawing table about the race that no sign says."""
+    return tuple(line for line in result.drawing if line.feature.startswith("race ") and line.feature not in SHOWN)
+
+
 def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     """Notes of a part's sheet."""
     race = result.parts.race_part.name == part.name
@@ -124,6 +135,7 @@ def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
         yield "Grind race, cover seat and bore in one set-up." if part.name == "body" else (
             "Grind race and outside in one set-up.")  # fmt: skip
         yield "No undercut in the race; dents and scratches are not permitted."
+        yield from (f"{line.feature}: {line.requirement}" for line in race_lines(result))
     else:
         yield f"Heat treatment: {made.treatment}."
     if any(segment.surface in ("cover seat", "ring seat") for segment in part.profile):

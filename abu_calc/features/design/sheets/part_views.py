@@ -8,7 +8,7 @@ from typing import Final
 from abu_calc.features.design.section_drawing import HATCHES, OVERHANG, STACK, STEP, flattened
 from abu_calc.features.design.sheets.dimension_plan import Diameter, DimensionPlan, Edge
 from abu_calc.foundation.units import from_si
-from abu_calc.reporting.drawings.callouts import Callout, column, rising_column
+from abu_calc.reporting.drawings.callouts import RISE, Callout, column, rising_column
 from abu_calc.reporting.drawings.dimensions import extent
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
@@ -55,7 +55,7 @@ def part_section(part: TurnedPart, plan: DimensionPlan, scale: float, detailed: 
         own = [each for each in _demands(part, plan.edges, frozenset(), detailed, wordy, _same)
                if (each.tip[0] < plan.length * 0.25) == (side == "left")]  # fmt: skip
         x = left - GAP * unit if side == "left" else right + GAP * unit
-        shapes += rising_column(own, x, side, scale)  # type: ignore[arg-type]
+        shapes += rising_column(own, x, outer + RISE / scale, side, scale)  # type: ignore[arg-type]
     return tuple(shapes)
 
 
@@ -259,5 +259,5 @@ def detail_mark(plan: DimensionPlan, scale: float) -> Iterator[Shape]:
     radius = max(plan.length / 2, (top - low) / 2) * 1.08
     centre = plan.length / 2, -(top + low) / 2
     yield Arc("dimension", centre, radius)
-    at = centre[0] - 0.72 * radius - 5 / scale, centre[1] - 0.72 * radius - 5 / scale
+    at = centre[0] - 0.72 * radius - 5 / scale, min(centre[1] - 0.72 * radius, -top) - 6 / scale
     yield Text(at, "Z", 1.4 * HEIGHT)
