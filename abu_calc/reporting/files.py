@@ -4,7 +4,8 @@ import csv
 import importlib.util
 import io
 from collections.abc import Callable
-from typing import Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.foundation.errors import OutputError
 from abu_calc.foundation.escaping import escaped, escaped_toml
@@ -12,6 +13,9 @@ from abu_calc.foundation.quantity import flattened
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.outcome import Outcome, document, to_json
 from abu_calc.reporting.text import as_text
+
+if TYPE_CHECKING:
+    from abu_calc.reporting.write import Target
 
 FORMULAS: Final = ("=", "+", "-", "@")
 """First characters of texts that spreadsheets take for formulas."""
@@ -53,10 +57,23 @@ def as_svg(outcome: Outcome) -> str:
 
 
 def as_dxf(outcome: Outcome) -> str:
-    """The first sheet of the drawing: what can be made by it."""
+    """The first sheet of the drawing; see `further_sheets` for the others."""
     from abu_calc.reporting.drawings.dxf import dxf_text
 
     return dxf_text((outcome.drawings() if outcome.drawings else ())[0])
+
+
+def further_sheets(outcome: Outcome, path: Path) -> "tuple[Target, ...]":
+    """The sheets after the first as files beside it, the sheet's name behind its own; DXF holds one sheet a file."""
+    from abu_calc.reporting.drawings.dxf import dxf_text
+    from abu_calc.reporting.write import Target
+
+    if path.suffix.lower() != ".dxf" or outcome.drawings is None:
+        return ()
+    return tuple(
+        Target(path.with_name(f"{path.stem}-{sheet.name}{path.suffix}"), dxf_text(sheet))
+        for sheet in outcome.drawings()[1:]
+    )
 
 
 def as_pdf(outcome: Outcome) -> bytes:

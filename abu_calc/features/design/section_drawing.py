@@ -6,6 +6,7 @@ lies along the lines.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -57,11 +58,27 @@ def section_view(
         Line("centre", (-OVERHANG * unit, 0), (abu.width_mm + OVERHANG * unit, 0)),
         *_diameters(result, unit),
         *_widths(result, unit),
-        *_race_notes(result, scale),
+        *(() if items else _race_notes(result, scale)),
         *_part_names(result, scale, items or {}),
         Text((abu.width_mm / 2, outer + (STACK + 2 * STEP) * unit), "A–A", 1.4 * HEIGHT, "centre"),
     )
-    return tuple(moved(shape, (right, 0.0)) for shape in shapes)
+    told = (_on_other_sheets(result, shape) for shape in shapes) if items else shapes
+    return tuple(moved(shape, (right, 0.0)) for shape in told)
+
+
+def _on_other_sheets(result: "SizeResult", shape: Shape) -> Shape:
+    """A dimension that the sheet of a part gives, in brackets and without its tolerance; others as they are."""
+    if not isinstance(shape, Length | Radius) or shape.text.startswith("("):
+        return shape
+    own = result.autobalancer.outer_diameter_mm, result.autobalancer.width_mm, result.section.bore_diameter_mm
+    if isinstance(shape, Length) and any(abs(shape.value - size) < 1e-9 for size in own):
+        return shape
+    return replace(shape, text=f"({shape.text.partition(' ')[0]})")
+
+
+def assembly_face(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
+    """The face as the assembly's sheet shows it: what parts' sheets dimension stands in brackets."""
+    return tuple(_on_other_sheets(result, shape) for shape in face_view(result, scale))
 
 
 def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
@@ -168,7 +185,7 @@ def _balls_cut(result: "SizeResult") -> Iterator[Shape]:
 def _diameters(result: "SizeResult", unit: float) -> Iterator[Shape]:
     """Left of the closed web, the smallest nearest to it."""
     abu, section = result.autobalancer, result.section
-    bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}", bore_limits(section)
+    bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}".strip(), bore_limits(section)
     if not fits(section.bore_diameter_mm, limits, 1 / unit):
         limits = ""
     rows = [(section.bore_diameter_mm, bore, 0.0)]

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.features.design.section_drawing import bore_limits, described, face_view, section_view
+from abu_calc.features.design.section_drawing import assembly_face, bore_limits, described, section_view
 from abu_calc.features.design.sheets.frame import (
     BINDING,
     BLOCK,
@@ -77,7 +77,7 @@ def parts_rows(result: "SizeResult") -> list[tuple[str, ...]]:
 def _views(result: "SizeResult", room: Point, items: Mapping[str, str]) -> tuple[float, tuple[Shape, ...]]:
     """The largest scale for which there is room on paper, and both views beside each other in it."""
     for scale in SCALES:
-        face, section = face_view(result, scale), section_view(result, scale, 0.0, items)
+        face, section = assembly_face(result, scale), section_view(result, scale, 0.0, items)
         (_, beside), (left, _) = extent(face, scale), extent(section, scale)
         views = *face, *(moved(shape, (beside[0] - left[0] + GAP / scale, 0)) for shape in section)
         low, high = extent(views, scale)

@@ -50,4 +50,5 @@ def test_the_list_names_every_part_and_the_balls(name: str) -> None:
         assert part.name in shown and part.material in shown
     assert str(sized.provenance.sha256) in shown and sized.provenance.date in shown
     assert any(text.startswith(f"{sized.autobalancer.ball_count} × ") for text in shown)
-    assert [sheet.name for sheet in size_sheets(sized)] == ["section"]  # no arm, no bearings
+    names = [sheet.name for sheet in size_sheets(sized)]  # no arm, no bearings
+    assert names == ["section", *(part.name.replace(" ", "-") for part in sized.section.parts)]

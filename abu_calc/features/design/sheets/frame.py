@@ -62,9 +62,9 @@ def title_block(block: TitleBlock) -> Iterator[Shape]:
     yield from box(left, low, left + BLOCK[0], low + BLOCK[1])
     rows: tuple[tuple[tuple[float, str, str], ...], ...] = (
         ((60, "legal owner", ""), (40, "created by", block.creator), (40, "checked by", ""), (40, "approved by", "")),
-        ((90, "title", block.title), (60, "document type", block.kind), (30, "status", block.status)),
-        ((90, "machine", block.more), (60, "identification number", block.number), (15, "rev.", "A"),
-         (15, "lang.", "en")),
+        ((60, "title", block.title), (37, "document type", block.kind), (18, "status", block.status),
+         (41, "identification number", block.number), (12, "rev.", "A"), (12, "lang.", "en")),
+        ((180, "machine", block.more),),
         ((90, "material", block.material), (30, "mass", f"{digits(block.mass_g, 1)} g"),
          (30, "scale", f"{block.scale} (mm)"), (30, "projection", "")),
         ((40, "general tolerances", "ISO 2768-mK"), (70, "edges ISO 13715", "outside −0.3, inside +0.3"),

@@ -126,7 +126,7 @@ def _diameter_lines(plan: DimensionPlan, unit: float) -> tuple[list[Shape], Word
         rows = 0.0
         for each in own:
             text = max(each.text, each.below, key=len)
-            if each.value / unit < 2 * text_width(text, HEIGHT):
+            if each.value / unit < 2 * (text_width(text, HEIGHT) + RISE):
                 wordy[each.surface, each.reference] = each.text, each.below
                 continue
             rows += 0.6 if each.below and side == "left" else 0.0
