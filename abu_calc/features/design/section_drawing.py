@@ -218,10 +218,10 @@ def _widths(result: "SizeResult", unit: float) -> Iterator[Length]:
     outer, right = abu.outer_diameter_mm / 2, abu.width_mm
     web, shoulder = section.web_mm, section.shoulder_diameter_mm / 2
     top = outer + STACK * unit
-    inner = digits(section.inner_width_mm)
+    inner = digits(section.inner_width_mm, 2)
     yield Length((web, shoulder), (right - web, shoulder), top, inner, beyond="start", clear=web)
     yield Length((right - web, shoulder), (right, outer), top, digits(web))
-    yield Length((0, outer), (right, outer), top + STEP * unit, digits(right))
+    yield Length((0, outer), (right, outer), top + STEP * unit, digits(right, 2))
     yield Length((0, -outer), (web, -shoulder), -outer - STACK * unit, digits(web), beyond="start")
 
 
@@ -267,6 +267,11 @@ def _part_names(result: "SizeResult", scale: float, items: Mapping[str, str]) ->
             yield from leader(tip, (column, y), text, scale, pointed=pointed)
 
 
+def balls_text(abu: AutobalancerRecord) -> str:
+    """Count and diameter of the balls, as the section names them."""
+    return f"{abu.ball_count} × Ø{digits(abu.ball_diameter_mm)}"
+
+
 def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool, float]]:
     """Point, name, whether an arrow or a dot stands at the point, height of the text: one below the other."""
     abu, section = result.autobalancer, result.section
@@ -277,7 +282,7 @@ def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool
     tips = {"body": (x, -(hub + section.bore_diameter_mm / 2) / 2), "cover": (x, -(hub + race) / 2),
             "race ring": (x, -(race + ring) / 2)}  # fmt: skip
     named = [((abu.width_mm / 2 + ball[0], abu.pitch_radius_mm - ball[1]),
-              f"{abu.ball_count} × Ø{digits(abu.ball_diameter_mm)}", True)]  # fmt: skip
+              balls_text(abu), True)]  # fmt: skip
     named += [(tips[part.name], part.name, False) for part in section.parts]
     top = abu.outer_diameter_mm / 2 - 7.2 * HEIGHT * unit
     for tip, text, pointed in sorted(named, key=lambda row: -row[0][1]):

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.features.design.section_drawing import assembly_face, bore_limits, described, section_view
+from abu_calc.features.design.section_drawing import assembly_face, balls_text, bore_limits, described, section_view
 from abu_calc.features.design.sheets.frame import (
     BINDING,
     BLOCK,
@@ -33,8 +33,6 @@ COLUMNS: Final = (10.0, 32.0, 13.0, 18.0, 80.0, 27.0)
 """Widths of the parts list."""
 GAP = 12.0
 """Distance between views, and between views and the frame. All lengths are on paper [mm]."""
-BALLS: Final = "{0.ball_count} × Ø{0.ball_diameter_mm:g}"
-"""The balls as the section names them."""
 
 
 def section_sheet(result: "SizeResult") -> Drawing:
@@ -44,7 +42,7 @@ def section_sheet(result: "SizeResult") -> Drawing:
     rows = parts_rows(result)
     below = max(BLOCK[1] + ROW * len(rows), NOTE_ROW * len(notes) + 2 * ROW)
     room = WIDE - MARGIN - BINDING - GAP, HIGH - 2 * MARGIN - below - GAP
-    items = {row[1]: row[0] for row in rows[1:]} | {BALLS.format(result.autobalancer): rows[-1][0]}
+    items = {row[1]: row[0] for row in rows[1:]} | {balls_text(result.autobalancer): rows[-1][0]}
     scale, views = _views(result, room, items)
     bore = result.section.bore_diameter_mm, bore_limits(result.section)
     if bore[1] and not fits(*bore, scale):

@@ -152,7 +152,24 @@ def assembly_notes(result: "SizeResult") -> Iterator[str]:
     close = "press on the cover evenly" if result.parts.closure == "pressed" else "screw on the cover"
     yield (f"Assembly: wash and oil the race, lay in {abu.ball_count} {abu.corrector}s of one lot before the cover, fill "
            f"the oil, {close} to its stop; its face is flush with the body.")  # fmt: skip
+    yield f"Fits: {'; '.join(_fits(result))}."
     yield from _balance(result)
+
+
+def _fits(result: "SizeResult") -> Iterator[str]:
+    """Fits between the parts by their classes."""
+    parts = {part.name: demanded(result, part) for part in result.parts.turned}
+    pairs = [("cover", result.parts.race_part.name, "cover seat", "outside"), ("cover", "body", "hub", "hole")]
+    if "race ring" in parts:
+        pairs.append(("race ring", "body", "ring seat", "outside"))
+    for inner, outer, seat, face in pairs:
+        hole, shaft = parts[outer].surface(seat), parts[inner].surface(face)
+        if seat == "hub":
+            hole, shaft = shaft, hole
+        if hole is not None and shaft is not None and hole.tolerance_class and shaft.tolerance_class:
+            size = max(from_si(2 * e.start.r, "mm") for e in parts[outer].profile if e.surface == seat)
+            name = "hole of the cover and hub" if seat == "hub" else inner
+            yield f"{name} Ø{digits(size)} {hole.tolerance_class}/{shaft.tolerance_class}"
 
 
 def _balance(result: "SizeResult") -> Iterator[str]:
