@@ -118,6 +118,15 @@ class Autobalancer(Table):
         le=1e7,
         json_schema_extra=usual(500, 200000),
     )
+    guard_thickness_mm: float | None = Field(
+        default=None,
+        description="Thickness of the guard round the autobalancer, mild steel [mm]; {range}. Without it containment "
+        "of a ball is not evaluated.",
+        examples=[2.0],
+        gt=0,
+        le=200,
+        json_schema_extra=usual(0.5, 20),
+    )
     temperature_range_C: Annotated[tuple[Temperature, ...], Field(strict=False, min_length=2, max_length=2)] = Field(
         default=(0.0, 60.0),
         description="Lowest and highest temperature of the housing [°C]; each {range}. Interferences are judged at "
@@ -172,6 +181,17 @@ class Autobalancer(Table):
         le=2500,
         json_schema_extra=usual(8, 300),
     )
+
+    @model_validator(mode="after")
+    def _no_sphere_for_rollers(self) -> Self:
+        if self.design == "bearing-ring" and self.corrector == "roller":
+            raise problem(
+                "the ring of a self-aligning bearing is a sphere, on which rollers cannot roll",
+                "corrector" if "corrector" in self.model_fields_set else "design",
+                found='design = "bearing-ring", corrector = "roller"',
+                allowed='corrector = "ball", or design = "one-piece" or "light"',
+            )
+        return self
 
     def unused(self) -> frozenset[str]:
         """The stock to choose from, where the diameter is pinned."""

@@ -11,6 +11,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
+from abu_calc.sizing.construction import construct
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.eccentricity import eccentricity_check, split_eccentricity
@@ -56,7 +57,8 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
     arm = _arm(case, imbalance.value, best)
     eccentricity = split_eccentricity(case, best)
-    advice = drawing(case, best, race, eccentricity)
+    construction = construct(case, best, eccentricity)
+    advice = drawing(case, best, race, eccentricity, construction)
     bands = body_bands(case, best, frequency.balancing_possible)
     checks = (
         region_check(case, best, frequency),
@@ -64,6 +66,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *candidate_checks(case, best),
         eccentricity_check(case, best, eccentricity),
         *track_checks(case, best, race),
+        *construction.checks,
         *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
         *handle_checks(case, imbalance.value, best, frequency.balancing_possible, bands),
         *declared_checks(case, best, frequency.balancing_possible),
@@ -73,7 +76,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     warnings = design_warnings(case, best, loaded, bands)
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, arm, advice, checks,
-        warnings, bands, eccentricity,
+        warnings, bands, eccentricity, construction,
     )  # fmt: skip
 
 

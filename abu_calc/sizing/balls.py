@@ -12,6 +12,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.sizing.bearing_ring import fitting_rings, nearest_ring, pinned_ring, ring_of
 from abu_calc.sizing.budget import (
     CandidateBalls,
     ResidualBudget,
@@ -40,6 +41,8 @@ def ball_diameters(case: Case) -> tuple[float, ...]:
     fitting = tuple(d for d in stock if _fits_width(case, d) and race_radii(case, d))
     if fitting:
         return fitting
+    if abu.design == "bearing-ring":
+        raise _no_ring(case, stock[0])
     if abu.race_radius_mm is not None:
         raise impossible("race_radius_mm", abu.race_radius_mm, "no stock ball runs on this race in this envelope")
     smallest = stock[0]
@@ -56,6 +59,8 @@ def ball_diameters(case: Case) -> tuple[float, ...]:
 def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
     """Race radii [m] to try for one ball: every half millimetre in the envelope and its largest, or the pinned one."""
     abu = case.autobalancer
+    if abu.design == "bearing-ring":
+        return _ring_radii(case, diameter)
     least = least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter)
     greatest = _greatest(case)
     if abu.race_radius_mm is not None:
@@ -66,6 +71,26 @@ def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
     step = to_si(RADIUS_STEP_MM, "mm")
     first, last = int(least // step) + 1, int(greatest // step)
     return tuple(sorted({*(k * step for k in range(first, last + 1)), greatest}))
+
+
+def _ring_radii(case: Case, diameter: float) -> tuple[float, ...]:
+    """Radii [m] of the spheres of bearings' rings that fit; the pinned one, as measured, if it is one of them."""
+    rings, given = fitting_rings(case, diameter), case.autobalancer.race_radius_mm
+    if given is None:
+        return tuple(dict.fromkeys(ring.sphere_radius for ring in rings))
+    pinned = pinned_ring(case, to_si(given, "mm"))
+    return (to_si(given, "mm"),) if pinned in rings else ()
+
+
+def _no_ring(case: Case, diameter: float) -> InputError:
+    """The refusal of the design "bearing-ring" where no ring of a bearing fits."""
+    return InputError(
+        "no outer ring of a self-aligning ball bearing (series 12, 13, 22, 23) fits the envelope, bore, wall and race",
+        place=Place(key="autobalancer.design"),
+        found="bearing-ring",
+        allowed="one-piece, light",
+        remedy=f"{nearest_ring(case, diameter)}. Or specify another design.",
+    )
 
 
 def ball_counts(case: Case, diameter: float, race_radius: float) -> range:
@@ -98,6 +123,8 @@ def _pinned_diameter(case: Case, given_mm: float) -> float:
         allowed = abu.max_width_mm - from_si(width(abu.design, diameter) - diameter, "mm")
         raise impossible("ball_diameter_mm", given_mm, "wider than the envelope", f"up to {allowed:.1f}")
     if not race_radii(case, diameter):
+        if abu.design == "bearing-ring":
+            raise _no_ring(case, diameter)
         least = from_si(least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter), "mm")
         greatest = from_si(_greatest(case), "mm")
         key = "race_radius_mm" if abu.race_radius_mm is not None else "ball_diameter_mm"
@@ -305,7 +332,7 @@ def _ball_mass(case: Case, diameter: float) -> float:
 def _housing(case: Case, diameter: float, radius: float) -> Housing:
     abu = case.autobalancer
     bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
-    return housing(abu.design, radius, diameter, bore, wall, grooved=abu.corrector == "ball")
+    return housing(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
 
 
 def _mass(case: Case, count: int, diameter: float, radius: float) -> float:

@@ -12,6 +12,7 @@ from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
+from abu_calc.sizing.construction import Construction
 from abu_calc.sizing.drawing_requirements import DrawingRequirement
 from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
@@ -47,6 +48,8 @@ class Design:
     """Bands of an estimated body; None: nothing is estimated, or the design was built as one machine."""
     eccentricity: EccentricitySplit
     """Parts of the eccentricity that the drawing permits."""
+    construction: Construction
+    """Parts to make, cover and seat of the ring, with their checks."""
 
     @property
     def autobalancer(self) -> Candidate:

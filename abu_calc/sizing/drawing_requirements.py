@@ -1,6 +1,7 @@
 """Step 10: drawing requirements, each tolerance with the dB it costs."""
 
 import math
+from collections.abc import Iterator
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
@@ -8,14 +9,17 @@ from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.eccentricity import EccentricitySplit, Fit
-from abu_calc.sizing.race_quality import RaceQuality, race_quality
+from abu_calc.sizing.closure import filling_gap_of
+from abu_calc.sizing.construction import Construction
+from abu_calc.sizing.cover import seat_name
+from abu_calc.sizing.eccentricity import EccentricitySplit
+from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
+from abu_calc.sizing.race_quality import RaceQuality
+from abu_calc.sizing.spindle_fit import Fit
 from abu_calc.sizing.track import Track
 
 SOFT_ARM = to_si(10, "um")
 """Lever arm of rolling friction on a soft race (assumed; 10–50 µm)."""
-RACE_TOLERANCE = to_si(0.05, "mm")
-GROOVE_TOLERANCE = to_si(0.2, "mm")
 
 
 @dataclass(frozen=True)
@@ -44,17 +48,18 @@ def extra_level(residual: float, part: float) -> float:
 
 
 def drawing(
-    case: Case, candidate: Candidate, track: Track, split: EccentricitySplit
+    case: Case, candidate: Candidate, track: Track, split: EccentricitySplit, construction: Construction
 ) -> tuple[DrawingRequirement, ...]:
     """Advice for the drawing; requirements are engineering practice (assumed), costs are computed from the budget.
 
     What only changes the capacity, or what the balls themselves balance, costs nothing.
     """
-    quality = race_quality(case, candidate)
+    quality = construction.quality
     return (
         *_eccentricity(case, candidate, split),
         *_race(case, candidate, track, quality),
         *_seat_and_balls(candidate, split, quality),
+        *_construction(case, construction),
         *_running(case, candidate, track),
     )
 
@@ -74,7 +79,7 @@ def _eccentricity(case: Case, candidate: Candidate, split: EccentricitySplit) ->
         ),
         DrawingRequirement(
             "race run-out",
-            f"{_um(2 * split.race)} µm TIR to the bore; grind bore and race in one set-up",
+            f"{_um(2 * split.race)} µm TIR to the bore; {_how_round(split)}",
             _cost(others, split.race),
         ),
         DrawingRequirement(
@@ -82,6 +87,42 @@ def _eccentricity(case: Case, candidate: Candidate, split: EccentricitySplit) ->
             _cost(others, split.spindle),
         ),
     )  # fmt: skip
+
+
+def _how_round(split: EccentricitySplit) -> str:
+    """How the run-out of the race is attained."""
+    if not split.ring_class:
+        return "grind bore and race in one set-up"
+    return f"a ring of class {split.ring_class} (ISO 492) has {_um(split.ring_run_out)} µm of it, its seat the rest"
+
+
+def _construction(case: Case, construction: Construction) -> Iterator[DrawingRequirement]:
+    """Closure with the way of the balls, fastening, seat of the ring."""
+    parts, seat, abu = construction.parts, construction.seat, case.autobalancer
+    yield DrawingRequirement(
+        "closure", f"cover {parts.closure}, {seat_name(parts, construction.cover)}, after balls and oil; it holds "
+        f"{construction.cover.held:.3g} N, needed {construction.cover.needed:.3g} N",
+    )  # fmt: skip
+    yield DrawingRequirement(
+        "filling", "balls go in one by one between hub and edge of the race on the cover's side; gap beside a ball "
+        f"{_mm(filling_gap_of(parts))} mm",
+    )  # fmt: skip
+    force = "" if abu.clamp_force_N is None else f" by {abu.clamp_force_N:g} N"
+    ways = {
+        "clamped": f"clamped on the spindle by a nut{force}",
+        "shrunk": "shrunk on the spindle, no nut",
+        "flange": f"part of the wheel's flange, clamped by its nut{force}",
+    }
+    yield DrawingRequirement("fastening", ways[parts.fastening])
+    if seat is not None:
+        named = f"{seat.seat_class} " if seat.seat_class else ""
+        upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
+        low, high = abu.temperature_range_C
+        yield DrawingRequirement(
+            "seat of the ring",
+            f"{named}{upper}/{lower} µm, ring {seat.ring_class}; {_um(seat.left)} µm of interference left at least at "
+            f"{low:g} … {high:g} °C; join with the body at {seat.joining:.0f} °C",
+        )
 
 
 def _race(

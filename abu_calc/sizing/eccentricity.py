@@ -4,29 +4,30 @@ The simulation uses the total. Run-out of the race, fit, run-out of the spindle 
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 from abu_calc.foundation.checks import Action, Check, coded, verdict
-from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import Case
-from abu_calc.standards.tolerance_classes import DeviationLimits, grade_tolerance, part_limits
+from abu_calc.sizing.fastening import SLIP_FACTOR, bore_growth, needed_torque, shrunk_torque, whole_inertia
+from abu_calc.sizing.parts.housing_parts import candidate_dimensions, housing_parts
+from abu_calc.sizing.spindle_fit import Fit, standard_fits
+from abu_calc.standards.self_aligning import RUNOUT_CLASSES, outer_run_out
+from abu_calc.standards.tolerance_classes import grade_tolerance
 from abu_calc.standards.vibration import permissible_imbalance
 
-PAIRS: Final = (
-    ("H8", "h7"), ("H7", "h6"), ("H6", "h5"), ("H7", "js6"), ("H6", "js5"), ("H7", "k6"), ("H6", "k5"),
-    ("H7", "m6"), ("H6", "m5"), ("H7", "n6"), ("H6", "n5"), ("H7", "p6"), ("H6", "p5"), ("H7", "r6"),
-)  # fmt: skip
-"""Fits of a bore H and a spindle that ISO 286-1:2010 recommends, as far as both classes are tabulated here."""
 GRADES: Final = (8, 7, 6, 5, 4, 3, 2)
 """Tolerance grades IT of run-outs, coarsest first; the last is the least that careful grinding attains (assumed)."""
 BALANCE_GRADES: Final = ("G40", "G16", "G6.3", "G2.5", "G1")
+LARGE_RING_GRADE: Final = 7
+"""Grade that stands for the run-out of rings beyond the table of ISO 492 (assumed)."""
 IMBALANCE_SHARE: Final = 0.05
 """Share of the total that the housing's imbalance may take, where a grade attains it (assumed)."""
 
@@ -53,22 +54,6 @@ def eccentricity_sum(parts: Sequence[float], rule: str) -> float:
 
 
 @formula(
-    "Eccentricity by the largest clearance of a fit",
-    "(ES − ei)/2, at least 0",
-    "m",
-    shown="um",
-    where="A transition fit may be tight or loose; its largest clearance counts. An interference fit centres.",
-    source="ISO 286-1:2010",
-)
-def fit_eccentricity(bore: DeviationLimits, spindle: DeviationLimits) -> float:
-    """
-    >>> round(1e6 * fit_eccentricity(DeviationLimits(0.0, 13e-6), DeviationLimits(-6.5e-6, 6.5e-6)), 3)
-    9.75
-    """
-    return max(0.0, round(bore.upper - spindle.lower, 12)) / 2
-
-
-@formula(
     "Eccentricity that stands for the residual imbalance of the housing without balls",
     "Δ_h = G_e·m_h/(Ω·m_F)",
     "m",
@@ -89,39 +74,11 @@ def housing_eccentricity(grade: str, housing_mass: float, speed: float, effectiv
 
 
 @dataclass(frozen=True)
-class Fit:
-    """A fit of bore and spindle by ISO 286: classes and limit deviations [m]."""
-
-    bore_class: str
-    spindle_class: str
-    bore: DeviationLimits
-    spindle: DeviationLimits
-
-    @property
-    def eccentricity(self) -> float:
-        """Half the largest clearance [m]."""
-        return fit_eccentricity(self.bore, self.spindle)
-
-    @property
-    def tightest(self) -> float:
-        """Largest interference [m], negative if there is always clearance."""
-        return round(self.spindle.upper - self.bore.lower, 12)
-
-    @property
-    def loosest(self) -> float:
-        """Least interference [m], negative if there can be clearance."""
-        return round(self.spindle.lower - self.bore.upper, 12)
-
-    @property
-    def named(self) -> str:
-        """The fit as a drawing writes it."""
-        return f"{self.bore_class}/{self.spindle_class}"
-
-
-@dataclass(frozen=True)
 class EccentricitySplit:
     """Parts of the eccentricity [m] that the drawing permits; `fit` None: no standard row holds this bore.
 
+    `ring_class`, `ring_run_out`: tolerance class by ISO 492 of a bearing's ring and its run-out [m], of which half is a
+    part of `race`; empty and 0 for a race that is ground in one set-up with the bore.
     `total`: what the file permits and the simulation uses; `least`: the least sum that standard fits and careful
     grinding attain.
     """
@@ -135,6 +92,8 @@ class EccentricitySplit:
     fit: Fit | None
     balance_grade: str
     least: float
+    ring_class: str = ""
+    ring_run_out: float = 0.0
 
     @property
     def parts(self) -> tuple[float, float, float, float]:
@@ -152,42 +111,63 @@ class EccentricitySplit:
         return self.fit is not None and self.sum <= self.total * (1 + 1e-9)
 
 
-def standard_fits(bore: float) -> tuple[Fit, ...]:
-    """Standard fits for a bore [m], the easiest to mount first; none outside the tables of ISO 286-2."""
-    return tuple(sorted(_tabulated(bore), key=lambda fit: (fit.tightest, -fit.eccentricity)))
-
-
-def _tabulated(bore: float) -> Iterator[Fit]:
-    for hole, shaft in PAIRS:
-        try:
-            yield Fit(hole, shaft, part_limits("housing", hole, bore), part_limits("shaft", shaft, bore))
-        except RangeError:
-            continue
-
-
 def split_eccentricity(case: Case, candidate: Candidate) -> EccentricitySplit:
     """The split of the total: the coarsest run-outs and the loosest standard fit that hold it.
 
     Run-outs of race and spindle get what the fit and the housing leave, in proportion to their tolerance grades.
     """
     total, rule = case.race_eccentricity, case.autobalancer.eccentricity_sum
-    bore, race = to_si(case.autobalancer.bore_diameter_mm, "mm"), 2 * candidate.race_radius
-    shrunk = case.autobalancer.fastening == "shrunk"
-    fits = [fit for fit in standard_fits(bore) if not shrunk or fit.loosest > 0]
+    bore, fits = to_si(case.autobalancer.bore_diameter_mm, "mm"), _fits(case, candidate)
     grade, housing = _housing(case, candidate, total)
     least = _least(case, candidate, fits, bore)
 
-    def split(fit: Fit | None, run_outs: tuple[float, float]) -> EccentricitySplit:
+    def split(fit: Fit | None, run_outs: tuple[float, float], ring: tuple[str, float]) -> EccentricitySplit:
         clearance = 0.0 if fit is None else fit.eccentricity
-        return EccentricitySplit(total, rule, run_outs[0], clearance, run_outs[1], housing, fit, grade, least)
+        return EccentricitySplit(
+            total, rule, run_outs[0], clearance, run_outs[1], housing, fit, grade, least, *ring
+        )
 
     for number in GRADES:
-        needed = grade_tolerance(number, race) / 2, grade_tolerance(number, bore) / 2
-        for fit in fits:
-            if split(fit, needed).holds:
-                return split(fit, _rounded(_stretched(needed, (fit.eccentricity, housing), total, rule), needed))
-    needed = grade_tolerance(GRADES[-1], race) / 2, grade_tolerance(GRADES[-1], bore) / 2
-    return split(min(fits, key=lambda fit: fit.eccentricity, default=None), needed)
+        for ring in _ring_run_outs(case, candidate):
+            needed = _race(candidate, number) + ring[1] / 2, grade_tolerance(number, bore) / 2
+            for fit in fits:
+                if split(fit, needed, ring).holds:
+                    stretched = _stretched(needed, (fit.eccentricity, housing), total, rule)
+                    return split(fit, _rounded(stretched, needed), ring)
+    ring = _ring_run_outs(case, candidate)[-1]
+    needed = _race(candidate, GRADES[-1]) + ring[1] / 2, grade_tolerance(GRADES[-1], bore) / 2
+    return split(min(fits, key=lambda fit: fit.eccentricity, default=None), needed, ring)
+
+
+def _fits(case: Case, candidate: Candidate) -> tuple[Fit, ...]:
+    """Standard fits of the bore; a shrunk housing takes those that carry its torque, or else the tightest."""
+    size = candidate_dimensions(case, candidate)
+    fits = standard_fits(2 * size.bore_radius, bore_growth(case, size))
+    if case.autobalancer.fastening != "shrunk":
+        return fits
+    needed = SLIP_FACTOR * needed_torque(case, whole_inertia(housing_parts(case, candidate)))
+    return tuple(fit for fit in fits if shrunk_torque(case, size, fit) >= needed) or fits[-1:]
+
+
+def _race(candidate: Candidate, grade: int) -> float:
+    """Eccentricity [m] of a race whose run-out has a tolerance grade."""
+    return grade_tolerance(grade, 2 * candidate.race_radius) / 2
+
+
+def _ring_run_outs(case: Case, candidate: Candidate) -> tuple[tuple[str, float], ...]:
+    """Tolerance classes of a bearing's ring, whose race is not ground in its place, with its run-out [m].
+
+    A race that is ground in one set-up with the bore has none of its own.
+    """
+    ring = ring_of(case, candidate.race_radius)
+    if ring is None:
+        return (("", 0.0),)
+    known = tuple(
+        (name, run_out)
+        for name in RUNOUT_CLASSES
+        if (run_out := outer_run_out(name, ring.outside_diameter)) is not None
+    )
+    return known or (("0", grade_tolerance(LARGE_RING_GRADE, ring.outside_diameter)),)
 
 
 def _housing(case: Case, candidate: Candidate, total: float) -> tuple[str, float]:
@@ -202,10 +182,10 @@ def _housing(case: Case, candidate: Candidate, total: float) -> tuple[str, float
 
 def _least(case: Case, candidate: Candidate, fits: Sequence[Fit], bore: float) -> float:
     """The least sum [m] by the finest grades and the fit that centres best."""
-    finest, race = GRADES[-1], 2 * candidate.race_radius
+    finest, own = GRADES[-1], _ring_run_outs(case, candidate)[-1][1]
     housing = _housing(case, candidate, 0.0)[1]
     clearance = min((fit.eccentricity for fit in fits), default=0.0)
-    parts = grade_tolerance(finest, race) / 2, clearance, grade_tolerance(finest, bore) / 2, housing
+    parts = _race(candidate, finest) + own / 2, clearance, grade_tolerance(finest, bore) / 2, housing
     return eccentricity_sum(parts, case.autobalancer.eccentricity_sum)
 
 

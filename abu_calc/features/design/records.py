@@ -17,15 +17,17 @@ from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
 from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import WHEEL_PLANE
+from abu_calc.sizing.cover import seat_name
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.drawing_requirements import GROOVE_TOLERANCE, RACE_TOLERANCE, hardness_text
+from abu_calc.sizing.drawing_requirements import hardness_text
 from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
-from abu_calc.sizing.parts.housing_parts import TurnedPart, housing_parts
+from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
+from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
-from abu_calc.sizing.race_quality import race_quality
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
 
@@ -416,14 +418,20 @@ class Section(Record):
     roughness_Ra_um: Annotated[float, Quantity("roughness of the race", "Ra")]
     hardness: Annotated[str, Quantity("hardness of the race")]
     case_depth_mm: Annotated[float, Quantity("depth of the hard case, at least")]
+    closure: Annotated[str, Quantity("closure")]
+    cover_fit: Annotated[str, Quantity("fit or thread of the cover")]
+    fastening: Annotated[str, Quantity("fastening")]
+    ring_seat_class: Annotated[str | None, Quantity("tolerance class of the ring's seat", "", 3, "None: no ring")]
+    ring_seat_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the ring's seat")]
+    bearing_ring: Annotated[str | None, Quantity("bearing whose outer ring is the race")]
     parts: tuple[SectionPart, ...]
 
     @classmethod
     def of(cls, design: "Design") -> Self:
         """Record of a design."""
-        parts = housing_parts(design.case, design.autobalancer)
+        built = design.construction
+        parts, quality, fit, seat = built.parts, built.quality, design.eccentricity.fit, built.seat
         cut = parts.dimensions
-        fit, quality = design.eccentricity.fit, race_quality(design.case, design.autobalancer)
         return cls(
             design=design.case.autobalancer.design,
             bore_diameter_mm=_mm(2 * cut.bore_radius),
@@ -443,8 +451,21 @@ class Section(Record):
             roughness_Ra_um=_micrometres(quality.roughness),
             hardness=hardness_text(quality),
             case_depth_mm=_mm(quality.case_depth),
+            closure=parts.closure,
+            cover_fit=seat_name(parts, built.cover),
+            fastening=parts.fastening,
+            ring_seat_class=None if seat is None else seat.seat_class,
+            ring_seat_limits_um=None if seat is None else
+            (_micrometres(seat.seat.lower), _micrometres(seat.seat.upper)),
+            bearing_ring=_designation(design),
             parts=tuple(map(SectionPart.of, parts.turned)),
         )
+
+
+def _designation(design: "Design") -> str | None:
+    """The bearing whose outer ring is the race; None for other designs."""
+    ring = ring_of(design.case, design.autobalancer.race_radius)
+    return None if ring is None else ring.designation
 
 
 def _mm(length: float) -> float:

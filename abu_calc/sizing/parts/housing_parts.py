@@ -5,6 +5,7 @@ from typing import Final
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, RULES, STEEL, HousingDimensions, dimensions
 from abu_calc.sizing.parts.profile import Corner, Profile, closed, moments, polar_moment, volume
@@ -148,8 +149,8 @@ def housing_parts(case: Case, candidate: Candidate) -> HousingParts:
     density, ring = rules.body_density, ring_profile(size)
     return HousingParts(
         design=abu.design,
-        closure="pressed",
-        fastening="clamped",
+        closure=abu.closure,
+        fastening=abu.fastening,
         dimensions=size,
         body=TurnedPart("body", density, body_profile(size)),
         cover=TurnedPart("cover", density, cover_profile(size)),
@@ -166,5 +167,5 @@ def candidate_dimensions(case: Case, candidate: Candidate) -> HousingDimensions:
     abu = case.autobalancer
     return dimensions(
         abu.design, candidate.race_radius, candidate.ball_diameter, to_si(abu.bore_diameter_mm, "mm"),
-        to_si(abu.min_wall_mm, "mm"), abu.corrector == "ball",
+        to_si(abu.min_wall_mm, "mm"), abu.corrector == "ball", ring_of(case, candidate.race_radius),
     )  # fmt: skip

@@ -89,22 +89,24 @@ def closed(corners: Sequence[Corner]) -> Profile:
 
 
 class Moments(NamedTuple):
-    """∫dA, ∫r dA and ∫r³ dA of a half section [m², m³, m⁵]."""
+    """∫dA, ∫r dA, ∫r² dA and ∫r³ dA of a half section [m², m³, m⁴, m⁵]."""
 
     area: float
     first: float
+    second: float
     third: float
 
 
 def moments(profile: Profile) -> Moments:
-    """Moments of the half section by Green's theorem: −∮ r dz, −∮ r²/2 dz, −∮ r⁴/4 dz; exact for lines and arcs."""
-    area = first = third = 0.0
+    """Moments of the half section by Green's theorem: −∮ r dz, −∮ r²/2 dz, and so on; exact for lines and arcs."""
+    area = first = second = third = 0.0
     for segment in profile:
         for z, r, weight in _nodes(segment):
             area -= weight * r * z
             first -= weight * r**2 / 2 * z
+            second -= weight * r**3 / 3 * z
             third -= weight * r**4 / 4 * z
-    return Moments(area, first, third)
+    return Moments(area, first, second, third)
 
 
 _GAUSS: Final = (
