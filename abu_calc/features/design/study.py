@@ -54,7 +54,7 @@ from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
+from abu_calc.sizing.parts.housing_parts import HousingParts
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -258,7 +258,7 @@ def size(
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
-        parts=housing_parts(design.case, design.autobalancer),
+        parts=design.construction.parts,
     )
 
 

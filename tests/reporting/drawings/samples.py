@@ -10,7 +10,6 @@ from abu_calc.features.design.study import SizeResult
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing import trials
-from abu_calc.sizing.parts.housing_parts import housing_parts
 from tests.remembered import recalled
 
 HOSTILE = '<script>alert("1")</script> & Schleifer ÄÖÜß ]]> %%c ^J \\U+0041 шлиф ' + "long " * 30
@@ -37,7 +36,8 @@ MACHINES: dict[str, tuple[str, ...]] = {
                "autobalancer.ball_diameter_mm=2", "autobalancer.ball_count=7", "autobalancer.design=light"),
     "small scale": ("autobalancer.max_outer_diameter_mm=378.8", "autobalancer.bore_diameter_mm=296.2",
                     "autobalancer.ball_diameter_mm=20", "autobalancer.ball_count=9",
-                    "autobalancer.design=bearing-ring"),
+                    "autobalancer.design=light"),
+    "screwed": ("autobalancer.closure=screwed",),
     "hostile name": (f"machine.name='{HOSTILE}'",),
 }  # fmt: skip
 
@@ -62,7 +62,7 @@ def result(name: str) -> SizeResult:
         title=machine.tables.machine.name,
         autobalancer=AutobalancerRecord.of(table, one, design.track),
         section=Section.of(design),
-        parts=housing_parts(design.case, design.autobalancer),
+        parts=design.construction.parts,
         eccentricity=Eccentricity.of(design.eccentricity),
         drawing=tuple(
             DrawingLine(feature=each.feature, requirement=each.requirement, cost_db=each.cost_db)

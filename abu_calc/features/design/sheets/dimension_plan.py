@@ -69,7 +69,7 @@ def dimension_plan(part: TurnedPart) -> DimensionPlan:
     arcs = tuple(edge for edge in edges if edge.centre is not None)
     return DimensionPlan(
         edges, length, tuple(_diameters(part, edges, length)), tuple(_lengths(part, edges, length)),
-        tuple((edge.radius, _groove_text(part.surface(edge.surface), edge), edge) for edge in arcs),
+        tuple((edge.radius, _groove_text(part.surface(edge.surface), edge), edge) for edge in arcs if not _sphere(edge)),
     )  # fmt: skip
 
 
@@ -87,6 +87,11 @@ def part_edges(part: TurnedPart) -> tuple[Edge, ...]:
         )
         for each in part.profile
     )  # fmt: skip
+
+
+def _sphere(edge: Edge) -> bool:
+    """Whether an arc is centred on the axis: its diameter says its radius, too."""
+    return edge.centre is not None and abs(edge.centre[1]) < SAME
 
 
 def size_text(value: float, toleranced: bool) -> str:
@@ -147,6 +152,7 @@ def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iter
         assert edge.centre is not None
         bottom = edge.centre[1] + (edge.radius if edge.start[1] > edge.centre[1] else -edge.radius)
         text, below = diameter_text(2 * bottom, part.surface(edge.surface))
+        text = f"S{text}" if _sphere(edge) else text
         yield Diameter(2 * bottom, edge.centre[0], text, below, "right", False, edge.surface)
         for x, radius in dict.fromkeys((edge.start, edge.end)):
             if all(abs(radius - other) > SAME for other in own):

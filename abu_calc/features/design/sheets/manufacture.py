@@ -1,6 +1,5 @@
 """Grades, heat treatment, demands and notes of the parts: engineering practice (assumed) where the design has none."""
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -31,8 +30,9 @@ BALL_STEEL: Final = Grade("100Cr6, ISO 3290-1 / ШХ15, GOST 3722", "as delivere
 GENERAL_ROUGHNESS: Final = "Ra 3.2"
 FACE_RUNOUT: Final = to_si(0.01, "mm")
 """Run-out and perpendicularity of the mounting face."""
-SEATS: Final[dict[str, tuple[str, str]]] = {"steel": ("H7", "p6"), "aluminium": ("H7", "r6")}
-"""Fit of the cover, and of the ring, in a body of this material."""
+HUB: Final = "h7"
+HOLE: Final = "H8"
+"""Tolerance classes of the hub and of the hole in the cover."""
 
 
 def grade(part: TurnedPart, race: bool) -> Grade:
@@ -42,69 +42,32 @@ def grade(part: TurnedPart, race: bool) -> Grade:
     return RACE_STEEL if race else STEEL_PART
 
 
-def demanded(result: "SizeResult", part: TurnedPart) -> TurnedPart:
-    """The part with demands on every functional surface: the design's own, and usual ones where it has none."""
-    own = {surface.name for surface in part.surfaces}
+def demanded(part: TurnedPart) -> TurnedPart:
+    """The part with the design's demands on its surfaces, and usual ones on functional surfaces that have none."""
     sizes = {segment.surface: 2 * segment.start.r for segment in part.profile}
-    usual = (surface for surface in _usual(result, part, sizes) if surface.name in sizes and surface.name not in own)
-    return replace(part, surfaces=(*part.surfaces, *usual))
+    own = tuple(_with_run_out(surface) for surface in part.surfaces)
+    names = {surface.name for surface in own}
+    usual = (surface for surface in _usual(part, sizes) if surface.name in sizes and surface.name not in names)
+    return replace(part, surfaces=(*own, *usual))
 
 
-def _usual(result: "SizeResult", part: TurnedPart, sizes: dict[str, float]) -> Iterator[Surface]:
-    race = result.parts.race_part.name == part.name
-    if race:
-        yield _race(result)
-        yield _seat("cover seat", sizes, SEATS[result.parts.body.material][0], "", frames=_form("run-out", 0.02, "A"))
+def _with_run_out(surface: Surface) -> Surface:
+    """The mounting face runs true to the bore as well as being square to it."""
+    if surface.name != "mounting face" or any(each.kind == "run-out" for each in surface.geometrical):
+        return surface
+    value = next((each.value for each in surface.geometrical if each.datum), FACE_RUNOUT)
+    return replace(surface, geometrical=(*surface.geometrical, GeometricalTolerance("run-out", value, "A")))
+
+
+def _usual(part: TurnedPart, sizes: dict[str, float]) -> Iterator[Surface]:
+    """Hub and the cover's hole, which guide the cover, and the faces of a ring."""
     if part.name == "body":
-        bore = _bore(result)
-        round_ = None if bore is None else math.floor(from_si(bore.tolerance, "um") / 2) / 1000
-        yield Surface("bore", "cylinder", sizes["bore"], tolerance_class=result.section.bore_class, limits=bore, roughness=to_si(0.4, "um"),
-                      geometrical=() if not round_ else _form("cylindricity", round_), datum="A")  # fmt: skip
-        across = GeometricalTolerance("perpendicularity", FACE_RUNOUT, "A")
-        yield Surface("mounting face", "plane", roughness=to_si(0.8, "um"),
-                      geometrical=(across, GeometricalTolerance("run-out", FACE_RUNOUT, "A")), datum="B")  # fmt: skip
-        yield Surface("hub end", "plane", roughness=to_si(0.8, "um"), geometrical=_form("parallelism", 0.01, "B"))
-        hub = _limits("shaft", "h7", sizes["hub"])
-        yield Surface("hub", "cylinder", tolerance_class="h7", limits=hub, roughness=to_si(1.6, "um"))
-        yield _seat("ring seat", sizes, SEATS[part.material][0], "", frames=_form("run-out", 0.01, "A"))
+        yield Surface("hub", "cylinder", tolerance_class=HUB, limits=_limits("shaft", HUB, sizes["hub"]),
+                      roughness=to_si(1.6, "um"))  # fmt: skip
     elif part.name == "cover":
-        yield _seat("outside", sizes, "", SEATS[part.material][1])
-        yield Surface("hole", "cylinder", plus_minus=None, tolerance_class="H8",
-                      limits=_limits("housing", "H8", sizes["hole"]))  # fmt: skip
+        yield Surface("hole", "cylinder", tolerance_class=HOLE, limits=_limits("housing", HOLE, sizes["hole"]))
     else:
-        yield _seat("outside", sizes, "", SEATS[result.parts.body.material][1], datum="A")
-        yield Surface("web face", "plane", roughness=to_si(0.8, "um"),
-                      geometrical=_form("perpendicularity", 0.01, "A"))  # fmt: skip
-
-
-def _bore(result: "SizeResult") -> DeviationLimits | None:
-    limits = result.section.bore_limits_um
-    return None if limits is None else DeviationLimits(*(to_si(limit, "um") for limit in limits))
-
-
-def _form(kind: str, value: float, datum: str = "") -> tuple[GeometricalTolerance, ...]:
-    return (GeometricalTolerance(kind, to_si(value, "mm"), datum),)  # type: ignore[arg-type]
-
-
-def _race(result: "SizeResult") -> Surface:
-    section = result.section
-    return Surface(
-        "race", "torus" if result.autobalancer.groove_radius_mm else "cylinder",
-        plus_minus=to_si(2 * section.race_tolerance_mm, "mm"), groove_plus_minus=to_si(section.groove_tolerance_mm, "mm"),
-        roughness=to_si(section.roughness_Ra_um, "um"), hardness=section.hardness,
-        geometrical=(*_form("circularity", section.circularity_um / 1000),
-                     *_form("run-out", section.runout_um / 1000, "A")),
-    )  # fmt: skip
-
-
-def _seat(
-    name: str, sizes: dict[str, float], hole: str, shaft: str, *, frames: tuple[GeometricalTolerance, ...] = (),
-    datum: str = "",
-) -> Surface:  # fmt: skip
-    size = sizes.get(name, 0.0)
-    limits = _limits("housing", hole, size) if hole else _limits("shaft", shaft, size)
-    return Surface(name, "cylinder", size, tolerance_class=hole or shaft, limits=limits, roughness=to_si(0.8, "um"),
-                   geometrical=frames, datum=datum)  # fmt: skip
+        yield Surface("web face", "plane", roughness=to_si(0.8, "um"))
 
 
 def _limits(seat: str, tolerance_class: str, size: float) -> DeviationLimits | None:
@@ -158,7 +121,7 @@ def assembly_notes(result: "SizeResult") -> Iterator[str]:
 
 def _fits(result: "SizeResult") -> Iterator[str]:
     """Fits between the parts by their classes."""
-    parts = {part.name: demanded(result, part) for part in result.parts.turned}
+    parts = {part.name: demanded(part) for part in result.parts.turned}
     pairs = [("cover", result.parts.race_part.name, "cover seat", "outside"), ("cover", "body", "hub", "hole")]
     if "race ring" in parts:
         pairs.append(("race ring", "body", "ring seat", "outside"))

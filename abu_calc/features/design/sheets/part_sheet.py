@@ -37,7 +37,7 @@ TWICE: Final = 1.9
 
 def part_sheet(result: "SizeResult", part: TurnedPart, sheet: int, sheets: int) -> Drawing:
     """Sheet of one part on A3, in the largest standard scale for which there is room."""
-    part = demanded(result, part)
+    part = demanded(part)
     plan = dimension_plan(part)
     race = result.parts.race_part.name == part.name
     notes = note_lines(tuple(part_notes(result, part)), WIDE - MARGIN - BINDING - BLOCK[0] - 12)

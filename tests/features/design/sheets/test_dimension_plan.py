@@ -17,7 +17,7 @@ def planned(name: str, index: int) -> tuple[TurnedPart, DimensionPlan]:
     parts = result(name).parts.turned
     if index >= len(parts):
         pytest.skip("this design has no further part")
-    part = demanded(result(name), parts[index])
+    part = demanded(parts[index])
     return part, dimension_plan(part)
 
 
