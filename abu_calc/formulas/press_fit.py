@@ -79,9 +79,7 @@ def spin_growth(ring: Ring, speed: float, at_outside: bool) -> float:
     assumed="both rings at one temperature",
     source="thermal expansion; Timoshenko; DIN 7190-1 (smoothing)",
 )
-def interference_left(
-    interference: float, inside: Ring, outside: Ring, temperature: float, speed: float
-) -> float:
+def interference_left(interference: float, inside: Ring, outside: Ring, temperature: float, speed: float) -> float:
     """
     >>> outer = Ring(39.5e-3, 41.5e-3, ALUMINIUM_RING)
     >>> round(1e6 * interference_left(60e-6, Ring(37e-3, 39.5e-3, STEEL_RING), outer, 60.0, 0.0), 1)

@@ -132,6 +132,7 @@ class Autobalancer(Table):
         description="Lowest and highest temperature of the housing [°C]; each {range}. Interferences are judged at "
         "both, from 20 °C at assembly. Default: 0 and 60, assumed.",
         examples=[(0.0, 80.0)],
+        json_schema_extra=usual(10, 120),
     )
     race_hardness_HRC: float = Field(
         default=60.0,

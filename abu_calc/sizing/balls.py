@@ -23,7 +23,15 @@ from abu_calc.sizing.budget import (
 )
 from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case, working_speeds
-from abu_calc.sizing.housing import Housing, greatest_race_radius, housing, least_race_radius, width
+from abu_calc.sizing.housing import (
+    Housing,
+    balls_go_in,
+    dimensions,
+    greatest_race_radius,
+    housing,
+    least_race_radius,
+    width,
+)
 from abu_calc.sizing.strength import Roundness, Strength, roundness, strength
 from abu_calc.standards.balls import material, stock_diameter, stock_diameters
 
@@ -179,6 +187,7 @@ class Candidate:
     strength: Strength
     roundness: Roundness
     stays_round: bool
+    fillable: bool
     mass_fraction: float
 
     @property
@@ -291,9 +300,22 @@ def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_rad
     balls = CandidateBalls(count, ball_mass, diameter / 2, pitch, held, oval.lobes)
     budget = budget_where_worst(case, imbalance, need, balls, angles)
     stays_round = ovality_residual(oval.unaided) <= permitted_displacement(case, mass, case.speed_range[1])
-    share = mass / case.machine_mass
+    share, fillable = mass / case.machine_mass, _fills(case, count, diameter, race_radius)
     return Candidate(
-        count, diameter, ball_mass, race_radius, held, need, body, balls, budget, stress, oval, stays_round, share
+        count,
+        diameter,
+        ball_mass,
+        race_radius,
+        held,
+        need,
+        body,
+        balls,
+        budget,
+        stress,
+        oval,
+        stays_round,
+        fillable,
+        share,
     )
 
 
@@ -318,11 +340,11 @@ def _smallest(
         return None
     first = bisect_left(radii, True, key=suffices)
     smallest = evaluate(case, imbalance, count, diameter, radii[first])
-    if smallest.budget.within:
+    if smallest.budget.within and smallest.fillable:
         return smallest
     larger = radii[first + 1 :]
     tried = (evaluate(case, imbalance, count, diameter, each) for each in larger[:: len(larger) // most + 1])
-    return next((candidate for candidate in tried if candidate.budget.within), smallest)
+    return next((candidate for candidate in tried if candidate.budget.within and candidate.fillable), smallest)
 
 
 def _ball_mass(case: Case, diameter: float) -> float:
@@ -333,6 +355,14 @@ def _housing(case: Case, diameter: float, radius: float) -> Housing:
     abu = case.autobalancer
     bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
     return housing(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
+
+
+def _fills(case: Case, count: int, diameter: float, radius: float) -> bool:
+    """True if the balls go into the race through the open side."""
+    abu = case.autobalancer
+    bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
+    size = dimensions(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
+    return balls_go_in(size, count, diameter)
 
 
 def _mass(case: Case, count: int, diameter: float, radius: float) -> float:
@@ -356,7 +386,8 @@ def sound(case: Case, candidate: Candidate) -> bool:
 
 def shortfalls(case: Case, candidate: Candidate) -> tuple[str, ...]:
     """Names of the requirements that the candidate falls short of."""
-    named = ("capacity", "strength", "roundness of the race", "accuracy of the race", "mass of the autobalancer")
+    named = ("capacity", "strength", "roundness of the race", "way of the balls into the race", "accuracy of the race",
+             "mass of the autobalancer")  # fmt: skip
     return tuple(name for name, bad in zip(named, _shortfalls(case, candidate), strict=True) if bad)
 
 
@@ -364,6 +395,7 @@ def _shortfalls(case: Case, candidate: Candidate) -> Iterator[bool]:
     yield not enough(case, candidate)
     yield not candidate.strength.enough
     yield not candidate.stays_round
+    yield not candidate.fillable
     yield not candidate.budget.within
     yield not light(case, candidate)
 
@@ -372,7 +404,8 @@ def _rank(case: Case, candidate: Candidate) -> tuple[float, ...]:
     """Sorts the best first: what is short of something is ranked by how short it is."""
     shortage = max(0.0, case.autobalancer.capacity_margin - candidate.capacity_ratio)
     excess = 0.0 if candidate.budget.within else candidate.budget.residual
-    bad = shortage, not candidate.strength.enough, not candidate.stays_round, excess, not light(case, candidate)
+    bad = (shortage, not candidate.strength.enough, not candidate.stays_round, not candidate.fillable, excess,
+           not light(case, candidate))  # fmt: skip
     return (*bad, candidate.ball_count > DOZEN, round(candidate.mass, 9), candidate.ball_diameter)
 
 
@@ -395,6 +428,8 @@ def _why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
         return "stress above the limit"
     if not candidate.stays_round:
         return "two-lobe ovality of the race too large"
+    if not candidate.fillable:
+        return "the balls do not go into the race"
     if not candidate.budget.within:
         return f"expected residual {from_si(candidate.budget.residual, 'um'):.1f} µm, above the limit"
     if not light(case, candidate):

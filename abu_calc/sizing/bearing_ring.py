@@ -8,17 +8,22 @@ from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.housing import GROOVE_CLEARANCE, RULES, BearingRing, groove_depth, groove_radius, least_race_radius
+from abu_calc.sizing.housing import (
+    GROOVE_CLEARANCE,
+    LEAST_FILLING,
+    RULES,
+    BearingRing,
+    filling_gap,
+    groove_depth,
+    groove_radius,
+    least_race_radius,
+)
 from abu_calc.standards.self_aligning import self_aligning_bearings
 
 RIM_SHARE: Final = 0.25
 """Height of the ring's rim at its face over the bearing's whole section, (D − D_1)/(D − d) (assumed)."""
 RIM_BAND: Final = 0.04
 """Band of that share, either way (assumed)."""
-SAME_RADIUS: Final = to_si(0.05, "mm")
-"""Pinned race radii this near to a sphere mean that ring [m]."""
-LEAST_GAP: Final = to_si(0.1, "mm")
-"""Least gap at which a ball passes the edge of the ring [m], as ABU305 asks."""
 
 
 @formula(
@@ -101,7 +106,7 @@ def _takes(case: Case, ring: BearingRing, ball_diameter: float) -> bool:
         ring.width >= ball_diameter + 2 * GROOVE_CLEARANCE - 1e-9
         and wall >= to_si(abu.min_wall_mm, "mm") - 1e-9
         and ring.sphere_radius >= least_race_radius("bearing-ring", bore, ball_diameter) - 1e-9
-        and edge - ball_diameter - bore / 2 - rules.hub_wall >= LEAST_GAP - 1e-9
+        and filling_gap(edge, ball_diameter, bore / 2 + rules.hub_wall) >= LEAST_FILLING - 1e-9
     )
 
 
@@ -127,9 +132,12 @@ def nearest_ring(case: Case, ball_diameter: float) -> str:
 
 
 def pinned_ring(case: Case, race_radius: float) -> BearingRing | None:
-    """The ring that a pinned race radius [m] means; None if none has this sphere."""
-    ring = min(bearing_rings(), key=lambda each: abs(each.sphere_radius - race_radius))
-    return ring if abs(ring.sphere_radius - race_radius) <= SAME_RADIUS else None
+    """The ring in the envelope whose sphere is nearest to a pinned race radius [m]; None beyond its band."""
+    ring = ring_of(case, race_radius)
+    if ring is None:
+        return None
+    low, high = sphere_band(ring)
+    return ring if low - 1e-9 <= race_radius <= high + 1e-9 else None
 
 
 def ring_check(case: Case, race_radius: float) -> tuple[Check, ...]:
@@ -138,11 +146,13 @@ def ring_check(case: Case, race_radius: float) -> tuple[Check, ...]:
     if ring is None:
         return ()
     low, high = (from_si(radius, "mm") for radius in sphere_band(ring))
+    measured = case.autobalancer.race_radius_mm is not None
+    known = "as the file gives it; estimated" if measured else "estimated"
     message = (
         f"The race is the outer ring of bearing {ring.designation}, Ø{from_si(ring.outside_diameter, 'mm'):g} × "
-        f"{from_si(ring.width, 'mm'):g} mm. The radius of its sphere is estimated: {low:.2f} … {high:.2f} mm"
+        f"{from_si(ring.width, 'mm'):g} mm. The radius of its sphere is {known}: {low:.2f} … {high:.2f} mm"
     )
     return (
-        coded("ABU312", verdict(True, safe=False), message, from_si(race_radius, "mm"), None, "mm",
-              "Measure the sphere of the ring, and pin autobalancer.race_radius_mm near it."),
+        coded("ABU312", verdict(True, safe=measured), message, from_si(race_radius, "mm"), None, "mm",
+              None if measured else "Measure the sphere of the ring, and specify it as autobalancer.race_radius_mm."),
     )  # fmt: skip

@@ -125,9 +125,7 @@ def _construction(case: Case, construction: Construction) -> Iterator[DrawingReq
         )
 
 
-def _race(
-    case: Case, candidate: Candidate, track: Track, quality: RaceQuality
-) -> tuple[DrawingRequirement, ...]:
+def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) -> tuple[DrawingRequirement, ...]:
     budget, abu = candidate.budget, case.autobalancer
     smooth = math.hypot(budget.race_eccentricity, budget.race_ovality, budget.plane_offset)
     arm = case.friction_arm or SOFT_ARM

@@ -123,9 +123,7 @@ def split_eccentricity(case: Case, candidate: Candidate) -> EccentricitySplit:
 
     def split(fit: Fit | None, run_outs: tuple[float, float], ring: tuple[str, float]) -> EccentricitySplit:
         clearance = 0.0 if fit is None else fit.eccentricity
-        return EccentricitySplit(
-            total, rule, run_outs[0], clearance, run_outs[1], housing, fit, grade, least, *ring
-        )
+        return EccentricitySplit(total, rule, run_outs[0], clearance, run_outs[1], housing, fit, grade, least, *ring)
 
     for number in GRADES:
         for ring in _ring_run_outs(case, candidate):
@@ -189,9 +187,7 @@ def _least(case: Case, candidate: Candidate, fits: Sequence[Fit], bore: float) -
     return eccentricity_sum(parts, case.autobalancer.eccentricity_sum)
 
 
-def _stretched(
-    needed: tuple[float, float], fixed: tuple[float, float], total: float, rule: str
-) -> tuple[float, float]:
+def _stretched(needed: tuple[float, float], fixed: tuple[float, float], total: float, rule: str) -> tuple[float, float]:
     """Both run-outs enlarged by one factor so that all parts together use up the total."""
     if rule == "rss":
         factor = math.sqrt(max(total**2 - math.hypot(*fixed) ** 2, 0.0)) / math.hypot(*needed)

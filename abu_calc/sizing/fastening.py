@@ -15,10 +15,10 @@ from abu_calc.formulas.press_fit import (
     outer_hoop,
     spin_growth,
 )
-from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.housing import RULES, HousingDimensions
@@ -42,7 +42,7 @@ def bore_growth(case: Case, size: HousingDimensions) -> float:
 
 @formula(
     "Torque that the fastening must carry",
-    "T_n = J_a·Ω/t_u; of a flange also J_w·Ω/t_u + P_m/Ω",
+    "T_n = J_a·Ω/t_u; flanges also J_w·Ω/t_u + P_m/Ω",
     "N m",
     signs="J_a J_w t_u P_m Ω",
     where=(
@@ -111,7 +111,7 @@ def whole_inertia(parts: HousingParts) -> float:
     return sum(part.inertia for part in parts.turned) + balls.count * balls.mass * balls.pitch_radius**2
 
 
-def torque_check(case: Case, candidate: Candidate, parts: HousingParts, fit: Fit | None) -> Check:
+def torque_check(case: Case, parts: HousingParts, fit: Fit | None) -> Check:
     """Check of the slip torque; not evaluated where clamp force, power or fit are missing."""
     needed = SLIP_FACTOR * needed_torque(case, whole_inertia(parts))
     size, fastening = parts.dimensions, case.autobalancer.fastening
@@ -133,8 +133,20 @@ def torque_check(case: Case, candidate: Candidate, parts: HousingParts, fit: Fit
         message += (f". The nut crushes the hub: {from_si(pressure, 'MPa'):.3g} MPa, permitted "
                     f"{from_si(permitted, 'MPa'):.3g} MPa")  # fmt: skip
     passed = held >= needed and pressure <= permitted
-    remedy = "Reduce autobalancer.clamp_force_N." if pressure > permitted else "Increase autobalancer.clamp_force_N."
-    return coded("ABU308", verdict(passed), message, held, needed, "N·m", None if passed else remedy, "least")
+    action = None if passed else _other_force(held, needed, force, permitted / pressure)
+    return coded("ABU308", verdict(passed), message, held, needed, "N·m", action, "least")
+
+
+def _other_force(held: float, needed: float, force: float, room: float) -> Action:
+    """The force of two digits that carries the torque and does not crush the hub, if there is one."""
+    least = force * needed / held
+    digits = 1 - math.floor(math.log10(least))
+    wanted = math.ceil(least * 10.0**digits) / 10.0**digits
+    if wanted > force * room:
+        return Action("Enlarge the hub: reduce the torque, or specify a larger bore.")
+    moved = Moved("the slip torque", held, held * wanted / force, "N·m", needed)
+    return Action(f"Set clamp_force_N = {wanted:g}: {moved.text} (calculated).",
+                  (f"autobalancer.clamp_force_N={wanted:g}",))  # fmt: skip
 
 
 def _missing(reason: str, needed: float | None) -> Check:

@@ -188,6 +188,44 @@ def dimensions(
     )  # fmt: skip
 
 
+LEAST_FILLING: Final = to_si(0.1, "mm")
+"""Least gap at which a ball passes between hub and edge of the race [m] (assumed)."""
+
+
+@formula(
+    "Gap through which a ball passes from the open side to its race",
+    "R_k − d − R_h",
+    "m",
+    where=(
+        "R_k is the radius of the race at its edge, R_h that of the hub, d the diameter of the balls. The last ball "
+        "passes between the others, which are pushed together, if the chord to each of them is at least d."
+    ),
+    source="geometry",
+)
+def filling_gap(edge_radius: float, ball_diameter: float, hub_radius: float) -> float:
+    """
+    >>> round(1e3 * filling_gap(29.6e-3, 15.9e-3, 12.5e-3), 2)
+    1.2
+    """
+    return edge_radius - ball_diameter - hub_radius
+
+
+def last_ball_passes(size: HousingDimensions, count: int, ball_diameter: float) -> bool:
+    """True if the last ball, at the race's edge, passes between the others, pushed together in the race."""
+    pitch, entry = size.race_radius - ball_diameter / 2, size.shoulder_radius - ball_diameter / 2
+    half = math.pi - math.asin(min(1.0, ball_diameter / 2 / pitch)) * (count - 2)
+    if half <= 0:
+        return False
+    squared = entry**2 + pitch**2 - 2 * entry * pitch * math.cos(min(half, math.pi))
+    return math.sqrt(squared) >= ball_diameter * (1 - 1e-9)
+
+
+def balls_go_in(size: HousingDimensions, count: int, ball_diameter: float) -> bool:
+    """True if all balls go in through the open side."""
+    gap = filling_gap(size.shoulder_radius, ball_diameter, size.hub_radius)
+    return gap >= LEAST_FILLING - 1e-9 and last_ball_passes(size, count, ball_diameter)
+
+
 @formula(
     "Dimensions and mass of the housing, from rings and discs",
     where=(

@@ -13,7 +13,7 @@ from abu_calc.standards.tolerance_classes import grade_tolerance
 
 CIRCULARITY_SHARE: Final = 0.1
 WAVINESS_SHARE: Final = 0.08
-DENT_SHARE: Final = 0.03
+DENT_SHARE: Final = 1 / 32
 ROUGHNESS_SHARE: Final = 0.005
 BALL_SHARE: Final = 1 / 64
 """Shares of the permitted displacement (assumed). On a grinder that may keep 33 µm they give the usual 3 µm, 2.5 µm,
@@ -44,7 +44,7 @@ class RaceQuality:
 
 @formula(
     "Tolerances of race and balls from the permitted displacement",
-    "circularity: w_p/10; waviness n_k·a_k: w_p/12.5; dent: w_p/33; Ra: w_p/200; form of a ball: w_p/64",
+    "circularity: w_p/10; waviness n_k·a_k: w_p/12.5; dent: w_p/32; Ra: w_p/200; ball form: w_p/64",
     "m",
     shown="um",
     where=(
@@ -66,7 +66,7 @@ def race_quality(case: Case, candidate: Candidate) -> RaceQuality:
     return RaceQuality(
         circularity=circularity,
         waviness=to_si(_usual(WAVINESS_SHARE * microns, LENGTHS_UM), "um"),
-        dent=to_si(_usual(DENT_SHARE * microns * 1.02, LENGTHS_UM), "um"),
+        dent=to_si(_usual(DENT_SHARE * microns, LENGTHS_UM), "um"),
         roughness=to_si(_usual(ROUGHNESS_SHARE * microns, ROUGHNESSES_UM), "um"),
         case_depth=max(LEAST_CASE, to_si(math.ceil(10 * from_si(CASE_FACTOR * half_width, "mm")) / 10, "mm")),
         hardness=(hardness, min(hardness + 3, 68.0)),

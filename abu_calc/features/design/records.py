@@ -455,8 +455,9 @@ class Section(Record):
             cover_fit=seat_name(parts, built.cover),
             fastening=parts.fastening,
             ring_seat_class=None if seat is None else seat.seat_class,
-            ring_seat_limits_um=None if seat is None else
-            (_micrometres(seat.seat.lower), _micrometres(seat.seat.upper)),
+            ring_seat_limits_um=None
+            if seat is None
+            else (_micrometres(seat.seat.lower), _micrometres(seat.seat.upper)),
             bearing_ring=_designation(design),
             parts=tuple(map(SectionPart.of, parts.turned)),
         )

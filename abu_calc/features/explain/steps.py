@@ -119,7 +119,7 @@ STEPS: Final[Mapping[str, Step]] = {
         "Construction: parts, closure, fastening, ring",
         (
             "sizing.race_quality:race_quality",
-            "sizing.closure:filling_gap",
+            "sizing.housing:filling_gap",
             "sizing.closure:wall_stress",
             "sizing.closure:burst_ratio",
             "sizing.cover:axial_load",
