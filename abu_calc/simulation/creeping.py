@@ -18,7 +18,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.formulas.slow_motion import shaken_drag
-from abu_calc.simulation.early_stopping import Way
+from abu_calc.simulation.early_stopping import BalancePath
 from abu_calc.simulation.ensemble_results import StartOutcome
 from abu_calc.simulation.residual_criteria import balances
 from abu_calc.sizing.design import Design
@@ -51,8 +51,8 @@ def linger(design: Design, scene: Scene, outcome: StartOutcome) -> bool:
 
 def harmless_way(
     design: Design, scene: Scene, left: complex, outcome_at: Callable[[float], StartOutcome]
-) -> Way | None:
-    """Way of |U| from what is `left` [kg m] to where the balls balance, if no verdict can change on it; else None.
+) -> BalancePath | None:
+    """Path of |U| from what is `left` [kg m] to where the balls balance, if no verdict can change on it; else None.
 
     On the way |U| stays below what is allowed and below |U_b| + `SETTLED` of the imbalance, so that balls do not
     unsettle, and the level stays 1 dB below its limit. `outcome_at(creep)`: outcome of a start whose imbalance left
@@ -68,7 +68,7 @@ def harmless_way(
     if not left or most > abs(balanced) + SETTLED * reference_imbalance(scene):
         return None
     least = max(abs(left + balanced) / 2 - abs(left - balanced) / 2, 0.0)
-    way = Way(abs(left) - least, most - abs(left))
+    way = BalancePath(abs(left) - least, most - abs(left))
     outcome = outcome_at(way.down)
     kept = (
         outcome.settling_time_or_inf <= SOON * case.table.limits.settling_time_s

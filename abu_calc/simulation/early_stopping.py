@@ -49,7 +49,7 @@ STEEP_RISE, STEEP_FALL = 1.0, 0.3
 
 
 @dataclass(frozen=True)
-class Way:
+class BalancePath:
     """How far [kg m] the residual imbalance may yet fall and rise while balls creep to where they balance."""
 
     down: float
@@ -69,7 +69,7 @@ class Early:
     scene: Scene
     at_speed: float
     decided: Callable[[Response, float, float], bool]
-    way: Callable[[complex, Callable[[float], Response]], Way | None] | None = None
+    way: Callable[[complex, Callable[[float], Response]], BalancePath | None] | None = None
 
     @cached_property
     def looks(self) -> tuple[float, ...]:
@@ -146,8 +146,8 @@ class Early:
             return rise
         return min(rise, 20 * math.log10(1 + way.up / self.response(samples).residual_imbalance))
 
-    def harmless(self, samples: Samples) -> Way | None:
-        """Way to where the balls balance if no verdict can change on it; None else, or if no way is known."""
+    def harmless(self, samples: Samples) -> BalancePath | None:
+        """Path to where the balls balance if no verdict can change on it; None else, or if no way is known."""
         if self.way is None:
             return None
         left = complex(self._left(samples.y[:, -1:])[0])

@@ -23,7 +23,7 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent, within
 from abu_calc.simulation.creeping import MARGIN, felt_mass, harmless_way, linger
-from abu_calc.simulation.early_stopping import Early, Way
+from abu_calc.simulation.early_stopping import BalancePath, Early
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
 from abu_calc.simulation.residual_criteria import allowed_imbalance, balances, slip
@@ -191,7 +191,7 @@ def followed_until(design: Design, scene: Scene, response: Response, samples: Sa
 def _early(design: Design, member: Member, scene: Scene) -> Early:
     """Early stopping of a start case's run."""
 
-    def way(left: complex, response: Callable[[float], Response]) -> Way | None:
+    def way(left: complex, response: Callable[[float], Response]) -> BalancePath | None:
         return harmless_way(design, scene, left, lambda creep: outcome_of(design, member, scene, response(creep)))
 
     return Early(scene, scene.full_speed, partial(_decided, design, member, scene), way)

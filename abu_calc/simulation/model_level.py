@@ -43,7 +43,7 @@ MOST_TIMES: Final = 1001
 
 
 @dataclass(frozen=True)
-class Estimate:
+class ModelEstimate:
     """Results of a model level for a run, as `differences` compares them.
 
     `evaluations`: number of evaluations of the functions that this level needs.
@@ -69,7 +69,7 @@ class Offer:
     trajectory: Trajectory | None = None
 
 
-def closed_form(scene: Scene) -> Estimate:
+def closed_form(scene: Scene) -> ModelEstimate:
     """Stationary positions, the whirl they leave, and a settling time from the slow eigenvalue.
 
     Balanced: the axis keeps the races' offset Δ, and the residual dies out as e^{−λt} from what it is at the start, λ
@@ -90,7 +90,7 @@ def closed_form(scene: Scene) -> Estimate:
     limit = SETTLED * reference_imbalance(scene)
     time = max(math.log(start / limit) / rate, 0.0) if start > limit else 0.0
     amplitude = abs(model.offset)
-    return Estimate(
+    return ModelEstimate(
         axis_amplitude=amplitude,
         velocity_rms=amplitude * scene.speed / math.sqrt(2),
         settling_time=time if time <= 0.95 * scene.duration else None,
@@ -98,7 +98,7 @@ def closed_form(scene: Scene) -> Estimate:
     )
 
 
-def averaged(scene: Scene, tolerance: float, order: int = 2) -> Estimate:
+def averaged(scene: Scene, tolerance: float, order: int = 2) -> ModelEstimate:
     """The envelope of a run. Raises InputError where averages do not hold."""
     if reason := not_averaged(scene):
         raise InputError(reason)
@@ -108,7 +108,7 @@ def averaged(scene: Scene, tolerance: float, order: int = 2) -> Estimate:
     window = times >= _window(scene)
     limit = float(residuals[window].mean()) + SETTLED * reference_imbalance(scene)
     X, Y = (scene.small_motion.frame @ whirl(scene, slow.theta[:, window], slow.rate[:, window])[0])[:2]
-    return Estimate(
+    return ModelEstimate(
         axis_amplitude=float((np.abs(X + 1j * Y) + np.abs(X - 1j * Y)).max()) / 2,
         velocity_rms=scene.speed / math.sqrt(2) * math.sqrt(max((np.abs(X) ** 2).mean(), (np.abs(Y) ** 2).mean())),
         settling_time=settling_time(times, residuals, limit),

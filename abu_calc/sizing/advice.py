@@ -12,7 +12,7 @@ from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.handles import BodyBands, estimate_keys
 from abu_calc.sizing.places import HANDS
-from abu_calc.sizing.trials import Requirement
+from abu_calc.sizing.trials import TriedRequirement
 from abu_calc.sizing.vibration import LevelsUnderLoad
 from abu_calc.standards.balls import stock_diameter
 
@@ -24,7 +24,7 @@ def candidate_checks(case: Case, chosen: Candidate) -> tuple[Check, ...]:
 
 def _capacity(case: Case, candidate: Candidate) -> Check:
     margin = case.autobalancer.capacity_margin
-    required = Requirement("the capacity", "g·mm", lambda _, other: from_si(other.capacity, "g_mm"), _with_margin,
+    required = TriedRequirement("the capacity", "g·mm", lambda _, other: from_si(other.capacity, "g_mm"), _with_margin,
                            enough, "the required capacity with its margin")  # fmt: skip
     passed = enough(case, candidate)
     return coded("ABU201", verdict(passed), f"{candidate.ball_count} balls side by side must carry the required "
@@ -49,7 +49,7 @@ def _budget(candidate: Candidate) -> Check:
 
 def _mass(case: Case, candidate: Candidate) -> Check:
     passed = light(case, candidate)
-    required = Requirement("the autobalancer's share of the machine's mass", "%",
+    required = TriedRequirement("the autobalancer's share of the machine's mass", "%",
                            lambda _, other: 100 * other.mass_fraction,
                            lambda other, _: 100 * other.autobalancer.max_mass_fraction, light)  # fmt: skip
     return coded("ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",

@@ -27,7 +27,7 @@ from abu_calc.sizing.parts.demands import with_surfaces
 from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
 from abu_calc.sizing.race_quality import RaceQuality, race_quality
 from abu_calc.sizing.ring_seat import RingSeat, ring_seat, seat_check
-from abu_calc.sizing.trials import Requirement
+from abu_calc.sizing.trials import TriedRequirement
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,12 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
     closed, seat = choose_cover(case, parts, force, top), ring_seat(case, parts, force, top)
 
     def roomier() -> Action:
-        gap = Requirement("the gap beside a ball", "mm", lambda *given: 1e3 * filling_gap_of(housing_parts(*given)),
+        gap = TriedRequirement("the gap beside a ball", "mm", lambda *given: 1e3 * filling_gap_of(housing_parts(*given)),
                           lambda *_: 1e3 * LEAST_FILLING, lambda _, other: other.fillable)  # fmt: skip
         return trials.remedy(case, candidate, trials.more_room(case), gap)
 
     def stronger() -> Action:
-        ratio = Requirement("the burst ratio", "", _burst, lambda *_: BURST_RATIO, _strong)
+        ratio = TriedRequirement("the burst ratio", "", _burst, lambda *_: BURST_RATIO, _strong)
         return trials.remedy(case, candidate, trials.stronger(case), ratio)
 
     checks = (

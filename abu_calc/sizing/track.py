@@ -14,7 +14,7 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.bearing_ring import race_groove
 from abu_calc.sizing.budget import ovality_residual, permitted_displacement
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.trials import Requirement
+from abu_calc.sizing.trials import TriedRequirement
 
 LEAST_HARDNESS_HRC, GROUND_HARDNESS_HRC = 58.0, 60.0
 """Least hardness of a race, and the usual one of a ground race."""
@@ -88,7 +88,7 @@ def track_checks(case: Case, candidate: Candidate, race: Track) -> tuple[Check, 
 def _pressure(case: Case, candidate: Candidate, top: str) -> Check:
     """Check of the Hertz pressure against the pressure that leaves no dent."""
     pressure, permitted = _pressures(case, candidate)
-    required = Requirement("the Hertz pressure", "MPa", lambda *given: _pressures(*given)[0],
+    required = TriedRequirement("the Hertz pressure", "MPa", lambda *given: _pressures(*given)[0],
                            lambda *given: _pressures(*given)[1], lambda *given: _not_above(*_pressures(*given)),
                            "the permitted Hertz pressure")  # fmt: skip
     passed = pressure <= permitted
@@ -125,7 +125,7 @@ def _hardness(case: Case, candidate: Candidate) -> Check:
 
 def _hoop(case: Case, candidate: Candidate, top: str) -> Check:
     hoop, limit = _hoops(case, candidate)
-    required = Requirement("the hoop stress", "MPa", lambda *given: _hoops(*given)[0],
+    required = TriedRequirement("the hoop stress", "MPa", lambda *given: _hoops(*given)[0],
                            lambda *given: _hoops(*given)[1], lambda *given: _not_above(*_hoops(*given)),
                            "the permitted hoop stress")  # fmt: skip
     passed = hoop <= limit
@@ -172,7 +172,7 @@ def _roundness(case: Case, candidate: Candidate, top: str) -> Check:
     """
     left, permitted = _left(case, candidate)
     drawn = f"{from_si(ovality_residual(candidate.roundness.lobes), 'um'):.3g} µm"
-    required = Requirement("the displacement by two-lobe ovality", "µm", lambda *given: _left(*given)[0],
+    required = TriedRequirement("the displacement by two-lobe ovality", "µm", lambda *given: _left(*given)[0],
                            lambda *given: _left(*given)[1], lambda _, other: other.stays_round,
                            "the permitted displacement")  # fmt: skip
     return coded(

@@ -27,7 +27,7 @@ class Change:
 
 
 @dataclass(frozen=True)
-class Requirement:
+class TriedRequirement:
     """A requirement on the autobalancer: the number that decides it, as printed, and whether a candidate holds it."""
 
     quantity: str
@@ -49,7 +49,7 @@ class Requirement:
 ALL_HOLD = "All other requirements on the autobalancer hold."
 
 
-def remedy(case: Case, present: Candidate, changes: Iterator[Change], required: Requirement) -> Action:
+def remedy(case: Case, present: Candidate, changes: Iterator[Change], required: TriedRequirement) -> Action:
     """The first change with which the search finds a candidate that meets every requirement, else this one alone.
 
     Each is followed literally: with its entries, and with the balls and the race that the search has found pinned.

@@ -8,7 +8,7 @@ import pytest
 
 from abu_calc.sizing import size
 from abu_calc.sizing.case import read_case
-from abu_calc.sizing.trials import Change, Requirement, harder, more_room, remedy, stronger
+from abu_calc.sizing.trials import Change, TriedRequirement, harder, more_room, remedy, stronger
 from tests.sizing.machines import DRUM, check_of, machine
 
 
@@ -78,6 +78,6 @@ def test_a_race_as_hard_as_can_be_is_not_made_harder() -> None:
 
 def test_a_change_that_no_race_fits_is_no_action() -> None:
     design = size(machine())
-    required = Requirement("x", "", lambda *_: 1.0, lambda *_: 1.0, lambda *_: True)
+    required = TriedRequirement("x", "", lambda *_: 1.0, lambda *_: 1.0, lambda *_: True)
     small = iter([Change({"autobalancer.max_outer_diameter_mm": 30.0})])
     assert remedy(design.case, design.autobalancer, small, required).text == "No change of the file was found."

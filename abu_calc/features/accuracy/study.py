@@ -25,7 +25,7 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.effect_selection import Ledger
-from abu_calc.simulation.model_level import Estimate, averaged, closed_form
+from abu_calc.simulation.model_level import ModelEstimate, averaged, closed_form
 from abu_calc.simulation.nonconvergence import QUANTITIES, Measures
 from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.response import Response, evaluate, needed_times
@@ -211,12 +211,12 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
     return kinds + [[_integration("equations", scene, name, each) for each in TOLERANCES] for name in others]
 
 
-def _after(estimate: Callable[[], Estimate]) -> Callable[[float], Estimate]:
+def _after(estimate: Callable[[], ModelEstimate]) -> Callable[[float], ModelEstimate]:
     """One that is done too soon to be broken off."""
     return lambda _: estimate()
 
 
-def _estimated(estimate: Estimate) -> tuple[Measures, int, int]:
+def _estimated(estimate: ModelEstimate) -> tuple[Measures, int, int]:
     return estimate, estimate.evaluations, estimate.steps
 
 

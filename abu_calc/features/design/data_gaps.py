@@ -60,7 +60,7 @@ two hands (ISO 10068:2012)."""
 
 
 @dataclass(frozen=True)
-class End:
+class RangeEnd:
     """The design at one end of a usual range; levels [dB] and the settling time [s] of the slowest start case,
     infinite: it never settles, NaN: that was not simulated.
 
@@ -94,7 +94,7 @@ class DataGap(Record):
     ]
 
     @classmethod
-    def of(cls, key: str, usual: UsualRange, ends: tuple[End, End]) -> Self:
+    def of(cls, key: str, usual: UsualRange, ends: tuple[RangeEnd, RangeEnd]) -> Self:
         """Record of both ends."""
         low, high = ends
         times = low.settling_time, high.settling_time
@@ -138,7 +138,7 @@ def assumed_values(file: MachineFile) -> Iterator[tuple[str, UsualRange]]:
             yield key, usual
 
 
-def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: float) -> End | None:
+def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: float) -> RangeEnd | None:
     """The design with one value replaced; None if the file refuses it."""
     entries = {key: [value, value] if key.startswith("suspension") else value}
     after = followed(design.case, {**entries, **pins(design.autobalancer)})
@@ -163,7 +163,7 @@ def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: f
         and max(level, friction) <= after.case.level_limit
         and not time > limits.settling_time_s
     )
-    return End(level, friction, time, holds)
+    return RangeEnd(level, friction, time, holds)
 
 
 def settling_time_with(design: Design, slowest: StartOutcome, entries: Mapping[str, object], accuracy: float) -> float:

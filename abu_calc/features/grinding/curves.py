@@ -135,7 +135,7 @@ class AtAngle:
 
 
 @dataclass(frozen=True)
-class AtSpeed:
+class SpeedResponse:
     """Amplitude [m] and variable force [N] without and with the autobalancer at a speed [rad/s], by steady contact.
 
     None where balls come to no rest, or at a resonance that nothing damps.
@@ -173,7 +173,7 @@ def _at_angle(design: Design, runout: complex, angle: float) -> AtAngle:
     return AtAngle(angle, without or (0j, 0j), fitted(design, runout, judged=False).axis)
 
 
-def response(design: Design) -> tuple[AtSpeed, ...]:
+def response(design: Design) -> tuple[SpeedResponse, ...]:
     """Steady contact over the speed range, or about the rated speed if the file gives no range."""
     case, runout = design.case, runout_of(design.case)
     low, high = case.speed_range
@@ -184,11 +184,11 @@ def response(design: Design) -> tuple[AtSpeed, ...]:
     return tuple(_at_speed(design, runout, speed) for speed in sorted([*others, case.speed]))
 
 
-def _at_speed(design: Design, runout: complex, speed: float) -> AtSpeed:
+def _at_speed(design: Design, runout: complex, speed: float) -> SpeedResponse:
     try:
-        return AtSpeed(speed, bare(design, runout, speed=speed), fitted(design, runout, speed=speed))
+        return SpeedResponse(speed, bare(design, runout, speed=speed), fitted(design, runout, speed=speed))
     except (InputError, ZeroDivisionError):
-        return AtSpeed(speed, None, None)
+        return SpeedResponse(speed, None, None)
 
 
 def loaded_resonance(design: Design) -> float | None:

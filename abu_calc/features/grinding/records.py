@@ -8,7 +8,7 @@ from typing import Annotated, Final, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.features.grinding.curves import AtAngle, AtSpeed, Friction, Shaken, largest_runout
+from abu_calc.features.grinding.curves import AtAngle, Friction, Shaken, SpeedResponse, largest_runout
 from abu_calc.features.grinding.simulation import WorkSimulation
 from abu_calc.features.grinding.steady_contact import SteadyWork
 from abu_calc.features.grinding.work import Remedy
@@ -166,7 +166,7 @@ class ResponsePoint(Record):
     balls: Annotated[str | None, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
 
     @classmethod
-    def of(cls, point: AtSpeed) -> Self:
+    def of(cls, point: SpeedResponse) -> Self:
         """Record in user units."""
         bare, free = point.without, point.fitted
         force = [None if each is None or each.reaction is None else abs(each.reaction) for each in (bare, free)]

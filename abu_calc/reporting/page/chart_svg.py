@@ -20,7 +20,7 @@ BELOW: Final = 3.0
 """Height of letters above the line they stand on; `BELOW`: depth below it [px]."""
 
 
-class Box(NamedTuple):
+class LabelBox(NamedTuple):
     """A part of a chart."""
 
     left: float
@@ -28,7 +28,7 @@ class Box(NamedTuple):
     right: float
     bottom: float
 
-    def meets(self, other: "Box") -> bool:
+    def meets(self, other: "LabelBox") -> bool:
         """True if both boxes have anything in common."""
         across = self.left < other.right and other.left < self.right
         return across and self.top < other.bottom and other.top < self.bottom
@@ -43,20 +43,20 @@ class Word(NamedTuple):
     wide: float
 
     @property
-    def box(self) -> Box:
+    def box(self) -> LabelBox:
         """Box that the word takes."""
         left = self.x - {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor] * self.wide
-        return Box(left, self.y - HIGH, left + self.wide, self.y + BELOW)
+        return LabelBox(left, self.y - HIGH, left + self.wide, self.y + BELOW)
 
 
 class Places:
     """Places taken in a field; words are put in one after another."""
 
-    def __init__(self, field: Box, lines: Iterable[Sequence[Place]], points: Iterable[Place]) -> None:
+    def __init__(self, field: LabelBox, lines: Iterable[Sequence[Place]], points: Iterable[Place]) -> None:
         self.field = field
         self.taken = [point for line in lines for point in _along(line)]
         self.taken += [(x + dx, y + dy) for x, y in points for dx in (-4, 0, 4) for dy in (-4, 0, 4)]
-        self.words: list[Box] = []
+        self.words: list[LabelBox] = []
 
     def put(self, choices: Sequence[Word]) -> Word:
         """The choice that covers least, of those alike the first; it is taken from now on."""
@@ -64,7 +64,7 @@ class Places:
         self.words.append(chosen.box)
         return chosen
 
-    def _covered(self, box: Box) -> tuple[bool, bool, bool, int]:
+    def _covered(self, box: LabelBox) -> tuple[bool, bool, bool, int]:
         """The worst first: beside the field, upon other words, above or below the field, upon so much of the rest."""
         field = self.field
         beside = box.left < field.left or box.right > field.right
@@ -110,7 +110,7 @@ def plot(name: str, chart: Plot) -> str:
     lines = [[at(*each) for each in line.points] for line in chart.lines]
     points = [at(each.x, each.y) for each in chart.points]
     bound = [] if chart.limit is None else [at(x, chart.limit[0]) for x in (chart.across.low, chart.across.high)]
-    places = Places(Box(LEFT, TOP - 6, WIDE, low), [*lines, bound], points)
+    places = Places(LabelBox(LEFT, TOP - 6, WIDE, low), [*lines, bound], points)
 
     def marks() -> Iterator[str]:
         for first, last in chart.bands:

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot
-from abu_calc.reporting.page.chart_svg import Box, Places, Word, bars, plot
+from abu_calc.reporting.page.chart_svg import LabelBox, Places, Word, bars, plot
 from tests.reporting.page.reader import read
 
 
@@ -21,7 +21,7 @@ def test_spans_begin_where_they_say() -> None:
 
 
 def test_words_keep_clear_of_lines_and_of_one_another() -> None:
-    field = Box(0, 0, 400, 200)
+    field = LabelBox(0, 0, 400, 200)
     right, left = Word(109, 104, "start", 60), Word(91, 104, "end", 60)
     assert Places(field, [], [(100, 100)]).put([right, left]) == right
     assert Places(field, [[(100, 100), (300, 100)]], [(100, 100)]).put([right, left]) == left

@@ -123,6 +123,8 @@ def diameter_text(value: float, surface: Surface | None) -> tuple[str, str]:
         return surface.thread, ""
     if surface.tolerance_class:
         return f"Ø{size_text(value, True)} {surface.tolerance_class}", limits_text(surface)
+    if surface.limits is not None:
+        return f"Ø{size_text(value, True)}", limits_text(surface)
     if surface.plus_minus is not None:
         return f"Ø{size_text(value, True)} ±{digits(from_si(surface.plus_minus, 'mm'), 3)}", ""
     return f"Ø{size_text(value, False)}", ""
@@ -138,16 +140,16 @@ def _groove_text(surface: Surface | None, edge: Edge) -> str:
 
 def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iterator[Diameter]:
     """Each distinct radius once; ends of an arc are references, its bottom is the dimension."""
-    own = dict[float, list[Edge]]()
+    own = dict[tuple[float, str], list[Edge]]()
     for edge in edges:
-        if edge.centre is None and abs(edge.start[1] - edge.end[1]) < SAME:
-            own.setdefault(_known(own, edge.start[1]), []).append(edge)
-    for radius, along in own.items():
-        if radius < SAME:
-            continue
-        toleranced = next((edge for edge in along if part.surface(edge.surface) is not None), along[0])
-        text, below = diameter_text(2 * radius, part.surface(toleranced.surface))
-        yield Diameter(2 * radius, *_witness(along, length, text, below, toleranced.surface))
+        if edge.centre is None and abs(edge.start[1] - edge.end[1]) < SAME and edge.start[1] > SAME:
+            own.setdefault((round(edge.start[1], 6), _size_demand(part, edge)), []).append(edge)
+    known = [radius for radius, _ in own]
+    for (radius, demand), along in own.items():
+        if not demand and known.count(radius) > 1:
+            continue  # another stretch of this diameter has the demand
+        text, below = diameter_text(2 * along[0].start[1], part.surface(along[0].surface))
+        yield Diameter(2 * along[0].start[1], *_witness(along, length, text, below, along[0].surface))
     for edge in (edge for edge in edges if edge.centre is not None):
         assert edge.centre is not None
         bottom = edge.centre[1] + (edge.radius if edge.start[1] > edge.centre[1] else -edge.radius)
@@ -155,22 +157,27 @@ def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iter
         text = f"S{text}" if _sphere(edge) else text
         yield Diameter(2 * bottom, edge.centre[0], text, below, "right", False, edge.surface)
         for x, radius in dict.fromkeys((edge.start, edge.end)):
-            if all(abs(radius - other) > SAME for other in own):
-                own[radius] = []
+            if all(abs(radius - other) > SAME for other in known):
+                known.append(radius)
                 yield Diameter(2 * radius, x, f"(Ø{size_text(2 * radius, False)})", "", "right", True, edge.surface)
     for before, after in pairwise((*edges, edges[0])):
         # A corner between faces and cones only.
         radius = before.end[1]
         if radius > SAME and before.centre is None and after.centre is None and all(
-            abs(radius - other) > SAME for other in own
+            abs(radius - other) > SAME for other in known
         ):
-            own[radius] = []
+            known.append(radius)
             yield Diameter(2 * radius, before.end[0], f"Ø{size_text(2 * radius, False)}", "",
                            "left" if before.end[0] < length / 2 else "right", False, before.surface)  # fmt: skip
 
 
-def _known(radii: dict[float, list[Edge]], radius: float) -> float:
-    return next((other for other in radii if abs(other - radius) < SAME), radius)
+def _size_demand(part: TurnedPart, edge: Edge) -> str:
+    """What is asked of the size of an edge's surface; nothing: the general tolerance."""
+    surface = part.surface(edge.surface)
+    if surface is None:
+        return ""
+    words = surface.thread, surface.tolerance_class, surface.limits, surface.plus_minus
+    return " ".join(str(word) for word in words if word)
 
 
 def _witness(

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from abu_calc.features.design.sheets.dimension_plan import limits_text
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.reporting.drawings.shapes import digits
@@ -45,10 +46,15 @@ def grade(part: TurnedPart, race: bool) -> Grade:
 def demanded(part: TurnedPart) -> TurnedPart:
     """The part with the design's demands on its surfaces, and usual ones on functional surfaces that have none."""
     sizes = {segment.surface: 2 * segment.start.r for segment in part.profile}
-    own = tuple(_with_run_out(surface) for surface in part.surfaces)
+    own = tuple(_with_run_out(_with_datum(part, surface)) for surface in part.surfaces)
     names = {surface.name for surface in own}
     usual = (surface for surface in _usual(part, sizes) if surface.name in sizes and surface.name not in names)
     return replace(part, surfaces=(*own, *usual))
+
+
+def _with_datum(part: TurnedPart, surface: Surface) -> Surface:
+    """On the sheet of a ring its outside is datum A, for the body's bore is not there."""
+    return replace(surface, datum="A") if part.name == "race ring" and surface.name == "outside" else surface
 
 
 def _with_run_out(surface: Surface) -> Surface:
@@ -67,7 +73,8 @@ def _usual(part: TurnedPart, sizes: dict[str, float]) -> Iterator[Surface]:
     elif part.name == "cover":
         yield Surface("hole", "cylinder", tolerance_class=HOLE, limits=_limits("housing", HOLE, sizes["hole"]))
     else:
-        yield Surface("web face", "plane", roughness=to_si(0.8, "um"))
+        yield Surface("web face", "plane", roughness=to_si(0.8, "um"),
+                      geometrical=(GeometricalTolerance("perpendicularity", FACE_RUNOUT, "A"),))  # fmt: skip
 
 
 def _limits(seat: str, tolerance_class: str, size: float) -> DeviationLimits | None:
@@ -91,6 +98,11 @@ def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     """Notes of a part's sheet."""
     race = result.parts.race_part.name == part.name
     made = grade(part, race)
+    bought = result.section.bearing_ring
+    if part.name == "race ring" and bought is not None:
+        yield f"Buy: outer ring of the self-aligning ball bearing {bought}, ISO 15 / GOST 28428; no machining."
+        yield "The radius of its sphere is estimated: measure the ring before the drawing is released."
+        return
     yield f"Material: {made.name}."
     if race:
         yield (f"Heat treatment: {made.treatment} to {result.section.hardness}; hard to a depth of at least "
@@ -122,17 +134,26 @@ def assembly_notes(result: "SizeResult") -> Iterator[str]:
 def _fits(result: "SizeResult") -> Iterator[str]:
     """Fits between the parts by their classes."""
     parts = {part.name: demanded(part) for part in result.parts.turned}
-    pairs = [("cover", result.parts.race_part.name, "cover seat", "outside"), ("cover", "body", "hub", "hole")]
+    pairs = [("cover", holder, "cover seat", "outside")
+             for holder in parts if any(edge.surface == "cover seat" for edge in parts[holder].profile)]  # fmt: skip
     if "race ring" in parts:
         pairs.append(("race ring", "body", "ring seat", "outside"))
-    for inner, outer, seat, face in pairs:
+    for inner, outer, seat, face in (*pairs, ("cover", "body", "hub", "hole")):
         hole, shaft = parts[outer].surface(seat), parts[inner].surface(face)
+        size = max(from_si(2 * edge.start.r, "mm") for edge in parts[outer].profile if edge.surface == seat)
+        if hole is None or shaft is None:
+            continue
         if seat == "hub":
-            hole, shaft = shaft, hole
-        if hole is not None and shaft is not None and hole.tolerance_class and shaft.tolerance_class:
-            size = max(from_si(2 * e.start.r, "mm") for e in parts[outer].profile if e.surface == seat)
-            name = "hole of the cover and hub" if seat == "hub" else inner
-            yield f"{name} Ø{digits(size)} {hole.tolerance_class}/{shaft.tolerance_class}"
+            yield f"hole of the cover and hub Ø{digits(size)} {_size(shaft)}/{_size(hole)}"
+        elif hole.thread:
+            yield f"{inner} {hole.thread}"
+        else:
+            yield f"{inner} Ø{digits(size)} {_size(hole)}/{_size(shaft)}"
+
+
+def _size(surface: Surface) -> str:
+    """Tolerance class of a surface, or its limits."""
+    return surface.tolerance_class or limits_text(surface) or "ISO 2768-m"
 
 
 def _balance(result: "SizeResult") -> Iterator[str]:
