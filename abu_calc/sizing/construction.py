@@ -48,8 +48,9 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
     closed, seat = choose_cover(case, parts, force, top), ring_seat(case, parts, force, top)
 
     def roomier() -> Action:
-        gap = TriedRequirement("the gap beside a ball", "mm", lambda *given: 1e3 * filling_gap_of(housing_parts(*given)),
-                          lambda *_: 1e3 * LEAST_FILLING, lambda _, other: other.fillable)  # fmt: skip
+        gap = TriedRequirement("the gap beside a ball", "mm",
+                               lambda *given: 1e3 * filling_gap_of(housing_parts(*given)),
+                               lambda *_: 1e3 * LEAST_FILLING, lambda _, other: other.fillable)  # fmt: skip
         return trials.remedy(case, candidate, trials.more_room(case), gap)
 
     def stronger() -> Action:

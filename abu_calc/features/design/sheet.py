@@ -27,7 +27,6 @@ from abu_calc.reporting.drawings.shapes import SCALES, Drawing, Point, Shape, di
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
-    from abu_calc.simulation.result import Result
 
 COLUMNS: Final = (10.0, 32.0, 13.0, 18.0, 80.0, 27.0)
 """Widths of the parts list."""
@@ -92,7 +91,8 @@ def _notes(result: "SizeResult") -> Iterator[str]:
 
 def size_sheets(result: "SizeResult") -> tuple[Drawing, ...]:
     """The assembly, its parts, and sketches of the swing arm and of bearing seats where the machine has them."""
-    return section_sheet(result), *part_sheets(result, 1 + len(result.parts.turned)), *arm_sheets(result), *seats_of(result, result.fits)
+    parts = part_sheets(result, 1 + len(result.parts.turned))
+    return section_sheet(result), *parts, *arm_sheets(result), *seats_of(result, result.fits)
 
 
 def arm_sheets(result: "SizeResult") -> tuple[Drawing, ...]:

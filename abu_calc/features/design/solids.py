@@ -3,7 +3,6 @@
 import math
 from typing import TYPE_CHECKING
 
-from abu_calc.sizing.parts.housing_parts import MATERIALS
 from abu_calc.reporting.drawings.shapes import plain
 from abu_calc.reporting.solids.assembly import (
     PlacedSolid,
@@ -12,6 +11,7 @@ from abu_calc.reporting.solids.assembly import (
     ball_profile,
     cylinder_profile,
 )
+from abu_calc.sizing.parts.housing_parts import MATERIALS
 from abu_calc.standards.balls import material
 
 if TYPE_CHECKING:

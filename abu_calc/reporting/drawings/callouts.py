@@ -41,7 +41,8 @@ class Callout(NamedTuple):
     @property
     def height(self) -> float:
         """Height on paper [mm]."""
-        return self.above + (PLAIN_ROW if self.below else 0.0) + FRAME_ROW * len(self.frames) + (DATUM_ROW if self.datum else 0.0)
+        hanging = (PLAIN_ROW if self.below else 0.0) + (DATUM_ROW if self.datum else 0.0)
+        return self.above + hanging + FRAME_ROW * len(self.frames)
 
     @property
     def width(self) -> float:

@@ -189,8 +189,9 @@ def _sign(name: str, middle: Point, unit: float) -> tuple[Primitive, ...]:
         case "parallelism":
             return line(-0.9, -1, 0.1, 1), line(-0.1, -1, 0.9, 1)
         case "total runout":
-            return (line(-1.2, -1, 0.2, -1), *arrow((x + 0.4 * reach, y + reach), (x - 1.2 * reach, y - reach), 1 / unit),
-                    *arrow((x + 1.6 * reach, y + reach), (x + 0.2 * reach, y - reach), 1 / unit))  # fmt: skip
+            tips = ((x + (0.4 + 1.2 * index) * reach, y + reach) for index in (0, 1))
+            arrows = (arrow(tip, (tip[0] - 1.6 * reach, y - reach), 1 / unit) for tip in tips)
+            return (line(-1.2, -1, 0.2, -1), *(shape for both in arrows for shape in both))
         case "runout":
             return arrow((x + reach, y + reach), (x - reach, y - reach), 1 / unit)
     raise ValueError(f"no characteristic of ISO 1101: {name}")

@@ -75,6 +75,9 @@ def test_tolerances_are_the_result_s(name: str) -> None:
     sheet = next(each for each in size_sheets(result(name)) if each.name == race)
     space = ezdxf.read(io.StringIO(dxf_text(sheet))).modelspace()
     texts = [each.dxf.text for each in (*space.query("DIMENSION"), *space.query("TEXT"))]
+    if name == "bearing-ring":  # its ring is bought: a sphere without a tolerance of ours
+        assert any(text.startswith("SØ") for text in texts)
+        return
     race_text = f"Ø{2 * one['autobalancer']['race_radius_mm']:.3f}".rstrip("0").rstrip(".") + " ±0.1"
     assert any(text.startswith(race_text) for text in texts)
     assert section["race_tolerance_mm"] == 0.05 and section["groove_tolerance_mm"] == 0.2
@@ -82,7 +85,7 @@ def test_tolerances_are_the_result_s(name: str) -> None:
     if section["bore_limits_um"] is not None:
         every = " ".join(each.dxf.text for each in document(name).modelspace().query("DIMENSION TEXT"))
         low, high = section["bore_limits_um"]
-        assert f"(+{high / 1000:g} / {low:g})" in every and " H6" in every
+        assert f"(+{high / 1000:g} / {low:g})" in every and section["bore_class"] in every
     frames = [each.dxf.content for each in space.query("TOLERANCE")]
     assert f"{{\\Fgdt;e}}%%v{section['circularity_um'] / 1000:g}" in frames
 

@@ -1,4 +1,4 @@
-"""An independent kernel of solids, OpenCASCADE: reads a STEP file, measures, checks, and cuts solids with each other."""
+"""An independent kernel of solids, OpenCASCADE: reads STEP files, measures, checks and cuts solids."""
 
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -7,18 +7,18 @@ import pytest
 
 pytest.importorskip("OCP", reason='the kernel is not installed: pip install "abu-calc[solids]"')
 
-from OCP.BRepAlgoAPI import BRepAlgoAPI_Common  # noqa: E402
-from OCP.BRepCheck import BRepCheck_Analyzer  # noqa: E402
-from OCP.BRepExtrema import BRepExtrema_DistShapeShape  # noqa: E402
-from OCP.BRepGProp import BRepGProp  # noqa: E402
-from OCP.GProp import GProp_GProps  # noqa: E402
-from OCP.STEPCAFControl import STEPCAFControl_Reader  # noqa: E402
-from OCP.TCollection import TCollection_ExtendedString  # noqa: E402
-from OCP.TDataStd import TDataStd_Name  # noqa: E402
-from OCP.collections import Sequence_TDF_Label  # noqa: E402
-from OCP.TDF import TDF_Label  # noqa: E402
-from OCP.TDocStd import TDocStd_Document  # noqa: E402
-from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool  # noqa: E402
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepExtrema import BRepExtrema_DistShapeShape
+from OCP.BRepGProp import BRepGProp
+from OCP.collections import Sequence_TDF_Label
+from OCP.GProp import GProp_GProps
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
 
 class ReadSolid(NamedTuple):

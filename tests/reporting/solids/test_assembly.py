@@ -1,5 +1,6 @@
 """Volumes of solids of revolution by closed forms and by slices; profiles that bound nothing are refused."""
 
+import itertools
 import math
 
 import pytest
@@ -39,7 +40,7 @@ def test_the_volume_is_the_sum_of_frusta(part: RevolvedSolid) -> None:
             (x, r), radius, start, turn = arc_of(here, there)
             points = [(x + radius * math.cos(start + turn * k / 400), r + radius * math.sin(start + turn * k / 400))
                       for k in range(401)]  # fmt: skip
-        for (x, r), (x2, r2) in zip(points, points[1:], strict=False):
+        for (x, r), (x2, r2) in itertools.pairwise(points):
             total -= math.pi * (x2 - x) * (r * r + r * r2 + r2 * r2) / 3
     assert part.volume_mm3 == pytest.approx(total, rel=2e-5)
 

@@ -22,7 +22,7 @@ def test_values_are_spelled(value: object, text: str) -> None:
 @given(st.text())
 def test_strings_hold_ascii_alone_and_read_back(text: str) -> None:
     written = written_string(text)
-    assert written.isascii() and written.isprintable() or written == ""
+    assert (written.isascii() and written.isprintable()) or written == ""
     back = re.sub(r"\\X([24])\\([0-9A-F]+)\\X0\\", lambda match: "".join(
         chr(int(match[2][k : k + 2 * int(match[1])], 16)) for k in range(0, len(match[2]), 2 * int(match[1]))
     ), written.replace("\\\\", "\0"))  # fmt: skip
@@ -46,4 +46,4 @@ def test_equal_values_are_one_entity_and_things_are_not() -> None:
     file = EntityFile()
     assert file.add("DIRECTION", "", (0.0, 0.0, 1.0)) == file.add("DIRECTION", "", (0.0, 0.0, 1.0))
     assert file.own("PRODUCT", "a") != file.own("PRODUCT", "a")
-    assert list(file.lines())[0] == "#1=DIRECTION('',(0.,0.,1.));"
+    assert next(iter(file.lines())) == "#1=DIRECTION('',(0.,0.,1.));"

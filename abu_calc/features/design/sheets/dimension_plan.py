@@ -66,10 +66,10 @@ def dimension_plan(part: TurnedPart) -> DimensionPlan:
     """Dimensions of a part: a diameter for each radius, a length for each place, a radius for each arc."""
     edges = part_edges(part)
     length = max(edge.start[0] for edge in edges)
-    arcs = tuple(edge for edge in edges if edge.centre is not None)
+    arcs = tuple(edge for edge in edges if edge.centre is not None and not _sphere(edge))
     return DimensionPlan(
         edges, length, tuple(_diameters(part, edges, length)), tuple(_lengths(part, edges, length)),
-        tuple((edge.radius, _groove_text(part.surface(edge.surface), edge), edge) for edge in arcs if not _sphere(edge)),
+        tuple((edge.radius, _groove_text(part.surface(edge.surface), edge), edge) for edge in arcs),
     )  # fmt: skip
 
 

@@ -106,7 +106,7 @@ def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     yield f"Material: {made.name}."
     if race:
         yield (f"Heat treatment: {made.treatment} to {result.section.hardness}; hard to a depth of at least "
-               f"{digits(result.section.case_depth_mm)} mm below the ground race. No cracks, no grinding burn.")  # fmt: skip
+               f"{digits(result.section.case_depth_mm)} mm below the ground race; no cracks, no burn.")  # fmt: skip
         yield "Grind race, cover seat and bore in one set-up." if part.name == "body" else (
             "Grind race and outside in one set-up.")  # fmt: skip
         yield "No undercut in the race; dents and scratches are not permitted."
@@ -125,8 +125,8 @@ def assembly_notes(result: "SizeResult") -> Iterator[str]:
     """Closure, fill and balance of the assembly."""
     abu = result.autobalancer
     close = "press on the cover evenly" if result.parts.closure == "pressed" else "screw on the cover"
-    yield (f"Assembly: wash and oil the race, lay in {abu.ball_count} {abu.corrector}s of one lot before the cover, fill "
-           f"the oil, {close} to its stop; its face is flush with the body.")  # fmt: skip
+    yield (f"Assembly: wash and oil the race, lay in {abu.ball_count} {abu.corrector}s of one lot before the cover, "
+           f"fill the oil, {close} to its stop; its face is flush with the body.")  # fmt: skip
     yield f"Fits: {'; '.join(_fits(result))}."
     yield from _balance(result)
 
@@ -164,6 +164,7 @@ def _balance(result: "SizeResult") -> Iterator[str]:
     permitted = float(grade_name.removeprefix("G")) / speed * mass
     yield (
         f"Balance (ISO 21940-11): assembled, without {abu.corrector}s and oil; mass {digits(mass, 1)} g; highest speed "
-        f"{from_si(speed, 'rpm'):.0f} rpm; grade {grade_name}; one tolerance plane, the middle of the race; permissible "
-        f"residual imbalance {permitted:.3g} g·mm about the bore (A). Correct by drilling the rim's outside, ≤ 1 mm deep."
+        f"{from_si(speed, 'rpm'):.0f} rpm; grade {grade_name}; one tolerance plane, the middle of the race; "
+        f"permissible residual imbalance {permitted:.3g} g·mm about the bore (A). Correct by drilling the rim's "
+        "outside, ≤ 1 mm deep."
     )

@@ -53,7 +53,8 @@ def part_sheet(result: "SizeResult", part: TurnedPart, sheet: int, sheets: int) 
                                                              BINDING + 4, MARGIN + 3))  # fmt: skip
     described = f"Sheet {sheet} of {sheets}: {part.name}, {grade(part, race).name}, {digits(1e3 * part.mass, 1)} g."
     name = part.name.replace(" ", "-")
-    return on_paper(name, f"{part.name} of the autobalancer, {plain(result.title)}", described, scale, views, paper, below)
+    title = f"{part.name} of the autobalancer, {plain(result.title)}"
+    return on_paper(name, title, described, scale, views, paper, below)
 
 
 def number(result: "SizeResult", sheet: int) -> str:
@@ -66,8 +67,8 @@ def origin(result: "SizeResult") -> dict[str, str]:
     source = result.provenance
     name = PurePath(source.file.replace("\\", "/")).name if source.file else "no file"
     replaced = f", {many(len(source.overrides), 'entry', 'entries')} replaced" if source.overrides else ""
-    return {"date": source.date, "creator": f"abu-calc {source.version}", "status": "design", "file": f"{name}{replaced}",
-            "sha256": source.sha256 or "–", "checks": verdict(result)}  # fmt: skip
+    return {"date": source.date, "creator": f"abu-calc {source.version}", "status": "design",
+            "file": f"{name}{replaced}", "sha256": source.sha256 or "–", "checks": verdict(result)}  # fmt: skip
 
 
 def verdict(result: "Result") -> str:

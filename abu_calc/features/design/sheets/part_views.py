@@ -37,7 +37,7 @@ NAMES: Final = {"run-out": "runout"}
 
 
 def part_section(part: TurnedPart, plan: DimensionPlan, scale: float, detailed: frozenset[str]) -> tuple[Shape, ...]:
-    """The section, its axis along y = 0 and its left face at x = 0; `detailed`: surfaces that the detail tells about."""
+    """The section, its axis along y = 0 and its left face at x = 0; `detailed`: surfaces of the detail."""
     unit, outer = 1 / scale, max(edge.start[1] for edge in plan.edges)
     mark = tuple(detail_mark(plan, scale)) if detailed else ()
     lowest = -extent(mark, scale)[0][1] if mark else outer
@@ -119,7 +119,7 @@ def _top(edges: Sequence[Edge], x: float) -> float:
 
 
 def _diameter_lines(plan: DimensionPlan, unit: float) -> tuple[list[Shape], Words]:
-    """Lines of diameters on both sides, the smallest nearest; texts without room, by the surface that shall tell them."""
+    """Lines of diameters on both sides, the smallest nearest; texts without room, by their surface."""
     shapes, wordy = list[Shape](), Words()
     for side in ("left", "right"):
         own = sorted((each for each in plan.diameters if each.side == side), key=lambda each: each.value)
@@ -200,7 +200,7 @@ def _floor(edges: Sequence[Edge]) -> float:
 
 
 def race_detail(part: TurnedPart, plan: DimensionPlan, scale: float, enlarged: float) -> tuple[Shape, ...]:
-    """The race's corner, so many times as large as the section, cut off below by a thin line; nothing without a race."""
+    """The race's corner, so many times as large as the section, cut off below by a thin line."""
     race, floor = _race(plan.edges), _floor(plan.edges)
     if race is None:
         return ()
@@ -211,7 +211,7 @@ def race_detail(part: TurnedPart, plan: DimensionPlan, scale: float, enlarged: f
 
     angle, spacing = HATCHES[part.name]
     shapes = list[Shape]()
-    outline = list(_above([point for point in flattened([(*e.start, e.bulge) for e in plan.edges], 48)], floor))
+    outline = list(_above(list(flattened([(*e.start, e.bulge) for e in plan.edges], 48)), floor))
     shapes.append(Region(tuple((*place(point), 0.0) for point in outline), part.name, angle, spacing, outlined=False))
     for here, there in pairwise((*outline, outline[0])):
         cut = abs(here[1] - floor) < 1e-9 and abs(there[1] - floor) < 1e-9
@@ -222,11 +222,13 @@ def race_detail(part: TurnedPart, plan: DimensionPlan, scale: float, enlarged: f
         shapes.append(Line("centre", place((x, low)), place((x, top + 2 / enlarged))))
     (_, _), (right, high) = extent(shapes, scale)
     told = detail_surfaces(plan.edges)
-    callouts = [*_radii(plan, place), *_demands(part, plan.edges, told, frozenset(), _diameter_lines(plan, 1 / scale)[1], place)]
+    wordy = _diameter_lines(plan, 1 / scale)[1]
+    callouts = [*_radii(plan, place), *_demands(part, plan.edges, told, frozenset(), wordy, place)]
     left = [each for each in callouts if each.tip[0] < 0.02 * plan.length * factor]
     shapes += column(left, -10 / scale, high, "left", scale)
     shapes += column([each for each in callouts if each not in left], right + 10 / scale, high, "right", scale)
-    shapes.append(Text(((plan.length * factor) / 2, high + 5 / scale), f"Z ({_ratio(enlarged)})", 1.4 * HEIGHT, "centre"))
+    at = plan.length * factor / 2, high + 5 / scale
+    shapes.append(Text(at, f"Z ({_ratio(enlarged)})", 1.4 * HEIGHT, "centre"))
     return tuple(shapes)
 
 

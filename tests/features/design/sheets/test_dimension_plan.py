@@ -45,8 +45,10 @@ def test_lengths_are_a_tree_over_all_places(name: str, index: int) -> None:
 def test_each_diameter_stands_once(name: str, index: int) -> None:
     """Cylinders once each, the groove at its bottom, the groove's ends in brackets, for they follow."""
     part, plan = planned(name, index)
-    cylinders = {round(2e3 * each.start.r, 6) for each in part.profile
-                 if each.straight and abs(each.start.r - each.end.r) < 1e-12}  # fmt: skip
+    asked = {(round(2e3 * each.start.r, 6), _size_demands(part, each.surface)) for each in part.profile
+             if each.straight and abs(each.start.r - each.end.r) < 1e-12}  # fmt: skip
+    # A stretch that nothing is asked of needs no dimension where another of its diameter has one.
+    cylinders = [size for size, demand in asked if any(demand) or [other for other, _ in asked].count(size) == 1]
     arcs = [each for each in part.profile if not each.straight]
     own = [each.value for each in plan.diameters if not each.reference and not any(
         each.surface == arc.surface for arc in arcs)]  # fmt: skip
@@ -54,7 +56,9 @@ def test_each_diameter_stands_once(name: str, index: int) -> None:
     for arc in arcs:
         bottom = 2e3 * (arc.centre.r + arc.radius)
         assert near([each.value for each in plan.diameters if each.surface == arc.surface], bottom) == 1
-        assert [radius for radius, _, _ in plan.radii] == pytest.approx([1e3 * arc.radius])
+        sphere = abs(arc.centre.r) < 1e-9  # whose diameter says its radius
+        assert [radius for radius, _, _ in plan.radii] == pytest.approx([] if sphere else [1e3 * arc.radius])
+        assert any(each.text.startswith("SØ") for each in plan.diameters) == sphere
     for each in plan.diameters:
         assert each.reference == each.text.startswith("(")
         if each.reference:
@@ -63,6 +67,13 @@ def test_each_diameter_stands_once(name: str, index: int) -> None:
             half = 1e3 * abs(arc.end.z - arc.start.z) / 2
             follows = 2 * (1e3 * arc.centre.r + math.sqrt((1e3 * arc.radius) ** 2 - half**2))
             assert follows == pytest.approx(each.value, abs=1e-6)
+
+
+def _size_demands(part: TurnedPart, name: str) -> tuple[object, ...]:
+    surface = part.surface(name)
+    if surface is None:
+        return ()
+    return surface.thread, surface.tolerance_class, surface.limits, surface.plus_minus
 
 
 @pytest.mark.parametrize(("name", "index"), PARTS)
