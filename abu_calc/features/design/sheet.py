@@ -62,7 +62,7 @@ def section_sheet(result: "SizeResult") -> Drawing:
 def parts_rows(result: "SizeResult") -> list[tuple[str, ...]]:
     """Rows of the parts list from below, its head first: item, part, quantity, material, grade, mass."""
     abu, race = result.autobalancer, result.parts.race_part.name
-    rows = [("item", "part", "number", "material", "grade", "mass, g")]
+    rows: list[tuple[str, ...]] = [("item", "part", "number", "material", "grade", "mass, g")]
     for item, (part, made) in enumerate(zip(result.section.parts, result.parts.turned, strict=True), 1):
         named = grade(made, made.name == race).name
         rows.append((str(item), part.name, "1", part.material, named, digits(part.mass_g, 2)))

@@ -79,7 +79,7 @@ def _usual(part: TurnedPart, sizes: dict[str, float]) -> Iterator[Surface]:
 
 def _limits(seat: str, tolerance_class: str, size: float) -> DeviationLimits | None:
     try:
-        return part_limits(seat, tolerance_class, size)  # type: ignore[arg-type]
+        return part_limits(seat, tolerance_class, size)
     except AbuError:
         return None
 

@@ -55,7 +55,7 @@ def part_section(part: TurnedPart, plan: DimensionPlan, scale: float, detailed: 
         own = [each for each in _demands(part, plan.edges, frozenset(), detailed, wordy, _same)
                if (each.tip[0] < plan.length * 0.25) == (side == "left")]  # fmt: skip
         x = left - GAP * unit if side == "left" else right + GAP * unit
-        shapes += rising_column(own, x, outer + RISE / scale, side, scale)  # type: ignore[arg-type]
+        shapes += rising_column(own, x, outer + RISE / scale, side, scale)
     return tuple(shapes)
 
 
@@ -104,11 +104,11 @@ def _lengths(plan: DimensionPlan, outer: float, lower: float, unit: float) -> It
     above = sorted((each for each in plan.lengths if each.start < 1e-9), key=lambda each: each.end)
     below = sorted((each for each in plan.lengths if each.start >= 1e-9), key=lambda each: -each.start)
     for row, each in enumerate(above):
-        ends = tuple((x, _top(plan.edges, x)) for x in (0.0, each.end))
-        yield Length(*ends, outer + (STACK + STEP * row) * unit, each.text, beyond="start")  # type: ignore[misc]
+        start, end = (0.0, _top(plan.edges, 0.0)), (each.end, _top(plan.edges, each.end))
+        yield Length(start, end, outer + (STACK + STEP * row) * unit, each.text, beyond="start")
     for row, each in enumerate(below):
-        ends = tuple((x, -_top(plan.edges, x)) for x in (each.start, each.end))
-        yield Length(*ends, -outer - lower - (STACK + STEP * row) * unit, each.text, beyond="end")  # type: ignore[misc]
+        start, end = (each.start, -_top(plan.edges, each.start)), (each.end, -_top(plan.edges, each.end))
+        yield Length(start, end, -outer - lower - (STACK + STEP * row) * unit, each.text, beyond="end")
 
 
 def _top(edges: Sequence[Edge], x: float) -> float:
