@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Final, Literal
 
 from abu_calc.formulas.balls import INERTIA_FACTORS
-from abu_calc.formulas.body_estimate import BodyEstimate, PlacedBody, estimated_body
+from abu_calc.formulas.body_estimate import KEYS, BodyEstimate, PlacedBody, estimated_body
 from abu_calc.formulas.rigid_body import Inertia, RigidBody, Vector
 from abu_calc.formulas.suspension import Hands, Springs, SuspensionReaction
 from abu_calc.foundation.errors import InputError, Place
@@ -237,9 +237,19 @@ def _body(machine: MachineFile) -> RigidMachine:
     lengths = {name: to_si(value, "mm") for name, value in (("L", top.length_mm), ("H", top.height_mm)) if value}
     radius = to_si(machine.wheel.diameter_mm, "mm") / 2
     polar = top.rotor_polar_inertia_kg_m2
-    estimate = estimated_body(
-        top.layout, mass, lengths, machine.wheel.mass_kg * radius**2 / 2 if polar is None else polar, wheel
-    )
+    try:
+        estimate = estimated_body(
+            top.layout, mass, lengths, machine.wheel.mass_kg * radius**2 / 2 if polar is None else polar, wheel
+        )
+    except InputError as error:
+        if polar is not None or error.place.key != "machine.rotor_polar_inertia_kg_m2":
+            raise
+        name = "L" if "L" in lengths else "H"
+        raise InputError(
+            "the machine is too short for its wheel, whose polar inertia exceeds that of the estimated body",
+            place=Place(key=KEYS[name]), found=f"{1000 * lengths[name]:g} mm",
+            remedy="Correct the length, or specify machine.rotor_polar_inertia_kg_m2.",
+        ) from None
     return RigidMachine(estimate.nominal.body, estimate.nominal.wheel, in_space=True, estimate=estimate)
 
 

@@ -11,6 +11,7 @@ from abu_calc.features.grinding.lower_bound import LevelBound
 from abu_calc.features.grinding.outcomes import LoadedStarts
 from abu_calc.formulas.body_estimate import estimate_source
 from abu_calc.formulas.friction_band import friction_band
+from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
@@ -134,11 +135,18 @@ class AccuracyBudget(Record):
     rolling_friction_worst_um: Annotated[
         float | None, Quantity("dry friction, worst friction case", "", 3, "over all arrangements of the balls")
     ]
+    rolling_friction_vertical_um: Annotated[
+        float | None, Quantity("worst friction case with the spindle vertical", "", 3, "without gravity along the race")
+    ]
+    friction_number: Annotated[
+        float | None, Quantity("friction over gravity", "Λ", 3, "below 1 gravity shakes friction out")
+    ]
     race_ovality_um: Annotated[float | None, Quantity("two-lobe ovality of the race", "2a_k", 3)]
     plane_offset_um: Annotated[float | None, Quantity("race off the wheel's plane", "", 3)]
     capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
     worst_um: Annotated[float | None, Quantity("largest residual (plain sum)", "", 3)]
+    worst_vertical_um: Annotated[float | None, Quantity("largest residual with the spindle vertical", "", 3)]
     permitted_um: Annotated[float | None, Quantity("permitted by the limit", "", 3)]
     rolling_friction_reached_um: Annotated[float | None, Quantity("friction band of simulated balls", "", 3)] = None
 
@@ -147,13 +155,18 @@ class AccuracyBudget(Record):
         """Record of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
         candidate, budget = design.autobalancer, design.autobalancer.budget
         worst = next(each for each in design.worst if each.speed == budget.speed)
-        band = None
+        band, geometry = None, (candidate.pitch_radius, candidate.ball_diameter / 2)
         if reached is not None:
-            band = friction_band(design.case.friction_arm, candidate.pitch_radius, candidate.ball_diameter / 2, reached)
+            band = friction_band(design.case.friction_arm, *geometry, reached)
+        horizontal, upright = worst.vertical is not None, worst.upright
+        number = friction_number(design.case.friction_arm, *geometry, budget.speed) if horizontal else None
         return cls.read(
             budget,
             rolling_friction_worst_um=_um(worst.rolling_friction),
+            rolling_friction_vertical_um=_um(upright.rolling_friction),
+            friction_number=number,
             worst_um=_um(worst.residual),
+            worst_vertical_um=_um(upright.residual),
             rolling_friction_reached_um=None if band is None else _um(band),
         )
 
@@ -258,6 +271,7 @@ class Vibration(Record):
             "highest_level_band_db",
             "by_speed",
             "worst_arrangement",
+            "worst_arrangement_vertical",
             "parts",
             "steady_level_after_db",
             "level_at_once_db",
@@ -278,6 +292,7 @@ class Vibration(Record):
     at_idle_speed: IdleSpeedLevels | None = None
     by_speed: tuple[SpeedLevel, ...] | None = None
     worst_arrangement: SpeedLevel | None = None
+    worst_arrangement_vertical: SpeedLevel | None = None
     parts: Annotated[bool | None, Quantity("wheel and work part")] = None
     steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
@@ -308,6 +323,7 @@ class Vibration(Record):
             highest_level_band_db=None if bands is None else bands.level,
             by_speed=None if levels is None else tuple(map(SpeedLevel.read, levels.by_speed)),
             worst_arrangement=None if levels is None else SpeedLevel.read(levels.arranged),
+            worst_arrangement_vertical=None if levels is None else SpeedLevel.read(levels.upright or levels.arranged),
         )
 
     @classmethod

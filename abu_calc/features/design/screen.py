@@ -82,7 +82,7 @@ def size_screen(result: SizeResult) -> tuple[Block, ...]:
             break
     room = LINES - height([*about, *body, *below, *last])
     fitting = fitted(notes, [], room - 2) if notes and room > LEAST_NOTES else []
-    if fitting:
+    if fitting and fitting[0] is notes[0]:  # a heading over nothing but a count says less than the last lines
         below += [Heading("Notes", "warnings"), *fitting]
         last = _closing(result, 0, hidden)
     return (*about, *body, *below, *last)
@@ -299,7 +299,10 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
         cases.append(judged(label, further.level_db, decides=False))
     if vibration.worst_arrangement is not None:
         label = "  worst friction case"
-        cases.append(judged(label, vibration.worst_arrangement.level_after_db, decides=False))
+        worst, upright = vibration.worst_arrangement, vibration.worst_arrangement_vertical
+        cases.append(judged(label, worst.level_after_db, decides=False))
+        if upright is not None and upright.level_after_db >= worst.level_after_db + TENTH:
+            cases.append(Case("    spindle held vertical", _db(upright.level_after_db)))
     return [*cases, *_at_idle_speed(result), *_measured(result), *_under_load(result.vibration_loaded)]
 
 

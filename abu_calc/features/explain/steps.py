@@ -78,6 +78,7 @@ STEPS: Final[Mapping[str, Step]] = {
         (
             "formulas.friction_band:friction_band",
             "formulas.friction_band:worst_friction",
+            "formulas.shaken_friction:remaining_band",
             "sizing.budget:ovality_residual",
             "sizing.budget:permitted_displacement",
             "sizing.place_response:plane_rest",
@@ -159,7 +160,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "identify": Step(
         "Drag, friction and eccentricity from recorded starts (`abu identify`)",
-        ("features.identification.formulas:friction_number", "features.identification.formulas:equivalent_drag"),
+        ("formulas.shaken_friction:friction_number", "features.identification.formulas:equivalent_drag"),
     ),
     "grinding": Step(
         "Machine at its workpiece",

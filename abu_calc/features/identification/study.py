@@ -22,7 +22,6 @@ from abu_calc.features.identification.estimate import (
     inside,
     narrowed,
 )
-from abu_calc.features.identification.formulas import friction_number
 from abu_calc.features.identification.tracks import (
     RecordedStart,
     Signal,
@@ -31,6 +30,7 @@ from abu_calc.features.identification.tracks import (
     recorded_start,
     window_centres,
 )
+from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.checks import CHECK_CODES, Check, coded
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass

@@ -129,9 +129,17 @@ def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> 
 
 def test_a_case_beyond_its_limit_points_to_its_action() -> None:
     """The worst friction case warns; the number of its action stands below, with what it changes."""
-    lines = once("size", "avtovaz-707-222").out
+    lines = once("size", "avtovaz-707-222", "--set", "machine.spindle_axis=vertical").out
     assert row_of(lines, "worst friction case").split() == ["113.5", "109", "WARN", "1"]
+    assert "spindle held vertical" not in lines
     assert re.search(r"1 WARN ABU401: Set .* from 113\.5 to \d+\.\d dB \(calculated\)", flat(lines))
+
+
+def test_a_horizontal_spindle_shows_the_case_held_vertical_too() -> None:
+    """Gravity shakes friction out of the horizontal machine; a hand tool gets turned."""
+    lines = once("size", "avtovaz-707-222").out
+    assert row_of(lines, "worst friction case").split() == ["105.4", "109", "pass"]
+    assert row_of(lines, "spindle held vertical").split() == ["113.5"]
     assert "pressed earlier" in lines and "LOUDER THAN WITHOUT" in lines
 
 
