@@ -97,7 +97,7 @@ def _no_ring(case: Case, diameter: float) -> InputError:
         place=Place(key="autobalancer.design"),
         found="bearing-ring",
         allowed="one-piece, light",
-        remedy=f"{nearest_ring(case, diameter)}. Or specify another design.",
+        remedy=f"{nearest_ring(case, diameter)} Or specify another design.",
     )
 
 

@@ -127,7 +127,7 @@ def nearest_ring(case: Case, ball_diameter: float) -> str:
     outer, width = (from_si(length, "mm") for length in _envelope(ring))
     return (
         f"The nearest that fits is {ring.designation} (R {from_si(ring.sphere_radius, 'mm'):.2f} mm): specify "
-        f"max_outer_diameter_mm = {outer:g} and max_width_mm = {width:g} at least"
+        f"max_outer_diameter_mm = {outer:g} and max_width_mm = {width:g} at least."
     )
 
 

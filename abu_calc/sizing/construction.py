@@ -3,6 +3,7 @@
 from abu_calc.foundation.checks import Action, Check
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
@@ -48,10 +49,9 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
     closed, seat = choose_cover(case, parts, force, top), ring_seat(case, parts, force, top)
 
     def roomier() -> Action:
-        gap = TriedRequirement("the gap beside a ball", "mm",
-                               lambda *given: 1e3 * filling_gap_of(housing_parts(*given)),
-                               lambda *_: 1e3 * LEAST_FILLING, lambda _, other: other.fillable)  # fmt: skip
-        return trials.remedy(case, candidate, trials.more_room(case), gap)
+        required = TriedRequirement("the gap beside a ball", "mm", _gap_mm, lambda *_: from_si(LEAST_FILLING, "mm"),
+                                    lambda _, other: other.fillable)  # fmt: skip
+        return trials.remedy(case, candidate, trials.more_room(case), required)
 
     def stronger() -> Action:
         ratio = TriedRequirement("the burst ratio", "", _burst, lambda *_: BURST_RATIO, _strong)
@@ -68,6 +68,10 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
         *ring_check(case, candidate.race_radius),
     )
     return Construction(with_surfaces(parts, split, quality, closed, seat), quality, closed, seat, checks)
+
+
+def _gap_mm(case: Case, candidate: Candidate) -> float:
+    return from_si(filling_gap_of(housing_parts(case, candidate)), "mm")
 
 
 def _burst(case: Case, candidate: Candidate) -> float:

@@ -119,6 +119,16 @@ def about(result: SizeResult) -> list[Block]:
             *make(result)]  # fmt: skip
 
 
+def _eccentricity(result: SizeResult) -> str:
+    """The total that the simulation uses, run-outs of race and spindle, and the fit."""
+    split = result.eccentricity
+    fit = "no standard fit" if split.bore_class is None else f"{split.bore_class}/{split.spindle_class}"
+    return (
+        f"{number(split.total_um, 3)} µm at most: race TIR {number(2 * split.race_um, 3)} µm, {fit}, spindle TIR "
+        f"{number(2 * split.spindle_um, 3)} µm"
+    )
+
+
 def make(result: SizeResult) -> list[Block]:
     """Parts to make or buy, in a few rows."""
     abu, section = result.autobalancer, result.section
@@ -140,8 +150,7 @@ def make(result: SizeResult) -> list[Block]:
             f"{abu.housing.split(':')[0]}, Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
             f"{section.bore_diameter_mm:g} mm {section.bore_class}",
         ),
-        Case("Eccentricity", f"{number(section.runout_um / 2, 3)} µm at most, race to spindle (TIR "
-             f"{number(section.runout_um, 3)} µm)"),
+        Case("Eccentricity", _eccentricity(result)),
         Case("Capacity", f"{number(abu.capacity_g_mm, 5)} g·mm ({capacity})"),
         Case("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
     )  # fmt: skip
@@ -475,7 +484,8 @@ def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
     """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
     hidden = [many(count, name) for count, name in ((gaps, "more data gap"), (notes, "note")) if count]
     sentences = [starts_and_defaults(result), f"{', '.join(hidden)}: --full." if hidden else ""]
-    code = next((check.code for check in sorted(result.checks, key=_rank) if check.status != "pass"), "ABU401")
+    asked = [check for check in sorted(result.checks, key=_rank) if check.requested and check.status != "pass"]
+    code = asked[0].code if asked else "ABU401"
     commands = ["--full", "--explain", "--output report.html", f"`abu explain {code}`"]
     if result.swing_arm:
         commands[2:2] = [f"`abu stability {file_of(result)} --scene swing-arm-cutting`"]

@@ -29,6 +29,8 @@ GAP: Final = 8.0
 """Distance from the last dimension to the callouts, on paper [mm]."""
 CUT: Final = 0.35
 """Depth of the detail below the shoulder of the race, as a share of its height above it."""
+THIN: Final = 0.7
+"""A part whose bore is so large a share of its outside is a ring: its whole section is enlarged."""
 NEAR: Final = 1e-5
 """A step [mm] to either side of a place."""
 Words = dict[tuple[str, bool], tuple[str, str]]
@@ -195,7 +197,9 @@ def _floor(edges: Sequence[Edge]) -> float:
     race, outer = _race(edges), max(edge.start[1] for edge in edges)
     if race is None:
         return math.inf
-    shoulder = min(race.start[1], race.end[1])
+    shoulder, least = min(race.start[1], race.end[1]), min(edge.start[1] for edge in edges)
+    if least > THIN * outer:
+        return least - 1.0
     return max(shoulder - CUT * (outer - shoulder), min(edge.start[1] for edge in edges) - 1.0)
 
 
