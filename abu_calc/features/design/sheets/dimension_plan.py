@@ -163,8 +163,11 @@ def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iter
     for before, after in pairwise((*edges, edges[0])):
         # A corner between faces and cones only.
         radius = before.end[1]
-        if radius > SAME and before.centre is None and after.centre is None and all(
-            abs(radius - other) > SAME for other in known
+        if (
+            radius > SAME
+            and before.centre is None
+            and after.centre is None
+            and all(abs(radius - other) > SAME for other in known)
         ):
             known.append(radius)
             yield Diameter(2 * radius, before.end[0], f"Ø{size_text(2 * radius, False)}", "",
