@@ -56,6 +56,7 @@ from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.parts.housing_parts import HousingParts
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -144,7 +145,7 @@ class SizeResult(Result):
 
     command: ClassVar[str] = "size"
     optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion", "oil"})
-    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts", "parts"}
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -178,6 +179,8 @@ class SizeResult(Result):
     """The same at work."""
     starts: Starts = field(compare=False, repr=False)
     """Some starts of the ensemble, run again when they are asked for."""
+    parts: HousingParts = field(compare=False, repr=False)
+    """Geometry of the parts, for drawings and solids."""
 
     @property
     def candidates(self) -> Rows[AutobalancerRecord]:
@@ -321,6 +324,7 @@ def size(
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
+        parts=design.construction.parts,
     )
 
 

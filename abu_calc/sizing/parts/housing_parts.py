@@ -98,8 +98,11 @@ def body_profile(size: HousingDimensions) -> Profile:
     )
     if not size.has_ring:
         return closed((*hub, *_race(size), Corner(size.width, size.seat_radius, "open face"), *outside))
+    # A cover that is seated beside the ring has a seat of its own on the same diameter.
+    beside = size.ring_end <= size.cover_start
     seat = (
         Corner(size.web, size.ring_radius, "ring seat"),
+        *((Corner(size.ring_end, size.ring_radius, "cover seat"),) if beside else ()),
         Corner(size.width, size.ring_radius, "open face"),
     )
     return closed((*hub, *seat, *outside))
