@@ -1,5 +1,7 @@
 """One small optimisation that several tests look at."""
 
+from typing import Any
+
 import pytest
 
 import abu_calc
@@ -10,7 +12,7 @@ CHOICES = {
     "autobalancer.race_eccentricity_mm": "choice(0.005, 0.03)",
     "autobalancer.rolling_drag_per_s": "choice(4, 20)",
 }
-OPTIONS = {"share": 0.9, "runs": 100, "samples": 600}
+OPTIONS: dict[str, Any] = {"share": 0.9, "runs": 100, "samples": 600}
 
 
 @pytest.fixture(scope="session")

@@ -26,7 +26,7 @@ def meets(variant: int, places: np.ndarray) -> np.ndarray:
     capacity = 120 * balls
     viscous = drag * np.exp(0.5 * ndtri(places[:, 2]))
     settling = 8 / viscous * (1 + 0.3 * places[:, 3]) * (1 + imbalance / capacity / 3)
-    return (own < 9) & (imbalance + 20 * own < capacity) & (settling < 1)
+    return np.asarray((own < 9) & (imbalance + 20 * own < capacity) & (settling < 1))
 
 
 def raced(seed: int, target: float = TARGET, budget: int = 10**9) -> CandidateRace:
