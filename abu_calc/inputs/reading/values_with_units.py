@@ -144,7 +144,7 @@ def _tables(
     for key, value in content.items():
         if not isinstance(value, (dict, list)) or key not in model.model_fields:
             continue
-        inner = subtable(model, key)
+        inner = _subtable(model, key)
         if inner is None:
             continue
         if isinstance(value, dict):
@@ -153,6 +153,10 @@ def _tables(
             for index, item in enumerate(value):
                 if isinstance(item, dict):
                     yield from _tables(item, inner, (*path, key, index))
+
+
+_subtable = cache(subtable)
+"""The model of a table below a table, looked up once."""
 
 
 def _is_written(value: object) -> bool:
