@@ -193,7 +193,7 @@ def radial_clearance(group: str, bore: float) -> ClearanceLimits:
     """Radial internal clearance of a group for a bore [m], by the row of the table.
 
     Range: deep groove ball bearings with cylindrical bore, over 2.5 up to 200 mm (RangeError); C2, CN, C3, C4,
-    C5 (InputError). Source: ISO 5753-1:2009; over 100 mm not held against a second print.
+    C5 (InputError). Source: ISO 5753-1:2009, as makers' catalogues print it.
 
     >>> radial_clearance("CN", 0.017)
     ClearanceLimits(smallest=3e-06, largest=1.8e-05)
@@ -236,6 +236,7 @@ PAIRS: Final = ("CA", "CB", "CC", "GA", "GB", "GC")
 _SEPARATORS: Final = " -/.,"
 # Shields and seals of GOST names: 60203, 80203 shields, 160203, 180203 seals.
 _GOST_CLOSED: Final = re.compile(r"(60|80|160|180)(\d{3})$")
+_SMALL: Final = re.compile(r"61([89])/(\d(?:\.5)?)(?![\d.])")
 _LIKE_BALL: Final = re.compile(r"(NUP|NU|NJ|NF|N)(\d)(\d\d)")
 _TYPES: Final = (
     (re.compile(r"(NUP|NU|NJ|NF|NN|N)\s*\d{3,4}"), "cylindrical roller bearings of this number", "cylindrical"),
@@ -245,18 +246,25 @@ _TYPES: Final = (
 )
 
 
+Closure = Literal["shields", "seals"]
+"""Shields and seals without contact; seals that rub on the inner ring."""
+_RUBBING: Final = re.compile(r"2?RS(?!L)|2NS|LLU|LLH|DD")
+
+
 class Designation(NamedTuple):
-    """Sizes by the basic number; the clearance group and the accuracy class that the suffixes name (None: none)."""
+    """Sizes by the basic number; the clearance group, the accuracy class and the closure that the suffixes name (None:
+    none)."""
 
     size: Dimensions
     group: str | None
     accuracy: str | None
+    closure: Closure | None = None
 
 
 def read_designation(text: str) -> Designation:
     """A designation with its suffixes: 6203-2RS, 6203ZZ, 6203-2Z/C3, 180203.
 
-    Seals, shields, cages, snap rings and greases do not change the seats and are passed over.
+    Cages, snap rings and greases change neither seats nor ratings and are passed over. Seals change the limiting speed.
     InputError: a number that is not tabulated, a suffix that is not known.
 
     >>> read_designation("6203-2RS1/C3").group, read_designation("6203ZZ").size.designation
@@ -264,23 +272,33 @@ def read_designation(text: str) -> Designation:
     """
     spaced = " ".join(text.upper().split()).translate(str.maketrans("АВС", "ABC"))
     name = spaced.replace(" ", "")
+    name = _as_nsk(name)
+    closure: Closure | None = None
     if (closed := _GOST_CLOSED.fullmatch(name)) and closed[2].lstrip("0") in known_names():
-        name = closed[2].lstrip("0")
+        name, closure = closed[2].lstrip("0"), "seals" if len(closed[1]) > 2 else "shields"
     if name in known_names():
-        return Designation(bearing(name), None, None)
+        return Designation(bearing(name), None, None, closure)
     if (row := _NU.match(name)) and catalogue_bearing(row[0]):
         return Designation(bearing(row[0]), *_suffixes(name[row.end() :], text, row[0]))
     for written in (name, spaced):
         basic = max((prefix for prefix in known_names() if written.startswith(prefix)), key=len, default=None)
         if basic is not None and not written[len(basic)].isdigit():
-            group, accuracy = _suffixes(written[len(basic) :], text, basic)
-            return Designation(bearing(basic), group, accuracy)
+            return Designation(bearing(basic), *_suffixes(written[len(basic) :], text, basic))
     _refuse_other_types(name, text)
     return Designation(bearing(text), None, None)  # refused there, with the nearest known
 
 
-def _suffixes(rest: str, text: str, basic: str) -> tuple[str | None, str | None]:
+def _as_nsk(name: str) -> str:
+    """The name that the table has for miniature bearings of SKF: 618/2.5 is 682X of NSK."""
+    small = _SMALL.match(name)
+    if small is None or f"61{small[1]}/{small[2]}" in known_names():
+        return name
+    return f"6{small[1]}{small[2][0]}{'X' if '.' in small[2] else ''}{name[small.end() :]}"
+
+
+def _suffixes(rest: str, text: str, basic: str) -> tuple[str | None, str | None, Closure | None]:
     group = accuracy = None
+    closure: Closure | None = None
     while rest := rest.lstrip(_SEPARATORS):
         token = next(((m, what) for pattern, what in _TOKENS if (m := re.match(pattern, rest))), None)
         if token is None:
@@ -291,13 +309,15 @@ def _suffixes(rest: str, text: str, basic: str) -> tuple[str | None, str | None]
             )
         match, what = token
         rest = rest[match.end() :]
+        if what == "closure":
+            closure = "seals" if _RUBBING.match(match[0]) else closure or "shields"
         if what == "class and group":
             accuracy, group = match[1], f"C{match[2]}"
         elif what == "class":
             accuracy = match[0].removeprefix("P")
         elif what == "group" or (what == "roller or pair" and match[0] in PAIRS and basic[0] == "7"):
             group = match[0]
-    return group, accuracy
+    return group, accuracy, closure
 
 
 def _refuse_other_types(name: str, text: str) -> None:

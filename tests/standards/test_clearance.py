@@ -6,8 +6,9 @@ import pytest
 
 from abu_calc.foundation.errors import InputError, RangeError
 from abu_calc.standards.bearing_catalogue import GROUPS, of_size, radial_clearance
+from abu_calc.standards.internal_clearance import internal_clearance
 from abu_calc.standards.tables import csv_rows
-from tests.standards.second_sources import SHJF_CLEARANCE, TPI_CLEARANCE
+from tests.standards.second_sources import NSK_CLEARANCE, SHJF_CLEARANCE, SKF_PAIRS, TPI_CLEARANCE
 
 BORES = (4, 8, 17, 20, 25, 35, 45, 60, 70, 90, 110, 130, 150, 170, 190)
 
@@ -25,10 +26,22 @@ def test_rows_up_to_100_mm_agree_with_the_catalogues(source):
             assert tuple(ours)[: len(row)] == row, bore
 
 
-def test_the_rows_without_a_second_source_are_those_over_100_mm():
-    confirmed = max(*TPI_CLEARANCE, *SHJF_CLEARANCE)
-    alone = {float(row[1]) for row in csv_rows("radial_clearance") if float(row[2]) > confirmed}
-    assert alone == {100, 120, 140, 160, 180}
+def test_rows_over_100_mm_agree_with_nsk():
+    for to, row in NSK_CLEARANCE.items():
+        for bore in (to - 19.999, to):
+            assert tuple(itertools.chain(*(micrometres(group, bore) for group in GROUPS))) == row, bore
+
+
+def test_every_row_has_a_second_source():
+    confirmed = {*TPI_CLEARANCE, *SHJF_CLEARANCE, *NSK_CLEARANCE}
+    assert {float(row[2]) for row in csv_rows("radial_clearance")} <= confirmed
+
+
+def test_pairs_of_angular_contact_bearings_agree_with_the_later_edition():
+    for bore, row in SKF_PAIRS.items():
+        for group, ends in zip(("CA", "CB", "CC", "GA", "GB", "GC"), row, strict=True):
+            ours = internal_clearance("angular-contact", group, bore * 1e-3)
+            assert tuple(round(1e6 * end, 6) for end in ours) == ends, (bore, group)
 
 
 @pytest.mark.parametrize("group", GROUPS)

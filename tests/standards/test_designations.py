@@ -41,3 +41,14 @@ def test_what_is_not_known_is_refused_for_a_true_reason(text, said):
     with pytest.raises(InputError) as refused:
         read_designation(text)
     assert re.search(said, str(refused.value), re.DOTALL), str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "sizes"),
+    [("619/2.5", (2.5, 7, 2.5)), ("618/1.5", (1.5, 4, 1.2)), ("619/1", (1, 4, 1.6)),
+     ("618/8", (8, 16, 4))],
+)  # fmt: skip
+def test_miniature_bearings_have_two_names(name, sizes):
+    """ISO 15, dimension series 18 and 19: SKF's 618/2.5 is NSK's 682X."""
+    found = read_designation(name).size
+    assert [round(1e3 * length, 6) for length in (found.bore, found.outer, found.inner_width)] == list(sizes)

@@ -15,6 +15,7 @@ from abu_calc.reporting.outcome import Outcome
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
     from abu_calc.reporting.drawings.shapes import Drawing
+    from abu_calc.reporting.solids.assembly import SolidAssembly
 
 
 def size(
@@ -35,11 +36,18 @@ def size(
     source = read_machine(machine, set_ or ())
     with progress(how) as tell:
         result = study(source, accuracy, tell, os.cpu_count() or 1)
-    if source.two_races is not None:
+    return outcome_of(result, explain=explain)
+
+
+def outcome_of(result: "SizeResult", *, explain: bool = False) -> Outcome:
+    """Outcome of a result: how it is shown and written; `explain`: with every formula."""
+    if hasattr(result, "autobalancers"):
         outcome: Outcome = imported("two_races.view:two_race_outcome")(result)
         return outcome
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
+    return Outcome.of(
+        result, lambda: _blocks(result, explain), short, lambda: _drawings(result), lambda: _solids(result)
+    )
 
 
 def _screen(result: "SizeResult") -> tuple[Block, ...]:
@@ -64,6 +72,12 @@ def _drawings(result: "SizeResult") -> "tuple[Drawing, ...]":
     return size_sheets(result)
 
 
+def _solids(result: "SizeResult") -> "SolidAssembly":
+    from abu_calc.features.design.solids import size_solids
+
+    return size_solids(result)
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "size", size, drawn=(".dxf", ".svg"), simulates=True)
+    add_command(app, "size", size, drawn=(".dxf", ".svg", ".pdf", ".step", ".stp"), simulates=True)

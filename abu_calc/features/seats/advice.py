@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from typing import Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.clearance import PRELOADED, Mounting, lighter_group
+from abu_calc.features.seats.clearance import PRELOADED, Mounting, fails, lighter_group
 from abu_calc.features.seats.creep import holds_at_start
 from abu_calc.features.seats.interference import of_all
 from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
@@ -65,8 +65,8 @@ def rule_class(joint: Joint, start: Start) -> str | None:
     """
     if not joint.must_grip or joint.required is None:
         return None
-    found = _by_smallest(replace(joint, maker=None), start)
-    return found.tolerance_class if found else None
+    loosest = _by_smallest(replace(joint, maker=None), start)
+    return loosest.tolerance_class if loosest else None
 
 
 def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, ...]:
@@ -144,6 +144,9 @@ def _why_not(joint: Joint, start: Start) -> str | None:
         )
     if holds_at_start(joint, *start) is False:
         return "the ring slips under the starting torque"
+    if joint.runs_on_needles:
+        clearance = from_si(-joint.interference.largest, "um")
+        return None if clearance >= 0 else f"the needles may run without clearance: {clearance:.3g} µm at the tightest"
     if not joint.must_grip and joint.clearance_probability < LOOSE_ENOUGH:
         return f"the ring can hardly move: {of_all(joint.clearance_probability)} have clearance"
     return None
@@ -194,12 +197,14 @@ class SeatAdvice(NamedTuple):
 class JointAdvice(NamedTuple):
     """Advice on both seats, and the clearance group to order with them.
 
-    The group is None if the bearing is not a deep groove ball bearing, or if there is no group.
+    The group is None if the bearing is not a deep groove ball bearing, or if there is no group. `own_group` suffices
+    for the recommended classes; `group` suits given ones that hold, too.
     """
 
     shaft: SeatAdvice
     housing: SeatAdvice
     group: str | None
+    own_group: str | None
 
 
 def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
@@ -208,28 +213,50 @@ def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
     No seat helps a bearing whose static load is above C0: the ring under a rotating load gets no class then.
 
     If the classes leave no clearance in the group given, a looser group is named in place of it. If no group keeps its
-    clearance, the shaft's class is loosened as far as its mean interference allows.
+    clearance, the classes are loosened as far as their mean interference allows. If that does not help, and the group
+    given fails, no class is advised.
     """
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
     inner, outer = (
         None if _hopeless(bearing, joint) else advised(joint, start, makers_classes(bearing, joint.seat))
         for joint in (shaft, housing)
     )
-    group = None
-    if _has_groups(bearing) and inner is not None and outer is not None:
-        for candidate in (inner, *looser_that_hold(inner, start)):
-            group = _group(bearing, candidate, outer)
-            if group is not None:
-                inner = candidate
-                break
-        group = _group_for_given(bearing, shaft, housing, (inner, outer), group)
-    elif bearing.internal_clearance is not None and inner is not None and outer is not None:
-        group = _group_of_pair(bearing, inner, outer)
+    group = own = None
+    if inner is not None and outer is not None and (_has_groups(bearing) or bearing.internal_clearance is not None):
+        (inner, outer), own = _with_clearance(bearing, inner, outer, start)
+        group = _group_for_given(bearing, shaft, housing, (inner, outer), own) if _has_groups(bearing) else own
+        if own is None and _without_clearance(bearing, inner, outer):
+            inner = outer = None
     return JointAdvice(
         _with_neighbours(bearing, inner, outer, start, group),
         _with_neighbours(bearing, outer, inner, start, group),
         group,
+        own,
     )
+
+
+def _with_clearance(
+    bearing: SeatedBearing, inner: Joint, outer: Joint, start: Start
+) -> tuple[tuple[Joint, Joint], str | None]:
+    """Both seats with the group that keeps its clearance: as advised, the shaft looser, the housing looser, or both.
+
+    The seats as advised and no group if none keeps it.
+    """
+    order = _group if _has_groups(bearing) else _group_of_pair
+    shafts, housings = [inner, *looser_that_hold(inner, start)], [outer]
+    for housing in housings:
+        for shaft in shafts:
+            if (group := order(bearing, shaft, housing)) is not None:
+                return (shaft, housing), group
+        if housing is outer and outer.must_grip:
+            housings += looser_that_hold(outer, start)
+    return (inner, outer), None
+
+
+def _without_clearance(bearing: SeatedBearing, inner: Joint, outer: Joint) -> bool:
+    """True if the group given fails with these seats: most bearings have no clearance, or the pair is overloaded."""
+    given = bearing.internal_clearance
+    return given is not None and fails(Mounting(bearing, inner, outer), given)
 
 
 def _with_neighbours(

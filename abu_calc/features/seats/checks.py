@@ -4,6 +4,7 @@ import math
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.clearance import MOST
 from abu_calc.features.seats.creep import CreepJudgement
 from abu_calc.features.seats.equivalent_load import carries_by_flanges
 from abu_calc.features.seats.interference import of_all
@@ -26,7 +27,6 @@ _CODES: Final = {
 }
 _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
-_MOST: Final = 0.5
 _KEPT: Final = 0.995
 _SHOWN: Final = 0.05
 """Losses [µm] below it are not named: they would read 0.0."""
@@ -188,7 +188,8 @@ def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tu
     limit = fail if grade == "fail" else warn
     least = f"less than the {demand:.3g} µm" if demand >= 0 else f"more clearance than the {-demand:.2g} µm"
     return (coded(
-        code, grade, f"{of_all(share)} in {joint.told} have {least} demanded by {joint.demand.by}{_losses(joint)}",
+        code, grade,
+        f"{of_all(share)} in {joint.class_text} have {least} demanded by {joint.demand.by}{_losses(joint)}",
         round(100 * share, 6), round(100 * limit, 6), "%",
         None if grade == "pass" else _fewer(joint, recommended), of=bearing,
     ),)  # fmt: skip
@@ -209,7 +210,7 @@ def _raceway(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> C
     least = _um(-joint.interference.largest)
     passed = least >= 0
     return coded(
-        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.told}. The "
+        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.class_text}. The "
         "shaft is the raceway: ground, at least 58 HRC", least, 0.0, "µm",
         None if passed or recommended is None else f"Specify {recommended}.", "least", of=bearing.name,
     )  # fmt: skip
@@ -230,23 +231,27 @@ def start_checks(
         return (coded(code, "not-done", why, None, torque, "N·m", "Specify chamfer_mm.", "least", of=bearing),)
     passed = bool(creep.holds_at_start)
     return (coded(
-        code, verdict(passed), f"slip torque of {joint.told} at its least "
+        code, verdict(passed), f"slip torque of {joint.class_text} at its least "
         "interference after losses, against the starting torque", creep.least_torque, torque, "N·m",
         None if passed else _remedy(joint, recommended), "least", of=bearing,
     ),)  # fmt: skip
 
 
-def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tuple[Check, ...]:
+def clearance_checks(
+    bearing: SeatedBearing, left: "ClearanceLeft | None", advised: bool = True, order: str | None = None
+) -> tuple[Check, ...]:
     """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not.
 
-    Of a preloaded pair the preload is checked.
+    Of a preloaded pair the preload is checked. `advised`: both seats have a recommended class; `order`: the group told.
     """
     if left is None:
         return ()
     if left.group in groups_of("angular-contact")[:3]:
-        return (_preload(bearing, left),)
-    passed, safe = left.below_zero_probability < _MOST, left.probable.smallest >= 0
-    choice = "No clearance group keeps clearance. Specify looser tolerance classes."
+        return (_preload(bearing, left, advised),)
+    passed, safe = left.below_zero_probability < MOST, left.probable.smallest >= 0
+    choice = f"No clearance group keeps clearance. {_looser(advised)}"
+    if order is not None and order != left.group:
+        choice = f"Specify group {order} with the recommended classes: at most 1 of 100 has no clearance (calculated)."
     if left.group_to_choose:
         choice = f"Specify group {left.group_to_choose}: it keeps clearance (calculated)."
     direction = "axial" if left.axial else "radial"
@@ -258,7 +263,12 @@ def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tu
     ),)  # fmt: skip
 
 
-def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
+def _looser(advised: bool) -> str:
+    """Action if no group does."""
+    return "Specify looser tolerance classes." if advised else "Specify a larger bearing or reduce the load."
+
+
+def _preload(bearing: SeatedBearing, left: "ClearanceLeft", advised: bool) -> Check:
     """The probable preload of a pair against that of the next heavier group, and twice that of the heaviest."""
     heavier, most = groups_of("angular-contact"), left.preload[1] if left.preload else None
     place, limits = heavier.index(left.group), preload_limits(left.group, bearing.inner.diameter)
@@ -266,7 +276,7 @@ def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
         return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
     safe_most, heaviest = limits
     passed, safe = most <= heaviest, most <= safe_most
-    choice = "Specify looser tolerance classes: no lighter group is below its limit."
+    choice = f"No lighter group is below its limit. {_looser(advised)}"
     if left.group_to_choose:
         result = "stays below its limit" if left.group_to_choose in heavier[:3] else "keeps clearance"
         choice = f"Specify group {left.group_to_choose}: it {result} (calculated). Or specify looser classes."
@@ -292,7 +302,7 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
     mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
     return coded(
-        code, joint.grip, f"least interference of {joint.told} against {limit}{remark}{_makers(bearing, joint)}"
+        code, joint.grip, f"least interference of {joint.class_text} against {limit}{remark}{_makers(bearing, joint)}"
         f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm", _tighter(joint, recommended),
         "least", of=bearing.name,
     )  # fmt: skip
@@ -314,7 +324,7 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
             free = of_all(best.loose_share(best.coldest_or_hottest.loss))
             action = f"Specify {better}: then {free} have clearance {when} (calculated)."
         return coded(
-            _CODES[joint.seat][0], "warn", f"least interference of {joint.told}. {judgement}",
+            _CODES[joint.seat][0], "warn", f"least interference of {joint.class_text}. {judgement}",
             _um(joint.interference.smallest), None, "µm", action, "least", of=bearing.name,
         )  # fmt: skip
     if joint.clearance_probability >= LOOSE_ENOUGH:
@@ -326,7 +336,8 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         )
     return coded(
         _CODES[joint.seat][0], "pass",
-        f"least interference of {joint.told}. {judgement}{_makers(bearing, joint)}", _um(joint.interference.smallest),
+        f"least interference of {joint.class_text}. {judgement}{_makers(bearing, joint)}",
+        _um(joint.interference.smallest),
         None, "µm", None, "least", of=bearing.name,
     )  # fmt: skip
 
@@ -343,7 +354,7 @@ def _cup(bearing: SeatedBearing, joint: Joint, recommended: str | None, share: s
     )
     action = f"Specify {recommended}." if recommended else "Specify a one-piece housing."
     return coded(
-        _CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.told}. {cup}",
+        _CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.class_text}. {cup}",
         _um(joint.interference.smallest), None, "µm", None if held else action, "least", of=bearing.name,
     )  # fmt: skip
 
@@ -374,7 +385,7 @@ def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
     return coded(
         _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
-        f"largest interference of {joint.told}{warm} against the limit by {limit.by}. Hoop stress of the "
+        f"largest interference of {joint.class_text}{warm} against the limit by {limit.by}. Hoop stress of the "
         f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}", _um(joint.tightest), _um(limit.value), "µm",
         _remedy(joint, recommended) if grade == "fail" else None, of=bearing,
     )  # fmt: skip

@@ -23,6 +23,8 @@ from abu_calc.standards.internal_clearance import (
 
 PRELOADED: Final = groups_of("angular-contact")[:3]
 """Groups of pairs under preload, the heaviest first."""
+MOST: Final = 0.5
+"""Share of bearings without clearance from which on a group fails."""
 _TAIL: Final = 0.00135
 """Share beyond 3σ on one side of a normal law."""
 _REACH: Final = 5.0
@@ -130,6 +132,14 @@ def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Jo
         axial=mounting.axial,
         preload=_preload(mounting, probable) if mounting.axial else None,
     )
+
+
+def fails(mounting: Mounting, group: str) -> bool:
+    """True if most bearings of a group have no clearance left; of a preloaded pair, if its preload is far too high."""
+    if group not in PRELOADED:
+        return mounting.share_below(group) >= MOST
+    most, limits = pair_preload(mounting.end(group, _TAIL), mounting.bore), preload_limits(group, mounting.bore)
+    return most is not None and limits is not None and most > limits[1]
 
 
 def lighter_group(mounting: Mounting, group: str) -> str | None:

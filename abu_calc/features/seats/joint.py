@@ -199,7 +199,8 @@ class Joint:
     for this seat and load, None where it has none or C is not known; `split` of a housing in halves. `pressure_kept`:
     share of the pressure that a solid shaft or a thick housing would give; `thermal_cases` at which the seat is judged;
     `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: a shaft without inner ring;
-    `cup_classes`: the makers' for the housing of a drawn cup.
+    `cup_classes`: the makers' for the housing of a drawn cup; `usual_growth`: the centrifugal growth [m] that the
+    catalogue's experience includes, up to the limiting speed of the bearing.
     """
 
     seat: Seat
@@ -222,6 +223,7 @@ class Joint:
     short_shares: tuple[float, float] = (0.01, 0.05)
     runs_on_needles: bool = False
     cup_classes: tuple[str, ...] = ()
+    usual_growth: float = 0.0
 
     @property
     def diameter(self) -> float:
@@ -243,7 +245,7 @@ class Joint:
         return MEASURED if self.measured else self.tolerance_class
 
     @property
-    def told(self) -> str:
+    def class_text(self) -> str:
         """The tolerance class in a sentence."""
         return f"the measured {self.seat}" if self.measured else self.tolerance_class
 
@@ -338,14 +340,14 @@ class Joint:
         """Interference that the specified rule demands of every pair; None where no rule is known.
 
         That is the required interference. Where a catalogue's row is known, its experience limits it: no more than 999
-        of 1000 pairs of its class have, with the losses given.
+        of 1000 pairs of its class have, with the losses given. The growth by an ordinary speed is none of these.
         """
         if self.required is None or self.catalogue_class is None:
             return self.required
         listed = self.with_class(self.catalogue_class)
         male, female = listed.male_and_female
         sigma = math.hypot(male.tolerance, female.tolerance) / 6
-        sure = listed.mean - _SURE * sigma + self.counted_losses
+        sure = listed.mean - _SURE * sigma + self.counted_losses - self.usual_growth
         if sure >= self.required.value:
             return self.required
         return InterferenceBound(

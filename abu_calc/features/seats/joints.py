@@ -52,8 +52,11 @@ def shaft_joint(bearing: SeatedBearing) -> Joint:
     shaft, ring = Tube(hollow / bore, own), Tube(bore / ring_diameter, steel)
     losses = _smoothing(part.roughness)
     losses += _warmth(bore, warm_parts(bearing, "shaft"))
+    usual_growth = 0.0
     if service.speed is not None:
         growth = centrifugal_loss(service.speed, bore, ring_diameter, hollow, steel)
+        limit = bearing.entry.limiting_speed if bearing.entry else None
+        usual_growth = growth if limit is not None and service.speed <= limit * (1 + 1e-9) else 0.0
         losses.append(InterferenceLoss(CENTRIFUGAL, growth, "(3+ν)·ρ·Ω²·d·(d₁² − d₀²)/(16·E)"))
     pressure = contact_pressure(1.0, bore, shaft, ring)
     solid = Tube(0.0, own if part.material in _OWN_REFERENCE else steel)
@@ -69,7 +72,8 @@ def shaft_joint(bearing: SeatedBearing) -> Joint:
             ring_limits=_under_needles(bearing),
             runs_on_needles=True,
         )
-    return _joint("shaft", bearing, part, bearing.inner, tuple(losses), rates, kept)
+    joint = _joint("shaft", bearing, part, bearing.inner, tuple(losses), rates, kept)
+    return replace(joint, usual_growth=usual_growth)
 
 
 def housing_joint(bearing: SeatedBearing) -> Joint:

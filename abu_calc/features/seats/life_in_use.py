@@ -115,8 +115,8 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
         f"without the autobalancer {from_si(lives[0], 'h'):.3g} h under {from_si(without, 'kN'):.3g} kN, with it under "
         f"{from_si(with_it, 'kN'):.3g} kN; the loads are imbalance, residual imbalance and the normal force at work"
     )
-    found = Lives(without, with_it, lives[0], lives[1])
-    return LifeInUse(found, (life_check("ABU636", bearing, lives[1], message),))
+    both = Lives(without, with_it, lives[0], lives[1])
+    return LifeInUse(both, (life_check("ABU636", bearing, lives[1], message),))
 
 
 def _unknown(bearing: SeatedBearing, why: str, action: str) -> LifeInUse:

@@ -12,6 +12,7 @@ from abu_calc.standards.catalogue import (
     Kind,
     Ratings,
     catalogue_bearing,
+    closed,
     estimated_ratings,
 )
 from abu_calc.standards.internal_clearance import groups_of
@@ -28,6 +29,7 @@ class _Found(NamedTuple):
     kind: Kind | None
     group: str | None
     accuracy: str | None
+    closure: str | None = None
 
 
 def from_table(table: "BearingTable") -> SeatedBearing:
@@ -48,6 +50,8 @@ def from_table(table: "BearingTable") -> SeatedBearing:
     accuracy = _agreed("bearing_class", table.bearing_class, identity.accuracy, table) or "0"
     entry = catalogue_bearing(like.designation) if like else None
     ratings, rated = _ratings(table, size, entry)
+    if entry is not None and identity.closure is not None:
+        entry = closed(entry, identity.closure)
     lent = like if not size.designation and table.chamfer_mm is None else None
     asked = table.asked_interference_um
     return SeatedBearing(
@@ -123,7 +127,7 @@ def _by_designation(table: "BearingTable") -> _Found:
                 remedy="Give the designation, or the sizes alone.",
             )
     _agreed("bearing_type", table.bearing_type, size.kind, table)
-    return _Found(size, size.kind, designation.group, designation.accuracy)
+    return _Found(size, size.kind, designation.group, designation.accuracy, designation.closure)
 
 
 def _by_sizes(table: "BearingTable") -> _Found:

@@ -18,7 +18,7 @@ from abu_calc.standards.tables import toml_table
 from abu_calc.standards.tolerance_classes import DeviationLimits, Seat, source_of
 
 if TYPE_CHECKING:
-    from abu_calc.features.seats.advice import SeatAdvice
+    from abu_calc.features.seats.advice import JointAdvice, SeatAdvice
 
 _AS_SOLID: Final = 0.97
 """Share of the pressure above which a part is called solid or thick."""
@@ -190,6 +190,17 @@ def ledger(joint: Joint) -> tuple[Item, ...]:
                 Item(InterferenceLoss("smoothing", value, "δ·2/(d + 2) (bearing catalogues, unverified)"), False)
             )
     return tuple(items)
+
+
+def clearance_note(advice: "JointAdvice") -> tuple[str, ...]:
+    """Note on a group of clearance that the recommended classes alone would not need."""
+    shaft, housing = advice.shaft.best, advice.housing.best
+    if shaft is None or housing is None or advice.group is None or advice.group == advice.own_group:
+        return ()
+    return (
+        f"Clearance {advice.group} suits the classes given. For shaft {shaft.tolerance_class} with housing "
+        f"{housing.tolerance_class}, {advice.own_group} is enough.",
+    )
 
 
 def seat_notes(

@@ -273,6 +273,9 @@ class SeatResult(Record):
     ]
     recommended_fit: Annotated[str | None, Quantity("recommended tolerance class")]
     recommended_clearance: Annotated[str | None, Quantity("clearance to order")]
+    clearance_of_recommended: Annotated[
+        str | None, Quantity("clearance for the recommended classes", "", 4, "given classes may need a looser group")
+    ]
     rejected_fits: tuple[RejectedFit, ...]
     admissible_fits: tuple[AdmissibleFit, ...]
     load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·F_r/b_s")]
@@ -340,6 +343,7 @@ class SeatResult(Record):
             simulated_life=None if in_use is None or in_use.lives is None else SimulatedLife.read(in_use.lives),
             maker_fits=(*maker.classes, *maker.special) if maker else (),
             recommended_clearance=bearing.group_to_order,
+            clearance_of_recommended=bearing.group_of_recommended,
             creep=Creep.of(seat),
             form=DrawnForm.read(seat.form),
             bearing_kind=bearing.bearing.kind,

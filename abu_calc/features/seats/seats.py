@@ -15,7 +15,7 @@ from abu_calc.features.seats.interference import Interval, probable_interference
 from abu_calc.features.seats.joint import InterferenceLoss, Joint
 from abu_calc.features.seats.joints import housing_joint, shaft_joint
 from abu_calc.features.seats.lookup import from_table
-from abu_calc.features.seats.notes import Item, ledger, seat_intensity, seat_notes
+from abu_calc.features.seats.notes import Item, clearance_note, ledger, seat_intensity, seat_notes
 from abu_calc.features.seats.rating_life import RatingLife, rating_life
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
@@ -154,7 +154,10 @@ class SeatFit(NamedTuple):
 
 
 class BearingSeats(NamedTuple):
-    """A bearing's seats, shaft first, the clearance left in it, the group of clearance to order with the advice."""
+    """A bearing's seats, shaft first, the clearance left in it, the group of clearance to order with the advice.
+
+    `group_to_order` suits given classes that hold, too; `group_of_recommended` is enough for the recommended ones.
+    """
 
     bearing: SeatedBearing
     shaft: SeatFit
@@ -162,6 +165,7 @@ class BearingSeats(NamedTuple):
     life: RatingLife
     clearance: "ClearanceLeft | None" = None
     group_to_order: str | None = None
+    group_of_recommended: str | None = None
     life_in_use: "LifeInUse | None" = None
 
     @property
@@ -172,7 +176,8 @@ class BearingSeats(NamedTuple):
     @property
     def checks(self) -> tuple[Check, ...]:
         """The checks of both seats, of the bearing's life, and of the clearance."""
-        left = clearance_checks(self.bearing, self.clearance)
+        advised = self.shaft.recommended_fit is not None and self.housing.recommended_fit is not None
+        left = clearance_checks(self.bearing, self.clearance, advised, self.group_to_order)
         in_use = self.life_in_use.checks if self.life_in_use else ()
         return (*self.shaft.checks, *self.housing.checks, *life_checks(self.bearing, self.life), *in_use, *left)
 
@@ -194,7 +199,7 @@ def judge(bearing: SeatedBearing) -> BearingSeats:
     recommendation = advice(bearing, *given)
     open_seats = [part.fit is None and part.measured is None for part in (bearing.shaft, bearing.housing)]
     joints = [
-        own.best if unsaid and own.best else joint
+        _stand_in(joint, own) if unsaid else joint
         for joint, own, unsaid in zip(given, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
     ]
     asked_of = [joint for joint in joints if joint.must_grip] or joints
@@ -203,8 +208,19 @@ def judge(bearing: SeatedBearing) -> BearingSeats:
         _seat_fit(bearing, joint, own, not unsaid, asked if joint in asked_of else None)
         for joint, own, unsaid in zip(joints, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
     )
+    order = clearance_note(recommendation)
+    shaft, housing = (seat._replace(notes=(*seat.notes, *order)) for seat in (shaft, housing))
     left = _clearance(bearing, *joints)
-    return BearingSeats(bearing, shaft, housing, rating_life(bearing), left, recommendation.group)
+    return BearingSeats(
+        bearing, shaft, housing, rating_life(bearing), left, recommendation.group, recommendation.own_group
+    )
+
+
+def _stand_in(joint: Joint, own: SeatAdvice) -> Joint:
+    """The joint that is judged if no class is given: the recommended class, else that of the catalogue."""
+    if own.best is not None:
+        return own.best
+    return joint.with_class(joint.catalogue_class) if joint.catalogue_class else joint
 
 
 def _clearance(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":

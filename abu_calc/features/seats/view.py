@@ -195,7 +195,8 @@ def _repair(seat: SeatResult, fix: Repair) -> str:
 
 def _short(shaft: SeatResult, housing: SeatResult) -> str:
     fits = f"{shaft.recommended_fit or '–'}/{housing.recommended_fit or '–'}"
-    return ", ".join([fits, *([shaft.recommended_clearance] if shaft.recommended_clearance else [])])
+    group = shaft.clearance_of_recommended or shaft.recommended_clearance
+    return ", ".join([fits, *([group] if group else [])])
 
 
 def _order(shaft: SeatResult, housing: SeatResult) -> list[str]:
@@ -203,7 +204,9 @@ def _order(shaft: SeatResult, housing: SeatResult) -> list[str]:
     if group is None:
         tried = left and shaft.recommended_fit and housing.recommended_fit
         return ["but no tabulated clearance group keeps clearance"] if tried else []
-    return [f"clearance {group}{f' in place of {left.group}' if left and left.group != group else ''}"]
+    own = shaft.clearance_of_recommended or group
+    given = f" ({group} for the classes given)" if own != group else ""
+    return [f"clearance {own}{given}{f' in place of {left.group}' if left and left.group != group else ''}"]
 
 
 def _ratio(shaft: SeatResult) -> str:

@@ -179,3 +179,21 @@ def test_two_bearings_share_the_wheel_s_forces_by_the_lever_rule() -> None:
     assert front.lives.life_with == pytest.approx(min(1000 * front.lives.life_without, 1e12))
     alone = lives_in_use(pair[:1], UseLoads(100.0, 10.0, 0.0), 600.0)[0]
     assert alone.lives is None and alone.checks[0].status == "not-done" and not alone.checks[0].requested
+
+
+@pytest.mark.parametrize(
+    ("name", "limit"),
+    [("6206", 15_000), ("6206-2RS1", 6600), ("6206ZZ", 11_250), ("6206-2RSL", 11_250), ("6206LLU/C3", 6600),
+     ("180206", 6600), ("80206", 11_250)],
+)  # fmt: skip
+def test_seals_lower_the_limiting_speed(name: str, limit: float) -> None:
+    """SKF, Rolling bearings, 2018: 6206 15,000 rpm, 2RS1 7500, 2RZ and 2Z 12,000. The least share of all rows holds."""
+    life = seat_bearing(by_designation(name, radial_load_kN=0.7)).life
+    assert life.limiting_speed is not None and life.limiting_speed / RPM == pytest.approx(limit)
+
+
+def test_a_sealed_bearing_fails_at_the_speed_of_an_open_one() -> None:
+    """6004: open 24,000 rpm, with rubbing seals 11,000 by the same catalogue."""
+    for name, status in (("6004", "pass"), ("6004-2RS", "fail")):
+        found = seat_bearing(by_designation(name, radial_load_kN=0.4, speed_rpm=18_000.0))
+        assert next(check.status for check in found.checks if check.code == "ABU634") == status
