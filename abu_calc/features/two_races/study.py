@@ -255,13 +255,15 @@ def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability], above: b
 def _one_race(design: TwoRaceDesign) -> OneRace | None:
     """The single race between both races that leaves the least at the loudest place; None if none balances."""
     case = design.bare
-    limit = one_race_limit(case.rotor, case.speed)
+    # The autobalancer's own mass h at its place z_r adds h to M and h·z_r² to J': together 2·h in the limit to z_r.
+    own = max(race.design.autobalancer.mass for race in design.races)
+    limit = one_race_limit(replace(case.rotor, mass=case.rotor.mass + 2 * own), case.speed)
     turns = [tuple(phase * k for k in range(1, case.unknown_phases + 1)) for phase in PHASES]
     tried: list[tuple[float, float]] = []
     first, second = case.races
     for step in range(ONE_RACE_PLACES):
         place = first + (second - first) * step / (ONE_RACE_PLACES - 1)
-        if not case.rotor.receptance(place, place, case.speed).real < 0:
+        if not case.rotor.receptance(place, place, case.speed).real < 0 or (limit and abs(place) > limit):
             continue
         loudest = 0.0
         for phases in turns:
