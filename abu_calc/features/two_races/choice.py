@@ -2,8 +2,11 @@
 
 from dataclasses import replace
 
-from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, one_race_machine, typical_needs
+from pydantic import ValidationError
+
+from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, felt_mass, one_race_machine, typical_needs
 from abu_calc.formulas.two_races import Pair, lever_shares
+from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing import size
@@ -97,7 +100,18 @@ def _both(case: TwoRaceCase, ball_mm: float | None) -> tuple[SizedRace, SizedRac
 def _as_one_race(case: TwoRaceCase, race: int, need: float, ball_mm: float | None) -> Design:
     """Design of one race; checks that depend on the whole machine are left to it."""
     given = case.table.autobalancer[race].ball_diameter_mm
-    design = size(one_race_machine(case, race, need, None if given is not None else ball_mm))
+    try:
+        machine = one_race_machine(case, race, need, None if given is not None else ball_mm)
+    except ValidationError as error:
+        fault = error.errors()[0]
+        raise InputError(
+            f"race {race + 1} cannot be sized as a race of its own: {'.'.join(map(str, fault['loc']))} would be out of "
+            "range",
+            place=Place(key="autobalancer"),
+            found=f"it feels {felt_mass(case, race):.4g} kg and must carry {from_si(need, 'g_mm'):.4g} g·mm",
+            remedy="Check masses, inertias, places and imbalances. A flat disc takes one race.",
+        ) from None
+    design = size(machine)
     return replace(design, checks=tuple(check for check in design.checks if check.code in KEPT))
 
 

@@ -17,6 +17,7 @@ from abu_calc.features.two_races.figures import two_race_extras
 from abu_calc.features.two_races.records import TwoRaceSizeResult
 from abu_calc.features.two_races.start_cases import LostRun, StartCase
 from abu_calc.formulas.two_races import resultant_quantile
+from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
 from tests.cli.runner import abu
 
@@ -153,3 +154,24 @@ def test_lost_start_cases_are_not_passed() -> None:
     checks = list(start_checks(design, (LostRun(StartCase("bunched"), "too much work"),), None))
     assert [check.status for check in checks] == ["not-done"] * 3
     assert all("too much work" in check.message for check in checks)
+
+
+@pytest.mark.parametrize(
+    ("overrides", "words"),
+    [
+        (("wheel.0.imbalance_g_mm=1e9", "wheel.1.imbalance_g_mm=1e9"), "out of range"),
+        (("machine.rotor_polar_inertia_kg_m2=6.0", "autobalancer.0.plane_mm=20.0", "autobalancer.1.plane_mm=-20.0"),
+         "flat disc"),
+        (("autobalancer.0.max_width_mm=1.0",), "too narrow"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_made_is_refused(overrides: tuple[str, ...], words: str) -> None:
+    with pytest.raises(InputError) as caught:
+        abu_calc.size(read_machine("pedestal-grinder", overrides))
+    assert words in str(caught.value)
+
+
+def test_an_imbalance_that_no_ball_carries_fails() -> None:
+    result = abu_calc.size(read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]))
+    failed = {check.code for check in result.checks if check.status == "fail"}
+    assert {"ABU101", "ABU201"} <= failed
