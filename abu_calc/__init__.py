@@ -31,8 +31,11 @@ if TYPE_CHECKING:
     from abu_calc.features.factory.study import FactoryResult, factory
     from abu_calc.features.grinding.study import GrindingResult, grinding
     from abu_calc.features.identification.plan import MeasurePlanResult, measure_plan
-    from abu_calc.features.identification.study import IdentifyResult, identify
+    from abu_calc.features.identification.results import IdentifyResult
+    from abu_calc.features.identification.study import identify
     from abu_calc.features.levels.study import LevelsResult, levels
+    from abu_calc.features.optimise.result import OptimiseResult
+    from abu_calc.features.optimise.study import optimise
     from abu_calc.features.seats.study import CheckFitResult, check_fit
     from abu_calc.features.simulate.study import SimulateResult, simulate
     from abu_calc.features.stability.study import StabilityResult, stability
@@ -98,14 +101,14 @@ _ROOMS: Final = {
         "MeasurePlanResult",
         "measure_plan",
     ),
-    "features.identification.study": (
-        "IdentifyResult",
-        "identify",
-    ),
+    "features.identification.results": ("IdentifyResult",),
+    "features.identification.study": ("identify",),
     "features.levels.study": (
         "LevelsResult",
         "levels",
     ),
+    "features.optimise.result": ("OptimiseResult",),
+    "features.optimise.study": ("optimise",),
     "features.seats.study": (
         "CheckFitResult",
         "check_fit",
@@ -163,6 +166,7 @@ __all__ = [
     "MeasurePlanResult",
     "MeasuredDeclareResult",
     "NotTrustworthyError",
+    "OptimiseResult",
     "OutputError",
     "Race",
     "RangeError",
@@ -189,6 +193,7 @@ __all__ = [
     "identify",
     "levels",
     "measure_plan",
+    "optimise",
     "planar",
     "read",
     "read_readings",

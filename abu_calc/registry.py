@@ -191,6 +191,13 @@ FEATURES: Final[tuple[Feature, ...]] = (
         ),
     ),
     Feature(
+        "optimise",
+        "optimise.command",
+        ("optimise.result:OptimiseResult",),
+        "optimise.view:optimise_extras",
+        figures=(Known("front"),),
+    ),
+    Feature(
         "levels",
         "levels.command",
         ("levels.study:LevelsResult",),
@@ -199,7 +206,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "identify",
         "identification.command",
-        ("identification.study:IdentifyResult",),
+        ("identification.results:IdentifyResult",),
         "identification.view:identify_extras",
         figures=(Known("starts", "starts were recorded"),),
         group="Measure",
@@ -232,9 +239,12 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "compare",
         "compare.command",
-        ("compare.study:CompareResult",),
-        "compare.view:compare_extras",
-        figures=tuple(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
+        ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
+        "compare.pages:any_extras",
+        figures=(
+            *(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
+            Known("courses", "recorded starts are given with --measured"),
+        ),
     ),
     Feature(
         "verify",

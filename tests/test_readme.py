@@ -45,7 +45,7 @@ def test_measured_and_predicted_levels_are_those_of_the_factory_comparison() -> 
     for row in rows:
         if row["miss_db"] is not None:
             state = "" if row["state"] == "not said" else f" {row['state']}"
-            kinds = ("with_measured_db", "with_median_db"), ("lowered_measured_db", "lowered_median_db")
+            kinds = ("with_measured_db", "with_predicted_db"), ("lowered_measured_db", "lowered_predicted_db")
             span, median = kinds[row["with_measured_db"] is None]
             expected.append((f"{row['short']}{state}", *row[span], row[median], row["miss_db"]))
     pattern = r"\| ([\w-]+(?: idle| loaded)?)[^|]*\| Kladiev[^|]*\| (\d+)–(\d+) dB \| (\d+\.\d) dB \| (\d+\.\d) dB \|"

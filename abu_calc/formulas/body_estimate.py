@@ -69,6 +69,26 @@ class BodyEstimate:
         return tuple((value - low, value + high) for value, low, high in zip(nominal, down, up, strict=True))
 
 
+HAND_GRINDERS: Final = (0.5, 15.0)
+"""Masses [kg] of hand grinders, for which usual lengths are assumed."""
+
+
+def usual_lengths(layout: Layout, mass: float) -> dict[str, float]:
+    """Lengths [mm] by their keys that a hand grinder of this mass [kg] usually has; nothing for other machines.
+
+    >>> usual_lengths("straight", 5.6), usual_lengths("angle", 2.2), usual_lengths("face", 400.0)
+    ({'machine.length_mm': 440.0}, {'machine.length_mm': 330.0, 'machine.height_mm': 75.0}, {})
+    """
+    low, high = HAND_GRINDERS
+    if not low <= mass <= high:
+        return {}
+    table, grid = toml_table("body_estimates")[layout], {"L": ("usual_length", 10), "H": ("usual_height", 5)}
+    return {
+        KEYS[length]: float(step * round(table[usual] * mass ** (1 / 3) / step))
+        for length, (usual, step) in grid.items() if length in LENGTHS[layout]
+    }  # fmt: skip
+
+
 def estimate_source() -> str:
     """Source of the shapes, in words."""
     table = toml_table("body_estimates")
@@ -80,13 +100,13 @@ def estimate_source() -> str:
     "J_i = M·k_i²",
     "kg m²",
     where=(
-        "L is machine.length_mm, H is machine.height_mm. Straight: L runs from the wheel plane to the rear end; a is "
-        "0.44 L (0.39 … 0.50), k_x = k_y = 0.284 L (0.26 … 0.31), k_z = 0.06 L (0.05 … 0.07). Angle: L runs from the "
-        "spindle axis to the rear end, H from the body's axis to the wheel plane; b is 0.29 L (0.25 … 0.34), a is 0.80 "
-        "H (0.70 … 0.90), k_x = 0.136 L (0.12 … 0.15), k_y = 0.29 L (0.265 … 0.315), k_z = 0.295 L (0.27 … 0.32), "
-        "J_xz is −0.2 (−0.30 … −0.13) times M·a·b. Face: H runs from the wheel plane to the top; a is 0.43 H (0.38 … "
-        "0.49), b is 0 (±0.03 H), k_x = 0.37 H (0.33 … 0.42), k_y = 0.285 H (0.255 … 0.315), k_z = 0.29 H (0.25 … "
-        "0.35). "
+        "L is machine.length_mm, H is machine.height_mm. Straight: L runs from the wheel plane to the rear end; a "
+        "is 0.44 L (0.39 … 0.50), k_x = k_y = 0.284 L (0.26 … 0.31), k_z = 0.06 L (0.05 … 0.07). Angle: L runs "
+        "from the spindle axis to the rear end, H from the body's axis to the wheel plane; b is 0.29 L (0.25 … "
+        "0.34), a is 0.80 H (0.70 … 0.90), without H 0.176 L (0.137 … 0.229), k_x = 0.136 L (0.12 … 0.15), k_y = "
+        "0.29 L (0.265 … 0.315), k_z = 0.295 L (0.27 … 0.32), J_xz is −0.2 (−0.30 … −0.13) times M·a·b. Face: H "
+        "runs from the wheel plane to the top; a is 0.43 H (0.38 … 0.49), b is 0 (±0.03 H), k_x = 0.37 H (0.33 … "
+        "0.42), k_y = 0.285 H (0.255 … 0.315), k_z = 0.29 H (0.25 … 0.35). "
         "a is the distance from the centre of mass to the wheel plane, b that to the spindle axis. In brackets: 95 % "
         "of such assemblies. The rotor's polar inertia is ½·m·R_w² of the wheel unless the file gives it."
     ),
@@ -107,7 +127,9 @@ def estimated_body(
     >>> estimated_body("straight", 6.2, {"L": 0.45}).nominal.wheel
     (0.0, 0.0, 0.198)
     """
-    table: dict[str, Any] = toml_table("body_estimates")[layout]
+    table: dict[str, Any] = dict(toml_table("body_estimates")[layout])
+    if not lengths.get("H") and "along_without_height" in table:
+        table["along"] = table["along_without_height"]
     needed = {row[0] for name, row in table.items() if name in (*_SHAPE, *_PLACE) and name != "product"}
     if center_of_mass_to_wheel is not None:
         needed = {table[name][0] for name in _SHAPE[:3] if name in table}

@@ -19,6 +19,8 @@ DampingRatio = Annotated[float, Field(ge=0, le=10)]
 class Handle(Table):
     """A place where vibration levels are wanted; without any, levels are those in the wheel plane."""
 
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"from_center_of_mass_mm"})
+
     name: Name = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
     from_center_of_mass_mm: float | None = Field(
         default=None,
@@ -62,6 +64,8 @@ class Handle(Table):
 
 class MachineTable(Table):
     """The machine: its mass, its speed, its shape."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"length_mm", "handle"})
 
     name: Name = Field(description=NAME, examples=["straight grinder"], min_length=1)
     layout: Literal["straight", "face", "angle"] = Field(
@@ -159,7 +163,7 @@ class MachineTable(Table):
     height_mm: float | None = Field(
         default=None,
         description="Height for an estimate of the inertia [mm]; {range}. Layout face: from the wheel plane to the "
-        "top. Layout angle: from the body's axis to the wheel plane.",
+        "top. Layout angle: from the body's axis to the wheel plane; without it 0.22 of the length is assumed.",
         examples=[60.0],
         gt=0,
         le=10_000,
@@ -273,11 +277,8 @@ class MachineTable(Table):
 
     @property
     def _lengths_of_layout(self) -> tuple[str, ...]:
-        """Keys of the lengths from which an inertia is estimated."""
-        centre = self.center_of_mass_from_wheel_mm is not None
-        return {"straight": ("length_mm",), "face": ("height_mm",)}.get(
-            self.layout, ("length_mm",) if centre else ("length_mm", "height_mm")
-        )
+        """Keys of the lengths from which an inertia is estimated; the height of an angle grinder may be missing."""
+        return ("height_mm",) if self.layout == "face" else ("length_mm",)
 
     @property
     def estimates(self) -> bool:

@@ -81,7 +81,7 @@ def recording(
     path: str, content: bytes, quantity: MotionQuantity, axes: Sequence[tuple[str, NDArray[np.float64]]], rate: float,
     remarks: Sequence[str] = (), *, simulated: bool = False, handles: Sequence[str] = (), clipped: Sequence[str] = (),
 ) -> Recording:  # fmt: skip
-    """Recording of the data read; refused with more than three axes at a place, or with one that stands still."""
+    """Recording of the data read; refused with more than three axes at a place, two of one name, or one at rest."""
     names, samples = tuple(name for name, _ in axes), tuple(values for _, values in axes)
     for handle, members in by_handle(handles or ("",) * len(axes)).items():
         if len(members) > MOST_AXES:
@@ -90,6 +90,12 @@ def recording(
                 found=", ".join(names[k] for k in members),
                 remedy="Say which to take: --channels 1,2,3, or their names (Python: channels=). For two handles: "
                 "--handle front=1,2,3 --handle rear=4,5,6 (Python: handles=).",
+            )  # fmt: skip
+        doubled = sorted({names[k] for k in members if [names[j] for j in members].count(names[k]) > 1})
+        if doubled:
+            raise InputError(
+                "two axes of a place with the same name", place=Place(path, key=doubled[0]),
+                remedy="Name each column by its axis: ax_m_per_s2, ay_m_per_s2, az_m_per_s2.",
             )  # fmt: skip
     for name, values in axes:
         if (largest := float(np.abs(values).max())) > LARGEST:

@@ -284,6 +284,10 @@ VARIED = "vary {}"
 """Name in messages of a value that a sweep gave."""
 
 
+NOT_OF_THE_MACHINE: Final = ("sweep", "optimise", "costs", "expected")
+"""Tables that say nothing of the machine itself."""
+
+
 @dataclass(frozen=True)
 class Variants(Generic[Model]):
     """A file with its overrides put in, as data that processes can hand on; `model`: its tables."""
@@ -293,9 +297,9 @@ class Variants(Generic[Model]):
 
     @classmethod
     def of(cls, reading: FileReading, model: type[Model]) -> "Variants[Model]":
-        """Variants of a file that was read, without what it says of sweeps and expects."""
+        """Variants of a file that was read, without the tables that say nothing of the machine."""
         content = cls.whole(reading, model).content
-        return cls({name: table for name, table in content.items() if name not in ("sweep", "expected")}, model)
+        return cls({name: table for name, table in content.items() if name not in NOT_OF_THE_MACHINE}, model)
 
     @classmethod
     def whole(cls, reading: FileReading, model: type[Model]) -> "Variants[Model]":

@@ -1,4 +1,4 @@
-"""The one idle level that is compared with measurements: the median of the start cases at the given drag rate."""
+"""The one idle level that is compared with measurements: the median of all start cases."""
 
 import math
 import statistics
@@ -17,12 +17,11 @@ from abu_calc.sizing.places import level_at_loudest
 def predicted_displacement(design: Design, ensemble: Ensemble) -> float | None:
     """Idle displacement 0–peak [m] of the race that measurements are compared with; None without start cases.
 
-    It is the median over the start cases at the given viscous drag rate and the rated speed of the held machine. Hot
-    and cold oil, the ends of a speed range and a swing arm do not count. A measured machine was switched on an unknown
-    number of times, so the median stands for it, neither the closed form nor the loudest start case.
+    It is the median over the start cases of the held machine at its rated speed, hot and cold oil included. The ends of
+    a speed range and a swing arm do not count. A measured machine was switched on an unknown number of times with oil
+    of an unknown temperature, so the median stands for it, neither the closed form nor the loudest start case.
     """
-    velocities = [outcome.velocity for outcome in ensemble.given
-                  if outcome.member.speed is None and not outcome.member.on_arm]  # fmt: skip
+    velocities = [outcome.velocity for outcome in ensemble.rated if not outcome.member.on_arm]
     return math.sqrt(2) * statistics.median(velocities) / design.case.speed if velocities else None
 
 
@@ -57,4 +56,4 @@ def starts_for_measurement(design: Design, progress: Progress = silent) -> Ensem
     carried = design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
     if table is None or table.shown is None or autobalancer.capacity < carried:
         return None
-    return simulate_members(design, progress=progress, workers=processors(), shares=(1.0,))
+    return simulate_members(design, progress=progress, workers=processors())

@@ -20,15 +20,16 @@ def allowed_imbalance(design: Design, moved: float, felt: float | None = None) -
     """Allowed residual imbalance [kg m]: a tenth of the imbalance, plus unavoidable shares.
 
     Eccentricity and dry friction leave some imbalance in any case. Dry friction counts in its worst
-    arrangement, but with it at most half the imbalance is allowed: leaving more would be no balancing. A
-    design without worst arrangements takes the friction of evenly spread balls: the least that is allowed.
+    arrangement, as on a vertical spindle: on a horizontal one gravity shakes balls free, but slowly. With
+    it at most half the imbalance is allowed: leaving more would be no balancing. A design without worst
+    arrangements takes the friction of evenly spread balls: the least that is allowed.
 
     `felt`: effective mass for the balls [kg]; None: that of the machine in hand.
     """
     autobalancer = design.autobalancer
     mass, budget = felt or autobalancer.requirement.effective_mass, autobalancer.budget
     tenth = SETTLED * max(moved, HARDLY * autobalancer.static_moment) + mass * budget.race_eccentricity
-    worst = max((each.rolling_friction for each in design.worst), default=0.0)
+    worst = max((each.upright.rolling_friction for each in design.worst), default=0.0)
     return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))
 
 

@@ -191,7 +191,7 @@ def _axes(place: LevelPlace, speed: float) -> tuple[HandleAxis, ...]:
 class MeasuredAfterRecord(Record):
     """Measurement with the autobalancer, idle, beside the prediction for the same place.
 
-    The prediction is the median of the start cases at the given viscous drag rate, in every command.
+    The prediction is the median of all start cases, hot and cold oil included, in every command.
     `predicted_loaded_db`: the prediction there under load, in reports of the machine at its workpiece.
     `this_run_db`: the level of the one idle run that a command reports.
     """

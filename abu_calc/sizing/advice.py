@@ -10,7 +10,7 @@ from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.handles import BodyBands, estimate_keys
+from abu_calc.sizing.handles import BodyBands, body_advice, estimate_keys
 from abu_calc.sizing.places import HANDS
 from abu_calc.sizing.trials import TriedRequirement
 from abu_calc.sizing.vibration import LevelsUnderLoad
@@ -165,10 +165,12 @@ def _body_warnings(case: Case, bands: BodyBands | None, added: float) -> list[st
         return [*signs, *_rotor_warning(case), *_hands_warning(case)]
     measured = " An imbalance that a measured level gives is as uncertain." if case.table.wheel.shown else ""
     handles = " All handles move alike." if case.handles else ""
+    unused = {"face": "length_mm", "angle": "height_mm"}.get(case.table.machine.layout)
+    if unused is not None and getattr(case.table.machine, unused) is not None:
+        handles += f" Alone machine.{unused} gives no estimate for this layout."
     return [
         f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
-        f"{handles} Specify {estimate_keys(case)} for an estimate, or machine.transverse_inertia_kg_m2 and "
-        "machine.center_of_mass_to_wheel_mm."
+        f"{handles} {body_advice(case, added)}"
     ]
 
 

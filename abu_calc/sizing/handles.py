@@ -3,20 +3,27 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Final, NamedTuple
 
+from abu_calc.formulas.body_estimate import usual_lengths
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.actions import followed, pins, set_action
+from abu_calc.sizing.actions import followed, overrides, pins, set_action, with_entries, words
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.case import WHEEL_PLANE, Case
+from abu_calc.sizing.case import WHEEL_PLANE, Case, read_case
 from abu_calc.sizing.imbalance import find_imbalance
 from abu_calc.sizing.places import LevelPlace, PlaceBand, in_space, place_bands, place_numbers, settled_levels
 from abu_calc.sizing.vibration import idle_vibration, speed_levels, truer_races, worst_residuals
 
 Band = tuple[float, float]
+SAME = 1e-3
+"""Relative change of an imbalance that is not told."""
+
+SHOWN: Final = 1.005
+"""Ratio of two accelerations that shows."""
 
 
 @dataclass(frozen=True)
@@ -63,23 +70,34 @@ class HighestTotal:
     total: float
 
 
-def highest_totals(
-    case: Case, imbalance: float, candidate: Candidate
-) -> tuple[HighestTotal | None, HighestTotal | None]:
-    """The highest a_hv with the autobalancer at the judged speeds, expected and in the worst friction case.
+class HighestTotals(NamedTuple):
+    """The highest a_hv with the autobalancer: expected, in the worst friction case, and in that case held vertical.
 
-    None if W_h is not defined at one of the speeds.
+    None if W_h is not defined at one of the speeds; `upright` also if the file's spindle is vertical.
     """
-    expected, arranged = list[HighestTotal | None](), list[HighestTotal | None]()
+
+    expected: HighestTotal | None
+    arranged: HighestTotal | None
+    upright: HighestTotal | None
+
+
+def highest_totals(case: Case, imbalance: float, candidate: Candidate) -> HighestTotals:
+    """The highest a_hv with the autobalancer at the judged speeds."""
+    expected, arranged, upright = (list[HighestTotal | None]() for _ in range(3))
     for residual in worst_residuals(case, imbalance, candidate):
         there = replace(case, speed=residual.speed)
         expected += _totals(there, idle_vibration(there, imbalance, candidate, possible=True).places)
-        if case.body.in_space and case.handles:
-            places = in_space(there, imbalance, candidate, residual.at_race)
-        else:
-            places = settled_levels(there, None, residual.at_race, imbalance, candidate.mass, in_line=True).places
-        arranged += _totals(there, places)
-    return _highest(expected), _highest(arranged)
+        arranged += _totals(there, _places(there, imbalance, candidate, residual.at_race))
+        if residual.vertical is not None:
+            upright += _totals(there, _places(there, imbalance, candidate, residual.vertical.at_race))
+    return HighestTotals(_highest(expected), _highest(arranged), _highest(upright))
+
+
+def _places(case: Case, imbalance: float, candidate: Candidate, at_race: float) -> tuple[LevelPlace, ...]:
+    """Places of the machine whose race keeps a displacement [m], all parts of it in line."""
+    if case.body.in_space and case.handles:
+        return in_space(case, imbalance, candidate, at_race)
+    return settled_levels(case, None, at_race, imbalance, candidate.mass, in_line=True).places
 
 
 def _totals(case: Case, places: tuple[LevelPlace, ...]) -> Iterator[HighestTotal | None]:
@@ -103,12 +121,14 @@ def handle_checks(
     if not possible:
         reason = "The acceleration is not known: the balls cannot balance at these speeds"
         return (coded("ABU404", "not-done", reason, None, limit, "m/s²"),)
-    expected, arranged = highest_totals(case, imbalance, candidate)
+    expected, arranged, upright = highest_totals(case, imbalance, candidate)
     if expected is None or arranged is None:
         return (coded("ABU404", "not-done", "W_h is not defined at this speed (5.62 … 1413 Hz)", None, limit, "m/s²"),)
     high = _band_end(expected, bands, case)
     notes = [f"{_place(expected)}: expected {_said(expected.total)} (limit {limit:g} m/s²)"]
     notes.append(f"Worst friction case: {_said(arranged.total)}")
+    if upright is not None and upright.total > SHOWN * arranged.total:
+        notes.append(f"With the spindle held vertical: {_said(upright.total)}")
     if high is not None:
         notes.append(f"The estimated inertia leaves up to {_said(high)} as expected")
     if not case.body.is_rigid:
@@ -148,7 +168,7 @@ def _remedy(
         if after is None:
             continue
         totals = highest_totals(*after)
-        total = totals[1] if kept else totals[0]
+        total = totals.arranged if kept else totals.expected
         if total is not None and total.total <= limit:
             return set_action(entries, after.candidate, Moved(name, before, total.total, "m/s²", limit))
     return Action("No change was found: a quarter of the race's eccentricity and friction does not keep the limit.")
@@ -157,12 +177,40 @@ def _remedy(
 def missing_body(case: Case) -> Action:
     """Keys to specify for levels at handles: those of a body that is missing, of handles, or measured inertias."""
     if not case.body.is_rigid:
-        return Action(f"Specify {estimate_keys(case)} for an estimate of the inertia, or the inertia itself.")
+        return Action(body_advice(case))
     if not case.handles:
         return Action("Add a [[machine.handle]] for each handle.")
     return Action(
         "Measure the inertia by a pendulum: specify machine.inertia_kg_m2 and machine.center_of_mass_from_wheel_mm."
     )
+
+
+def body_advice(case: Case, added: float = 0.0) -> str:
+    """How a point mass becomes a rigid body: usual lengths of such a machine, tried, and what they change.
+
+    `added`: mass [kg] of the autobalancer.
+    """
+    top, keys = case.table.machine, estimate_keys(case)
+    entries: dict[str, object] = dict(usual_lengths(top.layout, top.mass_kg))
+    unknown = f"Specify {keys} for an estimate of the inertia, or the inertia itself."
+    if not entries:
+        return unknown
+    try:
+        other = read_case(with_entries(case.table, entries))
+        imbalances = find_imbalance(case).value, find_imbalance(other).value
+    except (AbuError, ValueError):
+        return unknown
+    masses = case.body.effective_mass(added), other.body.effective_mass(added)
+    moved = [Moved("the effective mass at the wheel", masses[0], masses[1], "kg").text]
+    if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
+        moved.append(_moved_imbalance(*imbalances))
+    options = " ".join(f"--set {entry}" for entry in overrides(entries))
+    given = words(entries)
+    return f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {options}"
+
+
+def _moved_imbalance(before: float, after: float) -> str:
+    return Moved("the imbalance", from_si(before, "g_mm"), from_si(after, "g_mm"), "g·mm").text
 
 
 def estimate_keys(case: Case) -> str:

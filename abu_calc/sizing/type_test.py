@@ -10,6 +10,7 @@ from dataclasses import replace
 from abu_calc.formulas.body_estimate import PlacedBody
 from abu_calc.formulas.body_motion import BodyMotion
 from abu_calc.formulas.rigid_body import Vector
+from abu_calc.formulas.shaken_friction import remaining_band
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.formulas.type_test import (
     MANY,
@@ -142,9 +143,15 @@ def background(table: MachineFile) -> float:
     return 0.0 if test is None or test.background_a_hv_m_per_s2 is None else test.background_a_hv_m_per_s2
 
 
-def band(case: Case, candidate: Candidate) -> float:
-    """Friction band b = k_r·R_p/r [m]."""
+def upright_band(case: Case, candidate: Candidate) -> float:
+    """Friction band b = k_r·R_p/r [m] of a vertical spindle."""
     return case.friction_arm * candidate.pitch_radius / (candidate.ball_diameter / 2)
+
+
+def band(case: Case, candidate: Candidate) -> float:
+    """Friction band [m] by which friction holds the balls: on a horizontal spindle what gravity leaves of it."""
+    whole = upright_band(case, candidate)
+    return remaining_band(whole, case.speed) if case.table.machine.spindle_axis == "horizontal" else whole
 
 
 def declared_estimate(case: Case, candidate: Candidate, imbalance: float) -> DeclaredEstimate:
@@ -187,10 +194,11 @@ def carried(case: Case, candidate: Candidate, imbalance: float) -> bool:
     return required(case, candidate, imbalance) <= candidate.capacity
 
 
-def required(case: Case, candidate: Candidate, imbalance: float) -> float:
-    """Capacity [kg m] that a test wheel requires: |g_rw/g_rr|·U + m_F·Δ."""
+def required(case: Case, candidate: Candidate, imbalance: float, eccentricity: float | None = None) -> float:
+    """Capacity [kg m] that a test wheel requires: |g_rw/g_rr|·U + m_F·Δ; `eccentricity`: another Δ than the file's."""
     body = type_test_body(case, candidate)
-    return abs(body.race_by_wheel / body.race_by_race) * imbalance + body.effective_mass * case.race_eccentricity
+    delta = case.race_eccentricity if eccentricity is None else eccentricity
+    return abs(body.race_by_wheel / body.race_by_race) * imbalance + body.effective_mass * delta
 
 
 def declared_check(without: float, declared: float, how: str, action: Callable[[], Action | str | None]) -> Check:

@@ -233,7 +233,7 @@ def levels(folder: Path) -> tuple[Row, list[Row]]:
     rows, labels = list[Row](), list[str]()
     axes = _axes("", "level with autobalancer, dB re 5e-8 m/s")
     for k, row in enumerate(row for row in result["rows"] if row["with_measured_db"]):
-        (low, high), ours, there = row["with_measured_db"], row["with_median_db"], row["at_handles_db"]
+        (low, high), ours, there = row["with_measured_db"], row["with_predicted_db"], row["at_handles_db"]
         labels.append(f"{row['short']}\n{row['state']}")
         axes.plot([k, k], [low, high], "k", lw=6, solid_capstyle="butt", label="measured" * (k == 0))
         axes.plot([k], [ours], "o", mfc="none", label="plane model" * (k == 0))

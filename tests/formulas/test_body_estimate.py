@@ -56,9 +56,26 @@ def test_angle_machine_by_hand() -> None:
     assert placed.body.rotor_polar_inertia == 1e-4
 
 
+def test_angle_machine_of_unknown_height() -> None:
+    """0.8 · 0.22 L to the wheel plane; the height of usual machines widens the band, and lies within it."""
+    alone = estimated_body("angle", 2.4, {"L": 0.3})
+    assert alone.nominal.wheel == pytest.approx((0.087, 0.0, 0.0528))
+
+    def mass(placed: PlacedBody) -> float:
+        return placed.body.effective_mass(placed.wheel)
+
+    low, high = alone.band(mass)
+    for height in (0.054, 0.06, 0.084):
+        known = estimated_body("angle", 2.4, {"L": 0.3, "H": height})
+        assert low < mass(known.nominal) < high
+        assert high - low > known.band(mass)[1] - known.band(mass)[0]
+
+
 @pytest.mark.parametrize("layout", list(LENGTHS))
 def test_missing_length_is_refused_by_its_key(layout: Layout) -> None:
     for missing in LENGTHS[layout]:
+        if (layout, missing) == ("angle", "H"):
+            continue  # assumed by the length
         lengths = {name: length for name, length in LENGTH[layout].items() if name != missing}
         with pytest.raises(InputError, match=r"machine\.length_mm|machine\.height_mm"):
             estimated_body(layout, 5.0, lengths)

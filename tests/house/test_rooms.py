@@ -39,6 +39,7 @@ FEATURES = (
     "factory",
     "accuracy",
     "sweep",
+    "optimise",
     "verify",
     "files",
 )

@@ -28,12 +28,13 @@ def test_every_command_predicts_the_same_level() -> None:
     assert len(predicted) == 1
 
 
-def test_it_is_the_median_of_the_start_cases_at_the_given_drag_rate() -> None:
-    """By the levels of these start cases; hot and cold oil do not count."""
+def test_it_is_the_median_of_all_start_cases() -> None:
+    """By the levels of the start cases, at all drag rates; the same number as the typical level of the ensemble."""
     result = recalled("size", abu_calc.read(PRESET))
     _, ensemble, _ = result.starts.of
-    levels = sorted(outcome.level for outcome in ensemble.outcomes if outcome.member.drag == 15.0)
-    assert len(levels) < len(ensemble.outcomes)
+    levels = sorted(outcome.level for outcome in ensemble.outcomes)
+    assert {outcome.member.drag for outcome in ensemble.outcomes} == {5.0, 15.0, 45.0}
+    assert result.ensemble.level_db.typical == pytest.approx(result.ensemble.predicted_level_db, abs=1e-6)
     assert result.ensemble.predicted_level_db == pytest.approx(statistics.median(levels), abs=0.01)
     assert result.measured_after.predicted_level_db == pytest.approx(result.ensemble.predicted_level_db, abs=1e-6)
     mean = 20 * math.log10((10 ** (102 / 20) + 10 ** (103 / 20)) / 2)

@@ -43,7 +43,7 @@ def test_a_tenth_and_what_no_ball_removes_is_allowed(design: Design, felt: float
 
 
 def test_the_worst_friction_widens_it_to_half_the_imbalance_at_most(design: Design) -> None:
-    worst: Any = (SimpleNamespace(rolling_friction=1.0),)
+    worst: Any = (SimpleNamespace(upright=SimpleNamespace(rolling_friction=1.0)),)
     imbalance = design.autobalancer.static_moment
     assert allowed_imbalance(replace(design, worst=worst), imbalance) == pytest.approx(HALF * imbalance)
 

@@ -1,9 +1,11 @@
 """Checks of the chosen autobalancer, and the warnings beside them."""
 
 import math
+import re
 
 import pytest
 
+from abu_calc.inputs.read_machine import read
 from abu_calc.sizing import size
 from tests.sizing.machines import check_of, machine
 
@@ -22,6 +24,41 @@ def test_what_is_uncertain_is_warned_of() -> None:
     assert any("point mass" in warning for warning in plain) and any("no [grinding]" in warning for warning in plain)
     rigid = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
     assert not any("point mass" in warning for warning in size(machine(**rigid)).warnings)
+
+
+@pytest.mark.parametrize(
+    ("preset", "keys"), [("avtovaz-707-222", 1), ("avtovaz-707-370", 1), ("avtovaz-707-305", 2), ("msh-230", 2)]
+)
+def test_the_line_for_a_point_mass_holds_when_followed(preset: str, keys: int) -> None:
+    """The lengths of the note make a rigid body with the effective mass and the imbalance that the note gives."""
+    point = read(preset)
+    design = size(point.whole())
+    note = next(warning for warning in design.warnings if "point mass" in warning)
+    entries = re.findall(r"--set (machine\.\w+)=(\d+)", note)
+    assert len(entries) == keys
+    rigid = size(point.changed({key: float(value) for key, value in entries}).whole())
+    assert rigid.case.body.estimate is not None
+    masses = re.search(r"from ([\d.]+) to ([\d.]+) kg", note)
+    assert masses is not None
+    told = rigid.case.body.effective_mass(design.autobalancer.mass)
+    assert [float(each) for each in masses.groups()] == pytest.approx([design.system_mass, told], rel=5e-3)
+    imbalances = re.search(r"imbalance falls from ([\d.]+) to ([\d.]+) g·mm", note)
+    assert (imbalances is None) == (preset == "msh-230")
+    if imbalances is not None:
+        assert float(imbalances[2]) == pytest.approx(1e6 * rigid.imbalance.value, rel=5e-3)
+    assert not any("point mass" in warning for warning in rigid.warnings)
+
+
+@pytest.mark.parametrize(("layout", "key"), [("face", "length_mm"), ("angle", "height_mm")])
+def test_a_length_that_gives_no_estimate_is_told(layout: str, key: str) -> None:
+    design = size(machine(machine__layout=layout, **{f"machine__{key}": 80.0}))
+    assert design.case.body.estimate is None
+    assert any(f"Alone machine.{key} gives no estimate" in warning for warning in design.warnings)
+
+
+def test_a_machine_that_is_no_hand_grinder_gets_no_usual_length() -> None:
+    note = next(warning for warning in size(machine(machine__mass_kg=60.0)).warnings if "point mass" in warning)
+    assert "Specify machine.length_mm" in note and "--set" not in note
 
 
 @pytest.mark.parametrize(("power", "status"), [(820.0, "pass"), (818.0, "fail")])

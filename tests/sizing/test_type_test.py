@@ -69,7 +69,7 @@ def test_the_estimate_is_that_of_the_reference_machine() -> None:
     design = rigid(
         machine__mass_kg=5.3, wheel__mass_kg=0.7, autobalancer__ball_count=4, autobalancer__ball_diameter_mm=10.0,
         autobalancer__race_radius_mm=31.0, autobalancer__plane_offset_mm=-20.0, wheel__imbalance_g_mm=120.0,
-        autobalancer__max_outer_diameter_mm=80.0,
+        autobalancer__max_outer_diameter_mm=80.0, machine__spindle_axis="vertical",
     )  # fmt: skip
     estimate = declared_estimate(design.case, design.autobalancer, 65e-6)
     assert estimate.without == pytest.approx(1.0003 * 1.45775, rel=2e-4)

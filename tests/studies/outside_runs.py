@@ -266,14 +266,14 @@ def judged(p: Machine, result: Json, full: float, moduli: Any, times: Any, squar
 def allowed(p: Machine, result: Json) -> float:
     """Imbalance [kg m] that may be left: a tenth of it, what the eccentricity asks for, and what friction holds.
 
-    Friction at its worst counts up to half the imbalance.
+    Friction at its worst, as on a vertical spindle, counts up to half the imbalance.
     """
     budget, mass = result["accuracy_budget"], result["effective_mass_kg"]
     if p.arm:
         mass = float(p.mass[0, 0]) / p.arm**2
     moment = p.balls * p.ball_mass * p.pitch
     tenth = 0.1 * max(p.carried, 0.01 * moment) + mass * p.offset
-    fan, worst = (mass * budget[key] / 1e6 for key in ("rolling_friction_um", "rolling_friction_worst_um"))
+    fan, worst = (mass * budget[key] / 1e6 for key in ("rolling_friction_um", "rolling_friction_vertical_um"))
     return max(tenth + fan, min(tenth + worst, 0.5 * p.carried))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.features.declare.measured_checks import Calibrated, Series, measured_checks
-from abu_calc.features.declare.read import Recordings, Run, loaded, of_files, runs_of
+from abu_calc.features.declare.read import Recordings, Run, loaded, of_files, remark_in_list, runs_of
 from abu_calc.features.levels.octaves import Filter, Signal, acceleration_filter, band_rms, hand_arm_filter, why_not
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
@@ -320,7 +320,7 @@ def _remarks(measured: Sequence[_Measured], factor: float) -> Iterator[str]:
     for each in measured:
         for part in each.parts:
             for remark in part.recording.remarks:
-                told.setdefault(remark, {})[Path(part.recording.file).name] = None
+                told.setdefault(remark_in_list(remark), {})[Path(part.recording.file).name] = None
     for remark, files in told.items():
         names = list(files)
         more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""

@@ -2,10 +2,11 @@
 
 import json
 import os
+import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.features.declare.tables import RecordedFile, RecordedRun, RecordingsFile
 from abu_calc.foundation.errors import InputError, Place
@@ -117,9 +118,39 @@ def loaded(source: Recordings, entry: RecordedFile, place: Place) -> Recording:
             full_scale_mV=entry.full_scale_mV, keep_clipped=True,
         )  # fmt: skip
     except InputError as error:
+        error.remedy = error.remedy and remedy_in_list(error.remedy)
         if error.place.file is None:
             raise error.at(place) from None
         raise
+
+
+KEYS: Final = {"channels": "columns", "handle": "handle", "scale": "scale", "quantity": "quantity"}
+"""Keys of a [[recording]] by the options of `abu levels` that do the same."""
+
+
+def remedy_in_list(text: str) -> str:
+    """Text on options of `abu levels` as one on the keys of a [[recording]].
+
+    >>> remedy_in_list("A sensor that is not connected? Leave the channel out: --channels (Python: channels=).")
+    'A sensor that is not connected? Specify columns in [[recording]]: `abu init --recordings FILE` writes such a list.'
+    """
+    kept = [sentence for sentence in re.split(r"(?<=[.?]) ", text) if "--" not in sentence]
+    keys = [key for option, key in KEYS.items() if f"--{option}" in text]
+    if not keys:
+        return text
+    return " ".join(
+        [*kept, f"Specify {' or '.join(keys)} in [[recording]]: `abu init --recordings FILE` writes such a list."]
+    )
+
+
+def remark_in_list(text: str) -> str:
+    """Remark on options of `abu levels` as one on the keys of a [[recording]].
+
+    >>> remark_in_list("ax names no unit and is taken in m/s²; --scale says otherwise.")
+    'ax names no unit and is taken in m/s²; scale in [[recording]] says otherwise.'
+    """
+    text = re.sub(r"say --quantity (\w+)", r'specify quantity = "\1" in [[recording]]', text)
+    return re.sub(r"--(channels|handle|scale|quantity)\b", lambda found: f"{KEYS[found[1]]} in [[recording]]", text)
 
 
 def _sensitivity(entry: RecordedFile, columns: Sequence[str]) -> float | str | dict[str, float | str] | None:

@@ -57,7 +57,11 @@ class WithAutobalancer(Record):
     no_friction_m_per_s2: Annotated[float, Quantity("with, no rolling friction", "a_hv", 4, "without factor")]
     shaken_free: Annotated[
         bool,
-        Quantity("gravity shakes the balls free", "", 4, "on a horizontal spindle; the value is then without friction"),
+        Quantity("gravity shakes the balls free", "", 4, "on a horizontal spindle; friction then leaves nothing"),
+    ]
+    upright_m_per_s2: Annotated[
+        float | None,
+        Quantity("with, spindle vertical", "a_hv", 4, "friction holds the balls; without factor; null: as in the file"),
     ]
 
 

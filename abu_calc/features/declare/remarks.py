@@ -6,8 +6,11 @@ from typing import Final
 
 from abu_calc.features.declare.records import WithAutobalancer
 from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle
+from abu_calc.formulas.shaken_friction import friction_number
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.type_test import ChosenWheel
+from abu_calc.sizing.handles import body_advice
+from abu_calc.sizing.type_test import ChosenWheel, required
 from abu_calc.standards.type_test import uncertainty_source
 
 DOUBTFUL: Final = 0.01
@@ -22,17 +25,23 @@ def remarks(
     """Remarks, those that move the value most first. `imbalance_alone`: a_hv without background [m/s²]."""
     case = design.case
     if not case.body.is_rigid:
+        added = design.autobalancer.mass
         yield (
             "The machine is a point mass here, which judges the autobalancer too hard: a rigid body has up to 3.4 "
-            "times the break-even eccentricity. Give the moments of inertia and the handles."
+            f"times the break-even eccentricity. {body_advice(case, added)}"
         )
     if not case.handles:
         yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."
-    if with_ is not None and with_.shaken_free:
+    if with_ is not None and with_.upright_m_per_s2 is not None:
+        number = friction_number(
+            case.friction_arm, design.autobalancer.pitch_radius, design.autobalancer.ball_diameter / 2, case.speed
+        )
+        left = "nothing" if with_.shaken_free else "a part of itself"
+        upright = with_.upright_m_per_s2
         yield (
-            "With the spindle horizontal, gravity shakes the balls free of rolling friction: the type test then gives "
-            f"{with_.no_friction_m_per_s2:.3g} m/s², declared {with_.factor * with_.no_friction_m_per_s2:.3g} m/s². "
-            "With the spindle upright, friction holds them."
+            f"On the horizontal spindle gravity shakes the balls (friction over gravity: {number:.2g}), and "
+            f"friction leaves {left}. With the spindle vertical friction holds them: {upright:.3g} m/s², declared "
+            f"{with_.factor * upright:.3g} m/s²."
         )
     yield from _background(spindle, imbalance_alone)
     yield from _sources(design, wheel)
@@ -40,8 +49,21 @@ def remarks(
         yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
     if test is not None and test.spindle.balls.band:
         yield (
-            "Balls start at rest in the race at random places. They pass each other as points, and gravity is left "
-            "out. `abu size` judges whether they stall and how soon they settle."
+            "Balls start at rest in the race at random places, and pass each other as points. `abu size` judges "
+            "whether they stall and how soon they settle."
+        )
+
+
+def beyond_capacity(design: Design, wheel: ChosenWheel, even: float | None) -> Iterator[str]:
+    """Remark on a break-even eccentricity [m] at which the balls no longer carry the test wheel at every angle."""
+    if even is None:
+        return
+    case, candidate = design.case, design.autobalancer
+    need = required(case, candidate, wheel.imbalance, even)
+    if need > candidate.capacity:
+        yield (
+            f"At the break-even eccentricity the test wheel would require {from_si(need, 'g_mm'):.3g} g·mm, and the "
+            f"balls carry {from_si(candidate.capacity, 'g_mm'):.3g} g·mm: such a race needs larger balls."
         )
 
 

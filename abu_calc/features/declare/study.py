@@ -17,7 +17,7 @@ from abu_calc.features.declare.records import (
     WithAutobalancer,
     WithoutAutobalancer,
 )
-from abu_calc.features.declare.remarks import remarks
+from abu_calc.features.declare.remarks import beyond_capacity, remarks
 from abu_calc.features.declare.type_test_simulation import (
     STARTS,
     BreakEven,
@@ -33,7 +33,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import GRAVITY, from_si
+from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
@@ -112,10 +112,14 @@ class DeclareResult(Result):
 
 @dataclass(frozen=True)
 class _Tested:
-    """Simulations of one design: with the test wheel, with the wheel in use, and the break-even search."""
+    """Simulations of one design: with the test wheel, with the wheel in use, and the break-even search.
+
+    `upright`: the spindle held vertical, if gravity shakes friction out of the horizontal one.
+    """
 
     test: SimulatedTest
     in_use: SimulatedTest | None
+    upright: SimulatedTest | None
     even: BreakEven
 
 
@@ -184,7 +188,11 @@ def _tested(design: Design, spindle: Spindle, wheel: ChosenWheel, starts: int, p
     if carried(design.case, design.autobalancer, design.imbalance.value):
         progress("wheel in use")
         in_use = simulated_test(spindle, design.imbalance.value, eccentricity, starts)
-    return _Tested(test, in_use, search_break_even(test, starts, progress))
+    whole, upright = Spindle.of(design.case, design.autobalancer, upright=True), None
+    if whole.balls.band > spindle.balls.band:
+        progress("spindle vertical")
+        upright = simulated_test(whole, wheel.imbalance, eccentricity, starts)
+    return _Tested(test, in_use, upright, search_break_even(test, starts, progress))
 
 
 def _result(
@@ -201,11 +209,15 @@ def _result(
     used = None if tested is None or tested.in_use is None else max(tested.in_use.means.values())
     imbalance_alone = math.sqrt(max(bare[highest] ** 2 - spindle.background**2, 0.0))
     bands = declared_bands(case, design.autobalancer, wheel.imbalance)
-    with_ = None if test is None else _with(design, test, None if bands is None else bands[1])
+    with_ = None if tested is None else _with(design, tested, None if bands is None else bands[1])
     return DeclareResult(
         title=table.machine.name,
         checks=(balancing, *_comparison(design, wheel, bare[highest], uncertainty, tested, with_)),
-        warnings=(*machine.warnings, *remarks(design, wheel, spindle, imbalance_alone, test, with_)),
+        warnings=(
+            *machine.warnings,
+            *remarks(design, wheel, spindle, imbalance_alone, test, with_),
+            *(() if tested is None else beyond_capacity(design, wheel, tested.even.simulated)),
+        ),
         provenance=Provenance.of(machine),
         model=DeclareModel(
             speed_rad_per_s=case.speed,
@@ -275,7 +287,8 @@ def _band(shares: tuple[float, float], value: float) -> tuple[float, float]:
     return shares[0] * value, shares[1] * value
 
 
-def _with(design: Design, test: SimulatedTest, band: tuple[float, float] | None) -> WithAutobalancer:
+def _with(design: Design, tested: _Tested, band: tuple[float, float] | None) -> WithAutobalancer:
+    test = tested.test
     plan, name, factor = design.case.table.type_test, test.highest, test.spindle.factor
     runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
     mean, series = test.means[name], test.deviation_of_series(name, runs)
@@ -299,15 +312,10 @@ def _with(design: Design, test: SimulatedTest, band: tuple[float, float] | None)
         declared_low_m_per_s2=max(test.declared - spread, 0.0),
         declared_high_m_per_s2=test.declared + spread,
         no_friction_m_per_s2=spindle.gain * ideal,
-        shaken_free=_shaken_free(design, spindle),
+        shaken_free=tested.upright is not None and not spindle.balls.band,
+        upright_m_per_s2=None if tested.upright is None else tested.upright.means[tested.upright.highest],
         declared_band_m_per_s2=None if band is None else _band(band, test.declared),
     )
-
-
-def _shaken_free(design: Design, spindle: Spindle) -> bool:
-    """True if gravity swings the balls of a horizontal spindle harder than friction holds them: k_r·R_p·Ω²/r < g."""
-    held = spindle.balls.band * spindle.balls.speed**2
-    return design.case.table.machine.spindle_axis == "horizontal" and 0 < held < GRAVITY
 
 
 def _causes(test: SimulatedTest) -> tuple[Cause, ...]:

@@ -28,7 +28,7 @@ from abu_calc.foundation.roots import root
 from abu_calc.foundation.units import to_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.type_test import background, band, type_test_body
+from abu_calc.sizing.type_test import background, band, type_test_body, upright_band
 from abu_calc.standards.type_test import balancing_factor, usual_orientations
 
 STARTS: Final = 10_000
@@ -38,6 +38,8 @@ EXACT: Final = 0.002
 FURTHER: Final = 1.3
 """Factor by which the search goes on where friction lowers a value."""
 MOST_FURTHER: Final = 5
+FRICTIONLESS: Final = (0.0, 0.5, 1.0, 1.3)
+"""Shares of the break-even eccentricity at which a race without friction is evaluated, for its curve."""
 GOLDEN: Final = (math.sqrt(5) - 1) / 2
 """Share of a turn between the race eccentricities of two series: they spread evenly, however many there are."""
 
@@ -60,8 +62,8 @@ class Spindle:
     factor: float
 
     @classmethod
-    def of(cls, case: Case, candidate: Candidate) -> "Spindle":
-        """The type test of a design at its rated speed."""
+    def of(cls, case: Case, candidate: Candidate, *, upright: bool = False) -> "Spindle":
+        """The type test of a design at its rated speed; `upright`: with the spindle vertical in any case."""
         test = case.table.type_test
         given = None if test is None else test.orientations
         usual = usual_orientations()
@@ -69,7 +71,7 @@ class Spindle:
         body = type_test_body(case, candidate)
         balls = SlowBalls(
             candidate.ball_count, candidate.ball_mass * candidate.pitch_radius, candidate.pitch_radius, case.drag,
-            case.inertia_factor, band(case, candidate), body.race_by_race, case.speed,
+            case.inertia_factor, (upright_band if upright else band)(case, candidate), body.race_by_race, case.speed,
         )  # fmt: skip
         return cls(
             type_test_body(case), body, balls, tuple(to_si(angle, "deg") for angle in angles),
@@ -186,7 +188,11 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
     if ideal is None:
         return BreakEven(None, None, None, ())
     if not spindle.balls.band:
-        return BreakEven(ideal, ideal, ideal, ())
+        points = (share * ideal for share in FRICTIONLESS)
+        return BreakEven(
+            ideal, ideal, ideal,
+            tuple((point, simulated_test(spindle, imbalance, point, starts).declared) for point in points),
+        )  # fmt: skip
     tried: dict[float, float] = {}
 
     def excess(eccentricity: float) -> float:

@@ -12,6 +12,8 @@ from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import check_blocks, file_of, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen, verdict_line
 
+ALIKE: Final = 1e-6
+"""Relative difference of runs that end alike."""
 SHARE: Final = 0.001
 """Least share of a cause that is listed."""
 
@@ -69,10 +71,13 @@ def _values(result: DeclareResult) -> list[Block]:
         (_place(row.name), _short(row.without_m_per_s2), _short(row.with_m_per_s2), _short(row.with_m_per_s2, factor))
         for row in result.handles
     ]
-    if with_ is not None and with_.no_friction_m_per_s2 != with_.a_hv_m_per_s2:
+    if with_ is not None and result.model.friction_band_m:
         rows.append(
             ("no rolling friction", "", _short(with_.no_friction_m_per_s2), _short(with_.no_friction_m_per_s2, factor))
         )
+    if with_ is not None and with_.upright_m_per_s2 is not None:
+        held = with_.upright_m_per_s2
+        rows.append(("spindle vertical, friction holds", "", _short(held), _short(held, factor)))
     used = result.wheel_in_use
     rows.append(
         (
@@ -87,7 +92,9 @@ def _values(result: DeclareResult) -> list[Block]:
     facts += _estimated(without.band_m_per_s2)
     facts.append((f"declared with, × {factor:g}", declared))
     facts += [] if with_ is None else _estimated(with_.declared_band_m_per_s2)
-    if with_ is not None:
+    if with_ is not None and with_.p95 - with_.p05 < ALIKE * with_.p95:
+        facts.append(("  every start", "alike: no friction holds the balls"))
+    elif with_ is not None:
         low, high = with_.declared_low_m_per_s2, with_.declared_high_m_per_s2
         facts += [
             ("  90 % of type tests", f"{_short(low)} … {_short(high)} m/s²"),

@@ -269,7 +269,7 @@ class EnsembleResult(Record):
     level_db: Annotated[Spread, Quantity("level", "L")]
     residual_um: Annotated[Spread, Quantity("residual", "w")]
     predicted_level_db: Annotated[
-        float | None, Quantity("predicted level, median of the start cases at the given drag rate", "L")
+        float | None, Quantity("predicted level, median of the start cases, hot and cold oil included", "L")
     ]
     worst_member: Annotated[WorstMember | None, Quantity("worst start case")]
     settling_by_start: tuple[SettlingOfStart, ...]

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.later_settling import with_later_settling
+from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
     BodyRecord,
     DrawingLine,
+    Eccentricity,
     Frequency,
     IdleSpeedLevels,
     Section,
@@ -54,6 +56,7 @@ from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.parts.housing_parts import HousingParts
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -141,8 +144,8 @@ class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 
     command: ClassVar[str] = "size"
-    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion"})
-    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
+    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion", "oil"})
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts", "parts"}
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -156,11 +159,13 @@ class SizeResult(Result):
     required_capacity_compliant_g_mm: Annotated[float | None, Quantity("required by the compliant contact")]
     autobalancer: AutobalancerRecord
     section: Section
+    eccentricity: Eccentricity
     alternatives: tuple[AutobalancerRecord, ...]
     accuracy_budget: AccuracyBudget
     vibration: Vibration
     vibration_loaded: Vibration | None
     measured_after: MeasuredAfterRecord | None
+    oil: OilRecord | None
     ensemble: EnsembleResult | None
     data_gaps: tuple[DataGap, ...]
     simulation: tuple[SimulatedScene, ...]
@@ -174,6 +179,8 @@ class SizeResult(Result):
     """The same at work."""
     starts: Starts = field(compare=False, repr=False)
     """Some starts of the ensemble, run again when they are asked for."""
+    parts: HousingParts = field(compare=False, repr=False)
+    """Geometry of the parts, for drawings and solids."""
 
     @property
     def candidates(self) -> Rows[AutobalancerRecord]:
@@ -281,6 +288,7 @@ def size(
         required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
         autobalancer=AutobalancerRecord.of(design.case.autobalancer, design.autobalancer, design.track),
         section=Section.of(design),
+        eccentricity=Eccentricity.of(design.eccentricity),
         alternatives=tuple(
             AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why)
             for (runner_up, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
@@ -301,6 +309,7 @@ def size(
             compared_starts(design, tried.ensemble),
             level_where_measured(design, work.moved) if isinstance(work, Work) else None,
         ),
+        oil=OilRecord.of(design),
         ensemble=None
         if tried.ensemble is None
         else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
@@ -315,6 +324,7 @@ def size(
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
+        parts=design.construction.parts,
     )
 
 

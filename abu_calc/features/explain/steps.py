@@ -78,9 +78,13 @@ STEPS: Final[Mapping[str, Step]] = {
         (
             "formulas.friction_band:friction_band",
             "formulas.friction_band:worst_friction",
+            "formulas.shaken_friction:remaining_band",
             "sizing.budget:ovality_residual",
             "sizing.budget:permitted_displacement",
             "sizing.place_response:plane_rest",
+            "sizing.eccentricity:eccentricity_sum",
+            "sizing.spindle_fit:fit_eccentricity",
+            "sizing.eccentricity:housing_eccentricity",
         ),
     ),
     "balls": Step(
@@ -112,6 +116,25 @@ STEPS: Final[Mapping[str, Step]] = {
             "features.sweep.columns:drag_ratio",
         ),
     ),
+    "construction": Step(
+        "Construction: parts, closure, fastening, ring",
+        (
+            "sizing.race_quality:race_quality",
+            "sizing.housing:filling_gap",
+            "sizing.closure:wall_stress",
+            "sizing.closure:burst_ratio",
+            "sizing.cover:axial_load",
+            "sizing.closure:perforated_thickness",
+            "sizing.fastening:needed_torque",
+            "sizing.fastening:clamped_torque",
+            "sizing.bearing_ring:sphere_radius",
+            "formulas.press_fit:spin_stress",
+            "formulas.press_fit:interference_left",
+            "formulas.press_fit:contact_pressure",
+            "formulas.press_fit:fit_torque",
+            "formulas.press_fit:fit_force",
+        ),
+    ),
     "vibration": Step(
         "Vibration level",
         (
@@ -137,7 +160,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "identify": Step(
         "Drag, friction and eccentricity from recorded starts (`abu identify`)",
-        ("features.identification.formulas:friction_number", "features.identification.formulas:equivalent_drag"),
+        ("formulas.shaken_friction:friction_number", "features.identification.formulas:equivalent_drag"),
     ),
     "grinding": Step(
         "Machine at its workpiece",

@@ -49,23 +49,15 @@ class FactoryLevel(Record):
     ]
     with_measured_db: Annotated[Span | None, Quantity("with, measured", "L")]
     with_predicted_db: Annotated[
-        float | None, Quantity("with, predicted", "L", 4, "idle: median of the start cases at the given drag rate")
+        float | None,
+        Quantity("with, predicted", "L", 4, "idle: median of all start cases, hot and cold oil included; plane model"),
     ]
     with_predicted_worst_db: Annotated[float | None, Quantity("with, the worst start", "L")]
-    with_median_db: Annotated[
-        float | None,
-        Quantity("with, median", "L", 4, "idle: median of all start cases, hot and cold oil included; plane model"),
-    ]
     lowered_measured_db: Annotated[Span | None, Quantity("lowered, measured", "ΔL")]
     lowered_predicted_db: Annotated[float | None, Quantity("lowered, predicted", "ΔL", 3)]
-    lowered_median_db: Annotated[float | None, Quantity("lowered, median of all start cases", "ΔL", 3)]
     miss_db: Annotated[
         float | None,
-        Quantity("miss", "", 2, "median of all start cases outside the published range: level, else what is lowered"),
-    ]
-    outside_db: Annotated[
-        float | None,
-        Quantity("miss at the given drag rate", "", 2, "median of those start cases outside the published range"),
+        Quantity("miss", "", 2, "prediction outside the published range: level, else what is lowered"),
     ]
     difference_db: Annotated[float | None, Quantity("measured − predicted", "ΔL", 3, "mean of the range in velocity")]
     at_handles_db: Annotated[
@@ -130,18 +122,18 @@ class FactoryResult(Result):
 
 @dataclass(frozen=True)
 class _Predicted:
-    """Levels [dB] in one state and octave: `fitted` at the given drag rate, `median` of all start cases."""
+    """Levels [dB] in one state and octave; `level`: with the autobalancer, idle the median of all start cases."""
 
     without: float | None = None
-    fitted: float | None = None
-    median: float | None = None
+    level: float | None = None
     worst: float | None = None
     louder: tuple[float, float] | None = None
     """Another octave [Hz] that is the loudest when pressed before the balls have settled, and its level."""
 
-    def lowered(self, level: float | None) -> float | None:
-        """Level without − this level [dB]."""
-        return None if self.without is None or level is None else self.without - level
+    @property
+    def lowered(self) -> float | None:
+        """Level without − level with the autobalancer [dB]."""
+        return None if self.without is None or self.level is None else self.without - self.level
 
 
 @checked
@@ -197,7 +189,7 @@ def _soft_races(soft: SoftRace, progress: Progress) -> tuple[SoftRaceLevel, ...]
                 published=soft.published,
                 rolling_friction_mm=friction,
                 level_without_db=design.vibration.level_before_db,
-                with_median_db=None if many is None else many.level_db.typical,
+                with_median_db=None if many is None else many.predicted_level_db,
                 with_worst_db=None if many is None else many.level_db.worst,
             )
         )
@@ -205,7 +197,7 @@ def _soft_races(soft: SoftRace, progress: Progress) -> tuple[SoftRaceLevel, ...]
 
 
 def _predicted(machine: Machine, design: SizeResult, row: MeasuredOctave, progress: Progress) -> _Predicted:
-    """Idle the medians of the start cases, in the octave of the spindle; at work in the plane the simulated octaves.
+    """Idle the median of the start cases, in the octave of the spindle; at work in the plane the simulated octaves.
 
     Pressed to the work when the balls have settled, as one works; `louder`: pressed before.
     """
@@ -217,17 +209,16 @@ def _predicted(machine: Machine, design: SizeResult, row: MeasuredOctave, progre
         louder = None if loudest == row.octave_hz else (loudest, hard[loudest])
         before = None if loaded is None or own != row.octave_hz else loaded.level_before_db
         level = usual.get(row.octave_hz)
-        return _Predicted(before, level, level, louder=louder)
+        return _Predicted(before, level, louder=louder)
     if own != row.octave_hz:
         return _Predicted()
     many = design.ensemble
     if many is None:
         after = design.vibration.level_after_db
-        return _Predicted(design.vibration.level_before_db, after, after)
+        return _Predicted(design.vibration.level_before_db, after)
     known_levels = [level for level in (many.level_db.worst, design.vibration.level_after_db) if level is not None]
     return _Predicted(
-        design.vibration.level_before_db, many.predicted_level_db, many.level_db.typical,
-        max(known_levels, default=None),
+        design.vibration.level_before_db, many.predicted_level_db, max(known_levels, default=None),
     )  # fmt: skip
 
 
@@ -259,14 +250,11 @@ def _row(
         without_measured_db=without,
         without_predicted_db=forecast.without,
         with_measured_db=fitted,
-        with_predicted_db=forecast.fitted,
+        with_predicted_db=forecast.level,
         with_predicted_worst_db=forecast.worst,
-        with_median_db=forecast.median,
         lowered_measured_db=lowered,
-        lowered_predicted_db=forecast.lowered(forecast.fitted),
-        lowered_median_db=forecast.lowered(forecast.median),
-        miss_db=_miss(fitted, lowered, forecast.median, forecast.lowered(forecast.median)),
-        outside_db=_miss(fitted, lowered, forecast.fitted, forecast.lowered(forecast.fitted)),
+        lowered_predicted_db=forecast.lowered,
+        miss_db=_miss(fitted, lowered, forecast.level, forecast.lowered),
         difference_db=_difference(fitted, forecast),
         at_handles_db=there,
         at_handles_miss_db=None if there is None or compared is None else _gap(compared, there),
@@ -286,7 +274,7 @@ def _there(
 
     At a handle of the file: the levels of its axis against the level that the start cases give.
     """
-    base = forecast.median if is_level else forecast.lowered(forecast.median)
+    base = forecast.level if is_level else forecast.lowered
     if base is None:
         return None, "the model has no motion in this octave"
     if handles is not None:
@@ -318,9 +306,9 @@ def _miss(fitted: Span | None, lowered: Span | None, level: float | None, less: 
 
 def _difference(fitted: Span | None, forecast: _Predicted) -> float | None:
     """Measured − predicted [dB] with the autobalancer, the mean of the span in velocity as in [measured_after]."""
-    if fitted is None or forecast.fitted is None:
+    if fitted is None or forecast.level is None:
         return None
-    return level_from_velocity(fmean(map(velocity_from_level, fitted))) - forecast.fitted
+    return level_from_velocity(fmean(map(velocity_from_level, fitted))) - forecast.level
 
 
 def _gap(measured: Span, predicted: Span) -> float:

@@ -20,8 +20,8 @@ ESTIMATED = (
     "only this column compares."
 )
 LOWERED = (
-    "Without: measured, and in the model. Lowered: measured, by the median of all start cases, and by that at the "
-    "given drag rate. Loudest: level with the autobalancer of the loudest start case, or expected from manufacture and "
+    "Without: measured, and in the model. Lowered: measured, and in the model. "
+    "Loudest: level with the autobalancer of the loudest start case, or expected from manufacture and "
     "friction if that is higher."
 )
 SPENT = (
@@ -49,7 +49,6 @@ def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
         Grid(heading, cells, frozenset(range(1, 8))),
         Paragraph(NOTE),
         *([Paragraph(" ".join(where))] if where else []),
-        Paragraph(_at_given_drag(rows)),
         Paragraph(""),
         Paragraph(SPENT),
         *(Paragraph(_fitted(values), hang=2) for values in result.fitted),
@@ -89,13 +88,6 @@ def _verdict(rows: Sequence[FactoryLevel]) -> str:
     return f"{counted}, {within} within the published range. Misses of the medians: {_listed(known)} dB."
 
 
-def _at_given_drag(rows: Sequence[FactoryLevel]) -> str:
-    known = [row.outside_db for row in rows if row.outside_db is not None]
-    if not known:
-        return ""
-    return f"Start cases at the given drag rate alone, as in `abu size`: misses of {_listed(known)} dB."
-
-
 def _listed(values: Sequence[float]) -> str:
     return ", ".join(f"{value:.1f}" for value in values)
 
@@ -107,7 +99,7 @@ def _title(number: int, row: FactoryLevel) -> str:
 def _cells(row: FactoryLevel) -> tuple[str, ...]:
     is_level = row.with_measured_db is not None
     published = row.with_measured_db if is_level else row.lowered_measured_db
-    model = row.with_median_db if is_level else row.lowered_median_db
+    model = row.with_predicted_db if is_level else row.lowered_predicted_db
     sign = "" if is_level else "Δ "
     handles = "–" if model is None else "not comparable"
     if row.at_handles_db is not None:
@@ -125,7 +117,7 @@ def _cells(row: FactoryLevel) -> tuple[str, ...]:
 
 def _lowered(rows: Sequence[FactoryLevel]) -> Grid:
     """Levels measured without the autobalancer, and the reduction with it."""
-    heading = "machine", "Hz", "without", "model", "lowered", "model", "at drag", "loudest"
+    heading = "machine", "Hz", "without", "model", "lowered", "model", "loudest"
     cells = tuple(
         (
             _title(number, row),
@@ -133,13 +125,12 @@ def _lowered(rows: Sequence[FactoryLevel]) -> Grid:
             row.named or _span(row.without_measured_db),
             _one(row.without_predicted_db),
             _span(row.lowered_measured_db),
-            _one(row.lowered_median_db),
             _one(row.lowered_predicted_db),
             _one(row.with_predicted_worst_db),
         )
         for number, row in enumerate(rows, 1)
     )
-    return Grid(heading, cells, frozenset(range(1, 8)))
+    return Grid(heading, cells, frozenset(range(1, 7)))
 
 
 def _remark(row: FactoryLevel) -> str:
@@ -150,7 +141,7 @@ def _remark(row: FactoryLevel) -> str:
             f"Pressed before the balls have settled, the model is loudest at {row.louder_octave_hz:g} Hz, "
             f"{_one(row.louder_octave_db)} dB."
         )
-    if row.with_median_db is not None and row.not_comparable is not None:
+    if row.with_predicted_db is not None and row.not_comparable is not None:
         parts.append(f"Not comparable at the handles: {row.not_comparable}.")
     return " ".join(part for part in (*parts, f"Source: {row.source}.") if part)
 

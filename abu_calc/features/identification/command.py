@@ -13,7 +13,7 @@ from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.write import Target, check_target
 
 if TYPE_CHECKING:
-    from abu_calc.features.identification.study import IdentifyResult
+    from abu_calc.features.identification.results import IdentifyResult
 
 
 def identify(

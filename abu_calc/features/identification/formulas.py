@@ -1,24 +1,9 @@
-"""Rolling friction that gravity shakes on a horizontal spindle: the friction number, and the equivalent drag."""
+"""Drag equivalent to rolling friction that gravity shakes on a horizontal spindle."""
 
 import math
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import GRAVITY
-
-
-@formula(
-    "Friction over gravity of a ball in a race that turns about a horizontal axis",
-    "k_r·R_p·Ω²/(r·g)",
-    "",
-    where="Below 1 gravity shakes friction out: the balls come to rest without a band.",
-    source="derived",
-)
-def friction_number(lever: float, pitch_radius: float, ball_radius: float, speed: float) -> float:
-    """
-    >>> round(friction_number(1.5e-6, 23e-3, 7.9375e-3, 607.37), 4)
-    0.1635
-    """
-    return lever * pitch_radius * speed**2 / (ball_radius * GRAVITY)
 
 
 @formula(

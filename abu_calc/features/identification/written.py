@@ -3,7 +3,7 @@
 import re
 from typing import Final
 
-from abu_calc.features.identification.study import IdentifyResult
+from abu_calc.features.identification.results import IdentifyResult, interval_lines
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.written_units import written_unit
 from abu_calc.inputs.reading.document import open_document
@@ -44,8 +44,16 @@ def identified_text(source: str, result: IdentifyResult) -> str:
             text, count = re.subn(r"(?m)^(\[autobalancer\][^\n]*)$", rf"\g<1>\n{name} = {value:.4g}", text, count=1)
         if not count:
             text = f"{text.rstrip()}\n\n[autobalancer]\n{name} = {value:.4g}\n"
+    if not scene:
+        text = _with_intervals(text, interval_lines(result.starts, {key: getattr(result, key) for key in values}))
     angle = result.race_eccentricity_angle_deg
     if scene and angle is not None:
         pattern = rf"(?m)^(\s*race_eccentricity\s*=\s*\{{[^}}\n]*angle_deg\s*=\s*){NUMBER}"
         text = re.sub(pattern, rf"\g<1>{angle.value:.1f}", text)
     return text
+
+
+def _with_intervals(text: str, lines: list[str]) -> str:
+    """The text with the table [identified] anew, in the place of an earlier one."""
+    kept = re.sub(r"(?ms)^\[identified\][^\n]*\n.*?(?=^\[|\Z)", "", text)
+    return f"{kept.rstrip()}\n\n{chr(10).join(lines)}\n"

@@ -161,7 +161,7 @@ def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, In
     """All numbers in one pass, since their products are the same."""
     levels = tuple(len(factor.variation.values) for factor in sample.factors)
     fits = {name: Fit(levels, sample.runs) for name in names}
-    for members, columns in _parts(store, names):
+    for members, columns in parts_of(store, names):
         places = np.empty((len(members), len(sample.factors)))
         for first in np.unique(members // BLOCK).tolist():
             here = members // BLOCK == first
@@ -176,7 +176,7 @@ def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, In
 def _of_saltelli(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
     """A row of the matrices in which a member gave no number is replaced by the next whole one."""
     values = np.full((len(names), sample.runs), np.nan)
-    for members, columns in _parts(store, names):
+    for members, columns in parts_of(store, names):
         values[:, members] = columns
     indices: dict[str, Indices | None] = {}
     for name, column in zip(names, values, strict=True):
@@ -187,7 +187,7 @@ def _of_saltelli(store: Store, sample: Sample, names: Sequence[str]) -> dict[str
     return indices
 
 
-def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
+def parts_of(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
     """Members with answers and their numbers (names × members), some thousand at a time; NaN where one is none."""
     query = f"SELECT member, {', '.join(map(quoted, names))} FROM members WHERE {ANSWERED}"
     size = 8 * BLOCK

@@ -156,7 +156,7 @@ def sweep(
     if store is not None:
         files = (*([how.output] if how.output else []), *(path for _, path in how.figures))
         checked_path(store, taken=files)
-    with _wording(store), _executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
+    with wording(store), cluster_executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
         result = study(
             read_any(machine, set_ or ()),
             vary,
@@ -187,7 +187,7 @@ def _command() -> str:
 
 
 @contextmanager
-def _wording(store: Path | None) -> Iterator[None]:
+def wording(store: Path | None) -> Iterator[None]:
     """Errors name the option; who interrupts is told how to go on."""
     try:
         yield
@@ -217,7 +217,7 @@ def _going_on(store: Path, kept: str) -> str:
 
 
 @contextmanager
-def _executor(cluster: str | None, patience: float) -> Iterator[Executor | None]:
+def cluster_executor(cluster: str | None, patience: float) -> Iterator[Executor | None]:
     """Executor of a Dask cluster, if one is requested."""
     if cluster is None:
         yield None

@@ -76,7 +76,7 @@ def once_more(
         """Rows of a batch, whose further numbers nobody needs."""
         take(rows)
 
-    counted = _Counted(keep, 0, count, progress, "sweep: what may be loosened, {} of {}")
+    counted = _Counted(keep, 0, count, progress, "sweep: trials of advice, {} of {}")
     _computed(study, numbers, counted, hands)
 
 

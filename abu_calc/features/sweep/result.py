@@ -127,6 +127,41 @@ class Price(Record):
 
 
 @record
+class DecidingValue(Record):
+    """A value that decides the margin of a failed limit: its share of the margin's variance, with others."""
+
+    key: Annotated[str, Quantity("value")]
+    total: Annotated[float, Quantity("of the margin", "S_T", 2)]
+    fails_at: Annotated[str, Quantity("fails at", "", 4, "high values, low values, or a choice")]
+
+
+@record
+class FailedLimit(Record):
+    """A limit that samples fail, and the values that decide its margin."""
+
+    limit: Annotated[str, Quantity("limit")]
+    failed: Annotated[int, Quantity("samples that fail it")]
+    of: Annotated[int, Quantity("samples")]
+    decides: tuple[DecidingValue, ...]
+
+
+@record
+class LimitAdvice(Record):
+    """A change that was tried on the same samples and raises the share that meets all limits.
+
+    `set` goes to `--set`, `vary` to `--vary`. `limits`: samples that fail each limit, before and after.
+    """
+
+    change: Annotated[str, Quantity("change")]
+    set_: Annotated[dict[str, Any], Quantity("values to set")]
+    vary: Annotated[dict[str, str], Quantity("distributions to set")]
+    before: Annotated[float, Quantity("share before", "", 4, "", percent=True)]
+    after: Annotated[float, Quantity("share after", "", 4, "", percent=True)]
+    of: Annotated[int, Quantity("samples tried")]
+    limits: Annotated[dict[str, tuple[int, int]], Quantity("samples that fail each limit")]
+
+
+@record
 class Chart(Record):
     """The share that balances (or of designs, that passes) and the mean level over two keys, `shares[y][x]`."""
 
@@ -245,6 +280,9 @@ class SweepResult(Result):
         dict[str, float], Quantity("unexplained", "", 3, "share of the variance that single values and pairs leave")
     ]
     prices: tuple[Price, ...]
+    failed_limits: tuple[FailedLimit, ...]
+    advice: tuple[LimitAdvice, ...]
+    tried: Annotated[int, Quantity("changes tried for failed limits")]
     chart: Chart | None
     store: Annotated[str | None, Quantity("store")]
     members: Members = field(compare=False)

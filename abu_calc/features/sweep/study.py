@@ -16,6 +16,8 @@ from abu_calc.features.sweep import tolerance_costs as worth
 from abu_calc.features.sweep.cluster import software, versions
 from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
 from abu_calc.features.sweep.execution import Take, Workers, compute, described, once_more
+from abu_calc.features.sweep.failed_limits import failed_limits
+from abu_calc.features.sweep.limit_advice import advice
 from abu_calc.features.sweep.plan import Plan, SweepRequest, asked, planned
 from abu_calc.features.sweep.result import Failed, Kept, MeetsLimits, Members, Percentiles, SweepResult, Varied
 from abu_calc.features.sweep.samples import SweepStudy
@@ -79,7 +81,7 @@ def sweep(
     ACCURACY.check(accuracy)
     WORKERS.check(1 if workers is None else workers)
     hands = Workers(workers, executor, WAIT.check(cluster_wait_s))
-    path = None if store is None else _path(store, resume, force)
+    path = None if store is None else store_path(store, resume, force)
     hands.refuse_other_software()
     ask = asked(
         machine, vary, runs=runs, what=what, tolerances=tolerances, grid=grid, sensitivity=sensitivity,
@@ -116,7 +118,7 @@ def sweep(
         database.close()
 
 
-def _path(given: str | Path, resume: bool, force: bool) -> Path:
+def store_path(given: str | Path, resume: bool, force: bool) -> Path:
     """The path of the store; refused if a study is there that nobody asks to go on with, or a file of another kind."""
     path = checked_path(given)
     if not (resume or force) and study_of(path) is not None:
@@ -220,6 +222,9 @@ def _answered(
     halves = worth.halves(store, sample, study.what, ranked)
     idle = [split.row.key for split in reversed(halves) if split.idle]
     tried = loosened(study, store, idle, again)
+    limits = _limits(plan)
+    failing = () if study.what != "build" or late else failed_limits(store, sample, met, limits)
+    given, many = ((), 0) if not isinstance(source, Machine) else advice(plan, ask, source, failing, store, again)
     quantities = answers.spreads(store, study.what)
     tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
     return SweepResult(
@@ -234,7 +239,7 @@ def _answered(
         varied=tuple(Varied(key=factor.key, how=factor.variation.text) for factor in sample.factors),
         failed=failed,
         quantities=quantities,
-        distributions=answers.distributions(store, study.what, _limits(plan)),
+        distributions=answers.distributions(store, study.what, limits),
         meets_limits=met,
         basins=answers.basins(store),
         sensitivity_of=first,
@@ -242,6 +247,9 @@ def _answered(
         sensitivity_by_quantity=by_name,
         unexplained=unexplained,
         prices=worth.prices(halves, tried),
+        failed_limits=failing,
+        advice=given,
+        tried=many,
         chart=None if plan.grid is None else answers.chart(store, sample, study.what, plan.grid),
         store=None if path is None else str(path),
         members=members,

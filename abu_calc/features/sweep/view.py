@@ -6,8 +6,9 @@ Shares are drawn as bars, and over two keys as a chart of signs.
 from collections.abc import Sequence
 from typing import Final
 
-from abu_calc.features.sweep.result import Chart, Price, Sensitivity, SweepResult
+from abu_calc.features.sweep.result import Chart, DecidingValue, Price, Sensitivity, SweepResult
 from abu_calc.foundation.units import unit_of
+from abu_calc.inputs.reading.text import shown
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen
@@ -137,6 +138,7 @@ def sweep_blocks(result: SweepResult) -> tuple[Block, ...]:
     return (
         *_about(result),
         *_limits(result),
+        *_failing(result),
         *_basins(result),
         *_numbers(result),
         *(chart_blocks(result.chart) if result.chart else ()),
@@ -154,12 +156,13 @@ def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
     """Verdict, shares, numbers, chart or what decides."""
     first = result.sensitivity_of
     some = any(basin.share < 1 for basin in result.basins)
-    body = [*_limits(result), *(_basins(result) if some else ()), *_numbers(result)]
+    body = [*_limits(result), *_failing(result), *(_basins(result) if some else ()), *_numbers(result)]
     if result.chart:
         body = [*chart_blocks(result.chart, short=True), *body]
     elif first:
         body += _decides(result, first, MOST)
-    body += [*_prices(result, short=True), *_failed(result)]
+    # Advice on the level is no answer where a limit fails.
+    body += [*([] if result.failed_limits else _prices(result, short=True)), *_failed(result)]
     more = () if result.store else ("--store FILE.sqlite, every sample",)
     return one_screen(result, _about(result), body, more)
 
@@ -301,6 +304,36 @@ def _loose(price: Price) -> tuple[str, ...]:
 def change(level: float | None) -> str:
     """Change of a level, as text."""
     return "none" if level is None else f"{round(level, 1) + 0.0:+.1f} dB"
+
+
+def _failing(result: SweepResult) -> list[Block]:
+    """Limits that fail with the values that decide their margins, and the changes that raise the share."""
+    if not result.failed_limits:
+        return []
+    rows = [
+        (LIMITS[limit.limit] if not place else "", str(limit.failed) if not place else "", row.key,
+         f"{row.total:.2f}", row.fails_at)
+        for limit in result.failed_limits
+        for place, row in enumerate(limit.decides or (NO_VALUE,))
+    ]  # fmt: skip
+    header = ("failed limit", "fail", "deciding value", "of margin", "fails at")
+    blocks: list[Block] = [Heading("What fails", "failing"), Grid(header, tuple(rows), frozenset({1, 3}))]
+    if not result.advice:
+        if result.tried:
+            tried = many(result.tried, "change was", "changes were")
+            blocks.append(Paragraph(f"{tried} tried; none raises the share."))
+        return blocks
+    of = result.advice[0].of
+    blocks.append(Heading(f"What helps, tried on the same {of} samples", "helps"))
+    for change in result.advice:
+        text = f"{percent(change.before)} → {percent(change.after)}: {change.change}"
+        options = [*(f"--set {key}={shown(value)}" for key, value in change.set_.items()),
+                   *(f'--vary "{key}={way}"' for key, way in change.vary.items())]  # fmt: skip
+        blocks += [Paragraph(text), Paragraph(f"  {' '.join(options)}")]
+    return blocks
+
+
+NO_VALUE: Final = DecidingValue(key="no value that varies", total=0.0, fails_at="")
 
 
 def _basins(result: SweepResult) -> list[Block]:

@@ -11,7 +11,7 @@ from tests.features.declare.recordings import MV, run_file
 KEYS = {
     "test_wheel", "handle", "without", "with", "handles", "break_even_eccentricity_mm", "friction_rms_mm", "lowers",
 }  # fmt: skip
-PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
+PRESETS = ("angle-grinder-125", "avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
 
 
 @pytest.mark.parametrize("preset", PRESETS)
@@ -20,6 +20,25 @@ def test_presets_have_a_screen(preset: str) -> None:
     assert seen.status == 0, seen.err
     assert "declared with" in seen.out and "break-even" in seen.out
     assert seen.width <= 80 and len(seen.out.splitlines()) <= 48
+
+
+def test_a_common_tool_shows_its_handles_out_of_the_box() -> None:
+    """Two handles in three axes, the limit of a_hv, and a declared value that falls by more than K."""
+    for command in ("size", "levels", "declare"):
+        seen = once(command, "angle-grinder-125", *(("--starts", "500") if command == "declare" else ()))
+        assert seen.status == 0 and "PASS" in seen.out and "point mass" not in seen.out
+        assert seen.width <= 80 and len(seen.out.splitlines()) <= 48
+        assert "rear" in seen.out and "side" in seen.out
+    checks = {check["code"]: check["status"] for check in once("declare", "angle-grinder-125", "--starts", "500",
+              "--json").document["checks"]}  # fmt: skip
+    assert checks == {"ABU431": "pass", "ABU432": "pass", "ABU433": "pass"}
+
+
+def test_a_horizontal_spindle_tells_the_vertical_case_beside() -> None:
+    """Friction below gravity leaves nothing: no spread of runs is printed, and both cases stand in the table."""
+    seen = once("declare", "avtovaz-707-222", "--starts", "500")
+    assert "spindle vertical, friction holds" in seen.out and "every start" in seen.out
+    assert "standard error" not in seen.out and "rolling friction" not in seen.out.split("Causes")[1].split("Notes")[0]
 
 
 def test_the_document_has_the_fixed_keys(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """`abu declare --recordings`: fifteen recordings whose value and K are known, and files that are wrong."""
 
 import math
+import re
 import wave as wave_files
 from pathlib import Path
 from statistics import fmean, stdev
@@ -171,6 +172,37 @@ def test_a_recording_listed_twice_warns(tmp_path: Path) -> None:
     check = next(check for check in evaluated(str(path)).checks if check.code == "ABU442")
     assert check.status == "warn"
     assert "run 2, handle: the same recording as operator 1, run 1" in check.message
+
+
+@pytest.mark.parametrize(
+    ("heads", "row", "words"),
+    [
+        ("ax_m_per_s2,ax_m_per_s2,az_m_per_s2", None, "same name"),
+        ("ax_m_per_s2,ay_m_per_s2,az_m_per_s2", "0", "same number from start to end"),
+        ("a1_m_per_s2,a2_m_per_s2,a3_m_per_s2,a4_m_per_s2", None, "three axes at most"),
+    ],
+)
+def test_advice_on_recordings_names_no_option_of_another_command(
+    tmp_path: Path, heads: str, row: str | None, words: str
+) -> None:
+    """A doubled axis, a dead channel, too many columns: `abu declare` has neither --channels nor --handle."""
+    t, values = wave(1.0)
+    columns = [values if row is None else 0 * values + float(row)] * (heads.count(",") + 1)
+    path = tmp_path / "a.csv"
+    np.savetxt(path, np.column_stack([t, *columns]), delimiter=",", comments="", header=f"t_s,{heads}", fmt="%.9g")
+    with pytest.raises(InputError, match=words) as caught:
+        declare_recordings([str(path)])
+    assert caught.value.remedy is not None and not re.search(r"--(?!recordings)", caught.value.remedy)
+
+
+def test_remarks_on_recordings_name_no_option_of_another_command(tmp_path: Path) -> None:
+    t, values = wave(1.0)
+    for run in (1, 2):
+        np.savetxt(tmp_path / f"{run}.csv", np.column_stack([t, run * values, values]), delimiter=",", comments="",
+                   header="t_s,ax,ay", fmt="%.9g")  # fmt: skip
+    result = declare_recordings([str(tmp_path / f"{run}.csv") for run in (1, 2)])
+    told = [remark for remark in result.warnings if "[[recording]]" in remark]
+    assert told and not any(re.search(r"--(scale|handle|quantity|channels)", remark) for remark in result.warnings)
 
 
 def test_a_unit_that_is_not_known_is_refused(tmp_path: Path) -> None:

@@ -158,6 +158,20 @@ def test_background_above_its_limit(tmp_path: Path, rigid: DeclareResult) -> Non
     assert any("however perfect" in remark for remark in loud.warnings)
 
 
+def test_a_break_even_eccentricity_beyond_the_capacity_is_told(tmp_path: Path, rigid: DeclareResult) -> None:
+    """425 g·mm carry 68.4 + 2.04·25 of the reference; three small balls carry 111."""
+    assert not any("larger balls" in remark for remark in rigid.warnings)
+    small = {"autobalancer__ball_count": 3, "autobalancer__ball_diameter_mm": 7.0, "autobalancer__capacity_margin": 1.0}
+    tight = result(tmp_path, S150, 1000, wheel__imbalance_g_mm=70.0, **small)
+    even = tight.break_even_eccentricity_mm
+    assert even is not None
+    need = 65 * 1.0517 + 1e3 * even * tight.model.effective_mass_kg
+    capacity = next(check.value for check in tight.checks if check.code == "ABU433")
+    assert capacity is not None
+    assert any("larger balls" in remark for remark in tight.warnings) == (need > capacity)
+    assert need > capacity
+
+
 def test_a_test_wheel_beyond_the_capacity(tmp_path: Path) -> None:
     heavy = result(tmp_path, S150, type_test__test_wheel_imbalance_g_mm=500.0)
     assert heavy.status == "fail"
@@ -231,8 +245,23 @@ def test_the_same_machine_gives_the_same_numbers(tmp_path: Path) -> None:
 
 
 def test_gravity_is_told_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareResult) -> None:
-    """k_r·R_p·Ω²/r = 3.8 m/s² is below g: gravity shakes the balls free."""
-    lying = result(tmp_path, S150, 500, machine__spindle_axis="horizontal")
+    """k_r·R_p·Ω²/r = 3.8 m/s² is below g: gravity shakes the balls free, and friction leaves nothing."""
+    lying = result(tmp_path, S150, 10_000, machine__spindle_axis="horizontal")
     assert lying.with_ is not None and lying.with_.shaken_free
-    assert rigid.with_ is not None and not rigid.with_.shaken_free
-    assert any("gravity shakes" in remark for remark in lying.warnings)
+    assert rigid.with_ is not None and not rigid.with_.shaken_free and rigid.with_.upright_m_per_s2 is None
+    assert any("gravity shakes" in remark and "friction leaves nothing" in remark for remark in lying.warnings)
+    assert lying.with_.a_hv_m_per_s2 == pytest.approx(0.43241, rel=0.01)
+    assert lying.with_.upright_m_per_s2 == rigid.with_.a_hv_m_per_s2
+    assert lying.friction_rms_mm == 0 and "rolling friction" not in {cause.name for cause in lying.causes}
+    assert lying.break_even_eccentricity_mm == pytest.approx(0.025946, rel=0.01)
+
+
+def test_friction_above_gravity_holds_balls_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareResult) -> None:
+    """k_r of 20 µm: 38 m/s² against g, so that most of the friction stays."""
+    rough = {"autobalancer__rolling_friction_mm": 0.02}
+    lying = result(tmp_path, S150, 2000, machine__spindle_axis="horizontal", **rough)
+    standing = result(tmp_path, S150, 2000, **rough)
+    assert lying.with_ is not None and standing.with_ is not None and rigid.with_ is not None
+    assert not lying.with_.shaken_free
+    assert lying.with_.upright_m_per_s2 == standing.with_.a_hv_m_per_s2
+    assert rigid.with_.a_hv_m_per_s2 < lying.with_.a_hv_m_per_s2 < standing.with_.a_hv_m_per_s2

@@ -84,7 +84,8 @@ def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> N
     machine = abu_calc.read(file)
     front, rear, along, other, guard = factory([machine]).rows
     design = recalled("size", machine)
-    assert design.ensemble is not None and front.with_median_db == design.ensemble.level_db.typical
+    assert design.ensemble is not None and front.with_predicted_db is not None
+    assert front.with_predicted_db == pytest.approx(design.ensemble.level_db.typical, abs=1e-6)
     mass = 6.2 + (design.autobalancer.mass_g or 0) / 1000
     shares = [abs(1 / mass + p * 0.2 / 0.1) for p in (0.1, -0.2)]
     assert front.at_handles_db is not None and rear.at_handles_db is not None
@@ -93,8 +94,8 @@ def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> N
     assert ratio == pytest.approx(shares[0] / shares[1], rel=0.02)
     assert front.at_handles_miss_db == pytest.approx(front.at_handles_db[0] - 81)
     assert along.at_handles_db is None and along.not_comparable == "the model has no motion along this axis"
-    assert along.lowered_median_db is not None and along.miss_db == pytest.approx(along.lowered_median_db - 9)
-    assert other.with_median_db is None and other.miss_db is None and guard.miss_db is None
+    assert along.lowered_predicted_db is not None and along.miss_db == pytest.approx(along.lowered_predicted_db - 9)
+    assert other.with_predicted_db is None and other.miss_db is None and guard.miss_db is None
     assert guard.not_comparable == "the file has no handle of this name"
     assert {row.degrees_of_freedom_spent for row in (front, rear)} == {None}
     result = factory([machine])
@@ -127,11 +128,11 @@ position_mm = [95.0, 160.0, -15.0]
     level, lowered = factory([machine]).rows
     design = recalled("size", machine)
     axis = design.vibration.handles[0].axes[2]  # type: ignore[index]
-    assert level.at_handles_db is not None and lowered.at_handles_db is not None and level.with_median_db is not None
+    assert level.at_handles_db is not None and lowered.at_handles_db is not None and level.with_predicted_db is not None
     moved = axis.level_after_db - design.vibration.level_after_db
-    assert level.at_handles_db[0] == pytest.approx(level.with_median_db + moved, abs=1e-9)
+    assert level.at_handles_db[0] == pytest.approx(level.with_predicted_db + moved, abs=1e-9)
     # Race in the wheel plane: every axis of every place falls by as much.
-    assert lowered.at_handles_db[0] == pytest.approx(lowered.lowered_median_db, abs=0.3)
+    assert lowered.at_handles_db[0] == pytest.approx(lowered.lowered_predicted_db, abs=0.3)
 
 
 def test_a_file_without_measurements_is_refused() -> None:
@@ -148,16 +149,15 @@ def test_predictions_are_those_of_the_other_commands() -> None:
     assert sized.ensemble is not None
     assert sized.measured_after is not None
     assert idle["with_predicted_db"] == pytest.approx(sized.measured_after.predicted_level_db, abs=1e-6)
-    assert idle["with_median_db"] == pytest.approx(sized.ensemble.level_db.typical, abs=1e-6)
+    assert idle["with_predicted_db"] == pytest.approx(sized.ensemble.level_db.typical, abs=1e-6)
     assert idle["difference_db"] == pytest.approx(sized.measured_after.difference_db, abs=1e-6)
     assert idle["without_predicted_db"] == pytest.approx(111.0, abs=1e-9)
     settled = abu_calc.levels("avtovaz-707-222", "grinding", start="settled")
     work = {one.nominal_hz: one.level_db for one in settled.octaves}
     assert loaded["with_predicted_db"] == pytest.approx(work[125], abs=1e-9)
     assert rows["msh-230", "loaded", 16.0]["with_predicted_db"] is None
-    for key, level in (("outside_db", "with_predicted_db"), ("miss_db", "with_median_db")):
-        gap = idle["with_measured_db"][0] - idle[level]
-        assert idle[key] == pytest.approx(max(0.0, gap), abs=1e-9)
+    gap = idle["with_measured_db"][0] - idle["with_predicted_db"]
+    assert idle["miss_db"] == pytest.approx(max(0.0, gap), abs=1e-9)
     assert len(once("factory").out.splitlines()) <= 48
 
 

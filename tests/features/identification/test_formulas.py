@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from abu_calc.features.identification.formulas import equivalent_drag, friction_number
+from abu_calc.features.identification.formulas import equivalent_drag
+from abu_calc.formulas.shaken_friction import friction_number
 
 
 def test_by_hand() -> None:

@@ -12,7 +12,6 @@ from abu_calc.inputs.wheel import QUANTITIES
 from tests.inputs.samples import document, read
 
 OPTIONAL = [
-    "[[machine.handle]]",
     "[grinding]",
     "[run_up]",
     "[motor]",
@@ -37,7 +36,13 @@ def test_it_names_every_table_and_key_once() -> None:
         block = rows[rows.index(header) + 1 :]
         end = next((index for index, row in enumerate(block) if row.startswith("[")), len(block))
         keys = [row.split(" = ")[0] for row in block[:end] if row]
-        assert keys == [key for key in table.model_fields if key != "handle"]
+        assert keys == [key for key in table.model_fields if key != "handle"], path
+
+
+def test_a_new_file_is_a_rigid_body_with_a_handle(tmp_path: Path) -> None:
+    tables = read(tmp_path, template()).tables
+    assert isinstance(tables, MachineFile)
+    assert tables.machine.estimates and [handle.name for handle in tables.machine.handle] == ["front"]
 
 
 @pytest.mark.parametrize("header", OPTIONAL)
@@ -45,7 +50,7 @@ def test_an_optional_table_reads_once_its_marks_are_taken_away(tmp_path: Path, h
     before, mark, after = template().partition(f"\n#{header}")
     assert mark
     block, gap, rest = after.partition("\n\n")
-    # The sizes of a bearing stand beside its designation, two places of a handle beside each other: one may be used.
+    # The sizes of a bearing stand beside its designation: one may be used.
     lines = [row for row in block.split("\n") if not re.match(r"#(bore|outer|width|position)_mm", row)]
     used = "\n".join(row[1:] if re.match(r"#[a-z]", row) else row for row in lines)
     text = f"{before}\n{header}{used}{gap}{rest}"

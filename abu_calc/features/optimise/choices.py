@@ -1,0 +1,190 @@
+"""What may be chosen: keys of a file with their values, as asked or by default; keys that parts of a family share."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Final, NamedTuple
+
+from abu_calc.features.optimise.costs import (
+    COUNT,
+    DESIGN,
+    DIAMETER,
+    DRAG,
+    ECCENTRICITY,
+    FRICTION,
+    HARDNESS,
+    RADIUS,
+    cost_of,
+)
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.units import from_si
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.variation import NOT_OF_THE_MACHINE, Variation, path_of, variation
+from abu_calc.sizing.balls import Candidate, candidates, sound
+from abu_calc.sizing.case import read_case
+from abu_calc.sizing.imbalance import find_imbalance
+
+MOST_ASSIGNMENTS: Final = 5000
+"""Combinations of values of one machine."""
+PAIRS: Final = 4
+"""Pairs of diameter and number of balls in the default list."""
+SHARED: Final = {
+    "balls": (DIAMETER,),
+    "race": (RADIUS, ECCENTRICITY, FRICTION, HARDNESS),
+    "housing": (DESIGN, RADIUS, DIAMETER),
+    "oil": (DRAG,),
+}
+"""Keys that are equal in machines which share a part."""
+SIZED: Final = (COUNT, DIAMETER, RADIUS)
+"""Keys that `abu size` fills in where nobody chooses them."""
+
+Assignment = Mapping[str, Any]
+
+
+class Option(NamedTuple):
+    """One thing to choose: its name, and the values of its keys, of which one is taken."""
+
+    name: str
+    values: tuple[Assignment, ...]
+
+
+def options_of(machine: Machine, choose: object, place: Place) -> tuple[Option, ...]:
+    """Options as asked (`KEY=choice(A, B)` each, or a table by key), or the default list."""
+    if choose is None:
+        return tuple(_usual(machine))
+    pairs = list(choose.items()) if isinstance(choose, Mapping) else [_pair(text, place) for text in _listed(choose)]
+    if not pairs:
+        raise InputError("nothing to choose from", place=place, allowed=GRAMMAR)
+    options = tuple(_option(key, how, place) for key, how in pairs)
+    names = [option.name for option in options]
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        raise InputError("chosen twice", place=place, found=twice, remedy="Give each key once.")
+    _refuse_many(options, place)
+    for option in options:
+        for assignment in option.values:
+            _tried(machine, assignment, place)
+    return options
+
+
+GRAMMAR: Final = '"KEY=choice(A, B, …)"'
+
+
+def _listed(choose: object) -> Sequence[object]:
+    return choose if isinstance(choose, (list, tuple)) else [choose]
+
+
+def _pair(text: object, place: Place) -> tuple[str, str]:
+    key, equals, how = text.partition("=") if isinstance(text, str) else ("", "", "")
+    if not equals or not key.strip() or not how.strip():
+        raise InputError("not KEY=choice(…)", place=place, found=str(text), allowed=GRAMMAR)
+    return key.strip(), how.strip()
+
+
+def _option(key: object, how: object, place: Place) -> Option:
+    here = Place(place.file, place.line, f"{place.key} {key}")
+    path = path_of(str(key))
+    if path[0] in NOT_OF_THE_MACHINE or path[0] in ("start", "measured", "measured_after", "limits"):
+        raise InputError("no value that a design can choose", place=here, allowed="a key of machine or autobalancer")
+    way: Variation = variation(how, here)
+    if not way.values:
+        raise InputError("a distribution is no list of values", place=here, found=way.text, allowed=GRAMMAR)
+    values = list(dict.fromkeys(way.values))
+    if len(values) < len(way.values):
+        raise InputError("a value is listed twice", place=here, found=way.text)
+    return Option(str(key), tuple({str(key): value} for value in values))
+
+
+def _tried(machine: Machine, assignment: Assignment, place: Place) -> None:
+    """Raise InputError that names the option if the file does not bear a value."""
+    try:
+        machine.changed(assignment).whole("optimise")
+    except InputError as error:
+        key = next(iter(assignment))
+        raise error.at(Place(place.file, place.line, f"{place.key} {key}")) from None
+
+
+def _refuse_many(options: Sequence[Option], place: Place) -> None:
+    count = math.prod(len(option.values) for option in options)
+    if count > MOST_ASSIGNMENTS:
+        raise InputError(
+            "too many combinations", place=place, found=f"{count}", allowed=f"at most {MOST_ASSIGNMENTS}",
+            remedy="List fewer values.",
+        )  # fmt: skip
+
+
+def _usual(machine: Machine) -> Iterator[Option]:
+    """Balls that fit, and for the values of the file also finer and coarser ones."""
+    there = _sound(machine)
+    ranked = sorted(there, key=_cost)
+    strongest = max(there, key=lambda each: each.capacity_ratio)
+    picked = [*ranked[: PAIRS - 1], strongest] if strongest not in ranked[: PAIRS - 1] else ranked[:PAIRS]
+    yield Option("balls", tuple(map(_pair_of, picked)))
+    yield from _usual_scatter(machine, GRADES)
+
+
+def usual_of_family(machines: Sequence[Machine]) -> list[tuple[Option, ...]]:
+    """Default list of several machines with the same balls: diameters that fit all of them."""
+    all_sound = [_sound(machine) for machine in machines]
+    cheapest = [{d: min(_cost(each) for each in its if _diameter(each) == d) for d in map(_diameter, its)}
+                for its in all_sound]  # fmt: skip
+    common = set.intersection(*(set(its) for its in cheapest))
+    chosen = sorted(common, key=lambda d: (sum(its[d] for its in cheapest), d))[: PAIRS - 1]
+    return [
+        (Option("balls", tuple(_pair_of(each) for d in chosen for each in _of_diameter(its, d))),
+         *_usual_scatter(machine, GRADES[1:]))
+        for machine, its in zip(machines, all_sound, strict=True)
+    ] if chosen else [tuple(_usual(machine)) for machine in machines]  # fmt: skip
+
+
+GRADES: Final = (32 / 46, 1.0, 68 / 46, 100 / 46)
+"""Viscosity grades of ISO 3448 beside VG 46: the drag rate is proportional to the viscosity."""
+
+
+def _of_diameter(there: Sequence[Candidate], diameter: float) -> list[Candidate]:
+    return sorted((each for each in there if _diameter(each) == diameter), key=_cost)[:2]
+
+
+def _usual_scatter(machine: Machine, grades: Sequence[float]) -> Iterator[Option]:
+    own = machine.whole("optimise").autobalancer
+    if own is None:
+        return
+    if (eccentricity := own.race_eccentricity_mm) > 0:
+        yield _scaled(ECCENTRICITY, eccentricity, (0.5, 1.0, 2.0, 3.0), 10.0)
+    if (friction := own.rolling_friction_mm) > 0:
+        yield _scaled(FRICTION, friction, (0.5, 1.0, 2.0), 1.0)
+    if (drag := own.rolling_drag_per_s) > 0:
+        yield _scaled(DRAG, drag, grades, 1e5)
+
+
+def _sound(machine: Machine) -> list[Candidate]:
+    """Autobalancers that fall short of nothing; all that fit if there is none."""
+    with machine.located():
+        case = read_case(machine.whole("optimise"))
+        there = candidates(case, find_imbalance(case).value)
+    if not there:
+        raise InputError("no balls fit", place=Place(machine.file, key="autobalancer"), remedy="Run `abu size FILE`.")
+    return [each for each in there if sound(case, each)] or there
+
+
+def _scaled(key: str, value: float, factors: Sequence[float], most: float) -> Option:
+    """The value of the file and its multiples, to three digits."""
+    values = [value if factor == 1 else min(float(f"{factor * value:.3g}"), most) for factor in factors]
+    return Option(key, tuple({key: each} for each in dict.fromkeys(values)))
+
+
+def _cost(chosen: Candidate) -> float:
+    return cost_of(SIZED, sized_values(chosen), {}, Place())
+
+
+def _diameter(chosen: Candidate) -> float:
+    return float(sized_values(chosen)[DIAMETER])
+
+
+def _pair_of(chosen: Candidate) -> Assignment:
+    values = sized_values(chosen)
+    return {key: values[key] for key in (COUNT, DIAMETER)}
+
+
+def sized_values(chosen: Candidate) -> dict[str, Any]:
+    """Number, diameter [mm] and race radius [mm] of a sized autobalancer, as a file holds them."""
+    diameter, radius = from_si(chosen.ball_diameter, "mm"), from_si(chosen.race_radius, "mm")
+    return {COUNT: chosen.ball_count, DIAMETER: round(diameter, 6), RADIUS: round(radius, 6)}

@@ -1,0 +1,203 @@
+"""Race of candidates: the least cost at which a wanted share meets the limits, with as few samples as decide it.
+
+All candidates meet the same samples (common random numbers). A candidate consists of arms, one for each machine; its
+share is the least of theirs. Each round doubles the samples of the cheapest open candidates that look good, fewer
+from round to round (successive halving: Karnin, Koren & Somekh 2013, ICML 28(3), 1238). The others wait. A candidate is
+let go only by a bound:
+
+- its share lies below the wanted one (Clopper & Pearson);
+- or a candidate that costs no more meets the limits in more of the same samples (exact sign test);
+- or a candidate that costs less is proven.
+
+Rounds end together, so that the number of processes changes nothing.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.features.optimise.bounds import chance, compared, lower, middle, upper
+
+FIRST: Final = 16
+"""Samples of an arm in its first round."""
+DROP: Final = 0.001
+PROVE: Final = 0.005
+"""Risks of one wrong bound, when a candidate is let go and when it is proven."""
+RIVALS: Final = 5
+"""Best arms of a machine with which each of its others is compared."""
+KEEP: Final = 4
+"""Part of the arms that goes on from one round to the next is one in so many, and at least so many."""
+STEP: Final = 1.25
+"""Least growth of an arm's samples in a round."""
+
+Flags = NDArray[np.bool_]
+Order = tuple[int, int, int]
+"""An arm, the number of its samples there are, and how many there shall be."""
+Evaluate = Callable[[Sequence[Order]], Sequence[Flags]]
+"""Answers, for each order, which of the further samples meet the limits."""
+
+
+@dataclass
+class CandidateRace:
+    """State of the race: `candidates` has a row of arms for each candidate, `costs` its cost.
+
+    `machines[arm]`: the machine of each arm; `most`: samples of one arm; `budget`: samples of all.
+    """
+
+    candidates: NDArray[np.int64]
+    costs: NDArray[np.float64]
+    target: float
+    evaluate: Evaluate
+    most: int
+    budget: int
+    met: list[Flags] = field(default_factory=list)
+    spent: int = 0
+    rounds: int = 0
+
+    def __post_init__(self) -> None:
+        arms = int(self.candidates.max()) + 1
+        self.met = [np.zeros(0, dtype=np.bool_) for _ in range(arms)]
+
+    def samples(self, arm: int) -> int:
+        """Number of samples of an arm."""
+        return len(self.met[arm])
+
+    def counts(self, arm: int) -> tuple[int, int]:
+        """Samples of an arm that meet the limits, and all."""
+        return int(self.met[arm].sum()), len(self.met[arm])
+
+    def sample(self, wanted: dict[int, int]) -> None:
+        """Bring each arm to so many samples, as far as the budget goes."""
+        orders: list[Order] = []
+        for arm in sorted(wanted):
+            there = self.samples(arm)
+            until = min(wanted[arm], self.most, there + self.budget - self.spent)
+            if until > there:
+                orders.append((arm, there, until))
+                self.spent += until - there
+        for (arm, _, until), flags in zip(orders, self.evaluate(orders), strict=True):
+            self.met[arm] = np.concatenate([self.met[arm], np.asarray(flags, dtype=np.bool_)])
+            if self.samples(arm) != until:
+                raise ValueError(f"{until} samples of variant {arm} were ordered, {self.samples(arm)} came")
+        self.rounds += bool(orders)
+
+    def least(self, values: Sequence[float]) -> NDArray[np.float64]:
+        """The least value of each candidate's arms."""
+        least: NDArray[np.float64] = np.asarray(values, dtype=float)[self.candidates].min(axis=1)
+        return least
+
+    def shares(self) -> NDArray[np.float64]:
+        """Share of each candidate, of its samples; 1 without samples."""
+        return self.least([met / of if of else 1.0 for met, of in map(self.counts, range(len(self.met)))])
+
+    def means(self) -> NDArray[np.float64]:
+        """Share of each candidate as far as its samples tell: few samples tell little."""
+        return self.least([middle(*self.counts(arm)) for arm in range(len(self.met))])
+
+    def proven(self) -> NDArray[np.bool_]:
+        """Candidates whose lower bound reaches the wanted share."""
+        return self.least([lower(*self.counts(arm), PROVE) for arm in range(len(self.met))]) >= self.target
+
+    def possible(self) -> NDArray[np.bool_]:
+        """Candidates whose upper bound reaches the wanted share."""
+        return self.least([upper(*self.counts(arm), DROP) for arm in range(len(self.met))]) >= self.target
+
+    def best(self) -> int | None:
+        """The cheapest proven candidate, the higher share first among those of one cost."""
+        proven = np.flatnonzero(self.proven())
+        if not len(proven):
+            return None
+        means = self.means()
+        return int(min(proven, key=lambda k: (self.costs[k], -means[k], k)))
+
+
+def run(race: CandidateRace) -> int | None:
+    """Race until the cheapest candidate is found, or the samples are spent; its number, None if none is proven."""
+    group = len(race.met)
+    while race.spent < race.budget:
+        group = max(group // KEEP, KEEP)
+        looks_bad = race.shares() < race.target
+        order = np.lexsort((-race.means(), race.costs, looks_bad))
+        wanted = _next_samples(race, _open(race), order.tolist(), group)
+        if not wanted:
+            break
+        race.sample(wanted)
+    return race.best()
+
+
+def highest(race: CandidateRace) -> int:
+    """Race on for the highest share, whatever it costs; the cheapest of those that are highest."""
+    race.sample({arm: FIRST for arm in range(len(race.met)) if race.samples(arm) < FIRST})
+    while race.spent < race.budget:
+        means = race.means()
+        first = int(np.argmax(means))
+        alive = np.array([k == first or not _beaten(race, k, first) for k in range(len(means))])
+        order = np.lexsort((race.costs, -means))
+        wanted = _next_samples(race, alive, order.tolist(), max(int(alive.sum()) // KEEP, KEEP))
+        if not wanted:
+            break
+        race.sample(wanted)
+    return int(np.lexsort((race.costs, -race.means()))[0])
+
+
+def _open(race: CandidateRace) -> NDArray[np.bool_]:
+    """Candidates that may still be the answer, without those that are proven."""
+    alive = race.possible()
+    best = race.best()
+    if best is not None:
+        alive &= race.costs < race.costs[best] - 1e-12
+    alive &= ~race.proven()
+    order = np.argsort(-race.means(), kind="stable")
+    for rival in order[:RIVALS].tolist():
+        for k in np.flatnonzero(alive & (race.costs >= race.costs[rival])).tolist():
+            if k != rival and _beaten(race, k, rival):
+                alive[k] = False
+    return alive
+
+
+def _beaten(race: CandidateRace, candidate: int, rival: int) -> bool:
+    """True if the rival is better by an exact sign test on common samples, and nowhere worse by chance alone."""
+    pairs = [
+        compared(race.met[theirs], race.met[own])
+        for own, theirs in zip(race.candidates[candidate], race.candidates[rival], strict=True)
+    ]
+    if any(chance(losses, wins) < 0.5 and losses > wins for wins, losses in pairs):
+        return False
+    return any(chance(wins, losses) < DROP for wins, losses in pairs)
+
+
+def _next_samples(race: CandidateRace, alive: NDArray[np.bool_], order: Sequence[int], group: int) -> dict[int, int]:
+    """Samples of the next round: of the first candidates that are alive, until there are arms enough."""
+    wanted: dict[int, int] = {}
+    for k in order:
+        if len(wanted) >= group:
+            break
+        if alive[k]:
+            unfinished = {arm for arm in race.candidates[k].tolist() if race.samples(arm) < race.most}
+            open_arms = {arm for arm in unfinished if not _proven(race, arm)} or unfinished
+            wanted |= {arm: _next(race, arm) for arm in open_arms}
+    return wanted
+
+
+def _proven(race: CandidateRace, arm: int) -> bool:
+    return lower(*race.counts(arm), PROVE) >= race.target
+
+
+def _next(race: CandidateRace, arm: int) -> int:
+    """Twice as many samples, or as many as prove the share if no more fail."""
+    met, of = race.counts(arm)
+    if not of:
+        return FIRST
+    low, high = round(STEP * of), 2 * of
+    if lower(met + high - of, high, PROVE) < race.target:
+        return high
+    while low < high:
+        half = (low + high) // 2
+        if lower(met + half - of, half, PROVE) >= race.target:
+            high = half
+        else:
+            low = half + 1
+    return max(high, round(STEP * of))

@@ -1,0 +1,67 @@
+"""Text of a machine file with the values of a design; comments stay where the text can be edited line by line."""
+
+import copy
+import re
+import tomllib
+from collections.abc import Mapping
+from typing import Any, Final
+
+from abu_calc.features.optimise.result import OptimiseResult
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.reading.overrides import Override, apply, overrides_of
+from abu_calc.inputs.reading.text import shown
+
+HEADER: Final = r"(?m)^\[{}\][^\n]*$"
+DROPPED: Final = ("expected",)
+"""Tables that hold for the old design alone."""
+
+
+def written_text(machine: Machine, values: Mapping[str, Any], result: OptimiseResult) -> str:
+    """The file with these values, scattering as the samples of the race did."""
+    scatter = dict(values)
+    if result.written_tolerances:
+        scatter["sweep.tolerances"] = True
+    content = copy.deepcopy(machine.document.content)
+    for name in DROPPED:
+        content.pop(name, None)
+    apply(content, (*machine.overrides, *overrides_of(scatter)), MachineFile)
+    text = machine.document.text
+    for name in DROPPED:
+        text = re.sub(rf"(?ms)^\[{name}[.\]].*?(?=^\[|\Z)", "", text)
+    for override in (*machine.overrides, *overrides_of(scatter)):
+        text = _put(text, override)
+    try:
+        same = tomllib.loads(text) == content
+    except ValueError:
+        same = False
+    if same:
+        return text
+    import tomli_w
+
+    return tomli_w.dumps(content)
+
+
+def _put(text: str, override: Override) -> str:
+    """The text with one entry of a table set."""
+    if len(override.path) != 2 or not all(isinstance(part, str) for part in override.path):
+        return text
+    table, key = map(str, override.path)
+    line = f"{key} = {shown(override.value)}"
+    header = re.search(HEADER.format(re.escape(table)), text)
+    if header is None:
+        return f"{text.rstrip()}\n\n[{table}]\n{line}\n"
+    following = re.search(r"(?m)^\[", text[header.end() :])
+    end = header.end() + following.start() if following else len(text)
+    body = text[header.end() : end]
+    replaced, count = re.subn(rf"(?m)^{key}\s*=[^#\n]*?(?=\s*(#|$))", lambda _: line, body, count=1)
+    if not count:
+        replaced = f"\n{line}{body}"
+    else:
+        replaced = re.sub(rf"(?m)^({re.escape(line)})\s+#.*$", r"\1  # chosen by abu optimise", replaced)
+    return text[: header.end()] + replaced + text[end:]
+
+
+def set_options(values: Mapping[str, Any]) -> str:
+    """Values as options of a command line."""
+    return " ".join(f"--set {key}={shown(value)}" for key, value in values.items())

@@ -1,0 +1,78 @@
+"""Advice for the limit that fails, followed literally: the share rises as told. Machines that fail by other limits."""
+
+from typing import Any
+
+import pytest
+
+import abu_calc
+from abu_calc.features.sweep.limit_advice import halved
+from abu_calc.foundation.errors import Place
+from abu_calc.inputs.variation import variation
+
+PINNED = {"autobalancer.ball_count": 4, "autobalancer.ball_diameter_mm": 16.5, "autobalancer.race_radius_mm": 31.0}
+FAILING: dict[str, tuple[str, dict[str, Any], dict[str, str], str]] = {
+    "settling": ("avtovaz-707-222", {"autobalancer.rolling_drag_per_s": 7.0}, {}, "meets_settling"),
+    "level": (
+        "avtovaz-707-222",
+        {"autobalancer.race_eccentricity_mm": 0.03, "limits.vibration_level_db": 104.0, **PINNED},
+        {},
+        "meets_level",
+    ),
+    "capacity": ("avtovaz-707-370", {}, {"wheel.imbalance_g_mm": "lognormal(450, 0.5)"}, "balances"),
+    "stall": ("msh-230", {"autobalancer.rolling_drag_per_s": 0.6}, {}, "none_hangs"),
+    "friction": (
+        "avtovaz-707-222",
+        {"autobalancer.rolling_friction_mm": 0.02, "autobalancer.rolling_drag_per_s": 6.0},
+        {},
+        "meets_settling",
+    ),
+}
+"""Preset, changes, scatter, and a limit that fails."""
+RUNS = 60
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("preset", "changes", "vary", "limit"), FAILING.values(), ids=FAILING.keys())
+def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str) -> None:
+    machine = abu_calc.read(preset).changed(changes)
+    sweep = abu_calc.sweep(machine, vary, RUNS, tolerances=True, seed=3)
+    assert limit in [failed.limit for failed in sweep.failed_limits]
+    assert sweep.advice, "nothing helps"
+    for advice in sweep.advice:
+        assert advice.before == sweep.meets_limits.share < advice.after
+        followed = machine.changed(advice.set_) if advice.set_ else machine
+        again = abu_calc.sweep(followed, {**vary, **advice.vary}, RUNS, tolerances=True, seed=3)
+        assert again.meets_limits.share == pytest.approx(advice.after, abs=1e-12)
+        for name, (_, after) in advice.limits.items():
+            failing = again.meets_limits.each[name]
+            assert failing.of - failing.met == after
+    best = sweep.advice[0].limits[limit]
+    assert best[1] < best[0]
+
+
+def test_no_advice_where_nothing_fails() -> None:
+    sweep = abu_calc.sweep(abu_calc.read("avtovaz-707-222"), None, 24, seed=1)
+    assert sweep.meets_limits.share == 1
+    assert (sweep.failed_limits, sweep.advice, sweep.tried) == ((), (), 0)
+
+
+def test_the_value_that_decides_the_failed_limit_is_named() -> None:
+    """The level fails by the eccentricity alone here: it decides the margin, and failures lie at its high values."""
+    machine = abu_calc.read("avtovaz-707-222").changed(FAILING["level"][1])
+    sweep = abu_calc.sweep(machine, None, 60, tolerances=True, seed=3)
+    (failed,) = [each for each in sweep.failed_limits if each.limit == "meets_level"]
+    assert (failed.decides[0].key, failed.decides[0].fails_at) == ("autobalancer.race_eccentricity_mm", "high values")
+    assert failed.decides[0].total > 0.7
+    assert failed.failed == sum(sweep.members["meets_level"] == 0)
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        ("lognormal(256, 0.2)", "lognormal(256, 0.1)"),
+        ("uniform(2, 4)", "uniform(2.5, 3.5)"),
+        ("triangular(0, 1, 3)", "triangular(0, 0.5, 1.5)"),
+    ],
+)
+def test_half_the_scatter_keeps_the_middle(text: str, numbers: str) -> None:
+    assert halved(variation(text, Place())) == numbers
