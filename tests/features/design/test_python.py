@@ -37,6 +37,10 @@ def test_save_writes_what_output_writes(result: abu_calc.SizeResult, tmp_path: P
             pytest.importorskip("ezdxf")
         path = result.save(tmp_path / f"x{ending}")
         assert path.stat().st_size > 1000
+    assert result.save(tmp_path / "solid.step").read_text("utf-8").startswith("ISO-10303-21;")
+    made = again("size", PRESET, "--quiet", "--output", str(tmp_path / "y.dxf"))
+    assert made.status == 0
+    assert {p.name[1:] for p in tmp_path.glob("x*.dxf")} == {p.name[1:] for p in tmp_path.glob("y*.dxf")}
     written = json.loads((tmp_path / "x.json").read_text("utf-8"))
     seen = again("size", PRESET, "--json").document
     assert written["result"].keys() == seen["result"].keys() and written["checks"] == seen["checks"]
