@@ -1,9 +1,10 @@
 """abu-calc: design calculator for passive ball autobalancers.
 
-    machine = abu_calc.read("avtovaz-707-222")          # a file, or a preset
-    lighter = machine.changed({"wheel.mass_kg": 0.5})   # checked as if the file said so
+    machine = abu_calc.read("avtovaz-707-222")          # a file, a preset, TOML text, a dictionary
+    lighter = machine.changed({"wheel.mass": "500 g"})  # checked as if the file said so
     result = abu_calc.size(lighter)                     # what `abu size` prints, typed
-    result.status, result.autobalancer.ball_count, result.checks, result.to_dict()
+    result.status, result.autobalancer.ball_count, result.checks.to_pandas(), result.to_dict()
+    result.save("report.html"), result.save("section.dxf"), print(result.text(full=True))
 
 Each name is imported when it is first used, so that importing the package costs nothing.
 """
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Final
 from abu_calc.version import __version__
 
 if TYPE_CHECKING:
+    from abu_calc import units
     from abu_calc.dynamics.race import Race
     from abu_calc.dynamics.scene import Scene
     from abu_calc.dynamics.supports.planar import planar
@@ -29,7 +31,8 @@ if TYPE_CHECKING:
     from abu_calc.features.factory.study import FactoryResult, factory
     from abu_calc.features.grinding.study import GrindingResult, grinding
     from abu_calc.features.identification.plan import MeasurePlanResult, measure_plan
-    from abu_calc.features.identification.study import IdentifyResult, identify
+    from abu_calc.features.identification.results import IdentifyResult
+    from abu_calc.features.identification.study import identify
     from abu_calc.features.levels.study import LevelsResult, levels
     from abu_calc.features.optimise.result import OptimiseResult
     from abu_calc.features.optimise.study import optimise
@@ -98,10 +101,8 @@ _ROOMS: Final = {
         "MeasurePlanResult",
         "measure_plan",
     ),
-    "features.identification.study": (
-        "IdentifyResult",
-        "identify",
-    ),
+    "features.identification.results": ("IdentifyResult",),
+    "features.identification.study": ("identify",),
     "features.levels.study": (
         "LevelsResult",
         "levels",
@@ -203,6 +204,7 @@ __all__ = [
     "size",
     "stability",
     "sweep",
+    "units",
     "verify",
 ]
 
@@ -214,6 +216,8 @@ def __dir__() -> list[str]:
 if not TYPE_CHECKING:  # a type checker shall find what is there, and nothing else
 
     def __getattr__(name: str) -> object:
+        if name == "units":
+            return importlib.import_module("abu_calc.units")
         for room, names in _ROOMS.items():
             if name in names:
                 return getattr(importlib.import_module(f"abu_calc.{room}"), name)

@@ -6,14 +6,18 @@ Modules are named here and imported when they are needed, so that a command load
 import importlib
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.errors import InputError, OutputError, Place
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from matplotlib.figure import Figure as Drawn
 
     from abu_calc.reporting.charts.figure import Extras, Figure
+    from abu_calc.reporting.outcome import Outcome
     from abu_calc.simulation.result import Result
 
 
@@ -202,7 +206,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "identify",
         "identification.command",
-        ("identification.study:IdentifyResult",),
+        ("identification.results:IdentifyResult",),
         "identification.view:identify_extras",
         figures=(Known("starts", "starts were recorded"),),
         group="Measure",
@@ -235,9 +239,12 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "compare",
         "compare.command",
-        ("compare.study:CompareResult",),
-        "compare.view:compare_extras",
-        figures=tuple(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
+        ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
+        "compare.pages:any_extras",
+        figures=(
+            *(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
+            Known("courses", "recorded starts are given with --measured"),
+        ),
     ),
     Feature(
         "verify",
@@ -248,6 +255,13 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "validate",
         "files.validate",
+        (),
+        computes=False,
+        group="Files",
+    ),
+    Feature(
+        "migrate",
+        "files.migrate",
         (),
         computes=False,
         group="Files",
@@ -319,6 +333,42 @@ def extras_of(result: "Result") -> "Extras":
     maker = BY_NAME[result.command].makes_figures if result.command in BY_NAME else ""
     extras: Extras = imported(maker)(result) if maker else Extras()
     return extras
+
+
+def outcome_of(result: "Result") -> "Outcome":
+    """A result as its command shows and writes it, figures of a page included."""
+    outcome: Outcome = imported(f"{BY_NAME[result.command].command}:outcome_of")(result)
+    return replace(outcome, settings=(("command", result.command),), extras=lambda: extras_of(result))
+
+
+def save(result: "Result", path: "Path", *, force: bool) -> None:
+    """Write a result as --output does; the suffix chooses the format. Raises OutputError, naming file and remedy."""
+    from abu_calc.reporting.files import DRAWN, FORMATS, as_file, check_extra
+    from abu_calc.reporting.write import Target, check_target, write
+
+    outcome, suffix = outcome_of(result), path.suffix.lower()
+    try:
+        check_target(path, force=force, suffixes=(*FORMATS, *(DRAWN if outcome.drawings else ())))
+        check_extra(suffix)
+        write((Target(path, as_file(outcome, suffix)),), force=force)
+    except OutputError as error:
+        error.remedy = error.remedy and error.remedy.replace("--force", "force=True")
+        raise
+
+
+def text(result: "Result", *, full: bool) -> str:
+    """The report of a result as the command prints it: on one screen, or whole."""
+    from abu_calc.reporting.text import as_text
+
+    outcome = outcome_of(result)
+    return as_text(outcome.blocks if full else outcome.screen)
+
+
+def html(result: "Result") -> str:
+    """A result in a notebook: verdict, drawing of the section, checks."""
+    from abu_calc.reporting.page.card import card
+
+    return card(outcome_of(result))
 
 
 def figures_of(result: "Result") -> "tuple[Figure, ...]":

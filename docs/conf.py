@@ -12,10 +12,19 @@ author = "The abu-calc authors"
 copyright = "The abu-calc authors"
 release = version = __version__
 
-extensions = ["myst_parser", "sphinx_copybutton", "command_output", "generated_reference", "validation_cases"]
+extensions = [
+    "myst_nb", "sphinx_copybutton", "command_output", "generated_reference", "validation_cases", "for_agents",
+]  # fmt: skip
+# The notebook runs when the site is built, in a folder of its own; an error ends the build.
+nb_execution_mode = "force"
+nb_execution_in_temp = True
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+nb_merge_streams = True
+nb_ipywidgets_js: dict[str, dict[str, str]] = {}
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "jupyter_execute"]
 nitpicky = True
 
 html_theme = "furo"

@@ -83,11 +83,15 @@ def write_files(outcome: Outcome, how: Delivery) -> bool:
     """Write all of them; False: there are none. Where one cannot be written, what was computed is told all the same."""
     if how.output is None and not outcome.further and not how.figures:
         return False
-    from abu_calc.reporting.files import as_file
-    from abu_calc.reporting.write import Target, write
+    from abu_calc.reporting.files import as_file, further_sheets
+    from abu_calc.reporting.write import Target, check_target, write
 
-    own = () if how.output is None else (Target(how.output, as_file(outcome, how.output.suffix.lower())),)
+    own = () if how.output is None else (
+        Target(how.output, as_file(outcome, how.output.suffix.lower())), *further_sheets(outcome, how.output)
+    )  # fmt: skip
     try:
+        for target in own[1:]:
+            check_target(target.path, force=how.force)
         with progress(how) as tell:
             named = _figures(outcome, how)
             files = chain(outcome.further, own, (Target(path, _drawn(figure, path)) for figure, path in named))
@@ -143,7 +147,7 @@ def _output_option(formats: Iterable[str]) -> Any:
 
 def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
     yield from (".json", ".toml", ".csv", ".txt (whole report)", ".html (page with figures)" if figures else ".html")
-    yield from (f"{suffix} (drawing)" for suffix in drawn)
+    yield from (f"{suffix} ({'solids' if suffix in ('.step', '.stp') else 'drawing'})" for suffix in drawn)
 
 
 def _shared(

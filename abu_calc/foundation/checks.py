@@ -5,6 +5,7 @@ check_data/, one file for each hundred, read when one of its codes is first requ
 """
 
 import tomllib
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
@@ -101,6 +102,10 @@ Grade = Literal["pass", "warn", "fail", "not-done"]
 """Grade of one check; warn: the usual rule holds, a stricter one or the worst case does not."""
 
 
+WORDS: Final[Mapping[str, str]] = {"pass": "PASS", "warn": "WARN", "fail": "FAIL", "not-done": "NOT EVALUATED"}
+"""Grades as people read them."""
+
+
 @dataclass(frozen=True)
 class Action:
     """What a reader can do about a check: a sentence, and the entries of the file that do it, each for one `--set`."""
@@ -128,6 +133,13 @@ class Check:
     overrides: tuple[str, ...] = ()
     """Entries of the file that the action replaces, such as "machine.mass_kg=5.6"; `--set` takes each."""
 
+    def __repr__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        numbers = [f"{self.value:.5g}{unit}"] if self.value is not None else []
+        numbers += [f"limit {self.limit:.5g}{unit}"] if self.limit is not None else []
+        within = f" ({', '.join(numbers)})" if numbers else ""
+        return f"<Check {self.code} {WORDS[self.status]}: {self.name}{within}>"
+
     @property
     def requested(self) -> bool:
         """False of a check whose data are optional and missing: the status does not wait for it."""
@@ -142,6 +154,8 @@ class Check:
 @dataclass(frozen=True)
 class OptionalCheck(Check):
     """A check that was not done since its optional data are missing."""
+
+    __repr__ = Check.__repr__
 
     @property
     def requested(self) -> bool:
@@ -195,6 +209,30 @@ def worst(checks: Iterable[Check]) -> Grade:
     statuses = {check.status for check in checks if check.requested}
     order: tuple[Grade, ...] = ("fail", "not-done", "warn", "pass")
     return next((grade for grade in order if grade in statuses), "pass")
+
+
+def verdict_words(status: Status, checks: Iterable[Check]) -> str:
+    """The verdict with the counts of checks by grade.
+
+    >>> verdict_words("pass", [Check("ABU201", "capacity", "pass", "…"), Check("ABU401", "level", "warn", "…")])
+    'PASS WITH WARNINGS: 1 of 2 checks passes, 1 warns, 0 fail'
+    """
+    count = Counter(check.status for check in checks if check.requested)
+    total, word = sum(count.values()), WORDS[status]
+    if not total:
+        return f"{word}: there are no checks"
+    verb = "passes" if count["pass"] == 1 else "pass"
+    clauses = [f"{count['pass']} of {total} check{'' if total == 1 else 's'} {verb}"]
+    if count["pass"] < total:
+        clauses += [
+            f"{count['warn']} {'warns' if count['warn'] == 1 else 'warn'}",
+            f"{count['fail']} {'fails' if count['fail'] == 1 else 'fail'}",
+        ]
+    if count["not-done"]:
+        clauses.append(f"{count['not-done']} not evaluated")
+    if status == "pass" and count["warn"]:
+        word += " WITH WARNINGS"
+    return f"{word}: {', '.join(clauses)}"
 
 
 def verdict(passed: bool, safe: bool = True) -> Grade:

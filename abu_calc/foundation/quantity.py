@@ -12,14 +12,18 @@ import datetime
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, fields
-from inspect import getattr_static
+from inspect import cleandoc, getattr_static
 from operator import attrgetter
 from types import NoneType
 from typing import Any, ClassVar, Final, NamedTuple, Never, Self, TypeVar, dataclass_transform, get_args, get_type_hints
 
-from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit
+from abu_calc.foundation.rows import Rows, as_rows
+from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit, unit_of
 
 T = TypeVar("T")
+
+LONGEST: Final = 500
+"""Characters of the longest text of a record."""
 
 
 class Quantity(NamedTuple):
@@ -33,6 +37,17 @@ class Quantity(NamedTuple):
     """Shown in hundredths."""
 
 
+LEVEL_AFTER: Final = Quantity(
+    "level after",
+    "L",
+    4,
+    "expected level with the autobalancer, its balls at rest where they balance, with the eccentricity and friction of "
+    "manufacture (calculated); dB re 5e-8 m/s, rms; None: the balls cannot balance there. Simulated start cases, whose "
+    "median reports call `Idle, with`, are ensemble.level_db",
+)
+"""The one meaning of `level_after_db`, at whatever place and speed its record names."""
+
+
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 def record(kind: type[T]) -> type[T]:
     """Makes a class a record: a dataclass that cannot be changed, whose fields are given by name.
@@ -41,10 +56,22 @@ def record(kind: type[T]) -> type[T]:
     of a command's start.
     """
     made = dataclass(init=False, eq=False, repr=False, match_args=False)(kind)
+    made.__doc__ = _FieldsInDocstring(kind.__dict__.get("__doc__"))  # type: ignore[assignment]
     for name in kind.__annotations__:
         if name.endswith("_"):  # a field whose entry is a word of Python, such as with_
             setattr(made, _entry(name), property(attrgetter(name)))
     return made
+
+
+class _FieldsInDocstring:
+    """Docstring of a record with its fields, made when somebody asks for it."""
+
+    def __init__(self, text: object) -> None:
+        self.text = text if isinstance(text, str) else ""
+
+    def __get__(self, instance: object, kind: "type[Record]") -> str:
+        listed = "\n".join(f"    {line}" for line in field_lines(kind))
+        return f"{cleandoc(self.text)}\n\nFields:\n{listed}" if listed else self.text
 
 
 def _entry(name: str) -> str:
@@ -74,6 +101,9 @@ class Record:
             unknown = values.keys() - {field.name for field in known}
             raise TypeError(f"{type(self).__name__} has no fields {', '.join(sorted(unknown))}")
         self.__dict__.update(values)
+        for name, value in values.items():
+            if type(value) is tuple and value:
+                self.__dict__[name] = as_rows(value)
 
     def __setattr__(self, name: str, value: object) -> Never:
         raise FrozenInstanceError(f"cannot assign to field {name!r}")
@@ -91,8 +121,9 @@ class Record:
         return hash(type(self))  # what it holds need not be hashable
 
     def __repr__(self) -> str:
-        values = (f"{field.name}={getattr(self, field.name)!r}" for field in fields(self) if field.repr)
-        return f"{type(self).__name__}({', '.join(values)})"
+        values = (f"{field.name}={_short(getattr(self, field.name))}" for field in fields(self) if field.repr)
+        text = f"{type(self).__name__}({', '.join(values)})"
+        return text if len(text) <= LONGEST else f"{text[: LONGEST - 2]}…)"
 
     @classmethod
     def read(cls, *sources: object, **given: object) -> Self:
@@ -191,7 +222,7 @@ def _conversion(kind: type[Record], field: "Field[Any]", unit: str) -> Callable[
         return None
 
     def converted(value: Any) -> object:
-        if isinstance(value, tuple) and not (inner and hasattr(value, "_fields")):
+        if isinstance(value, (tuple, Rows)) and not (inner and hasattr(value, "_fields")):
             return tuple(map(converted, value))
         if inner is not None:
             known = value is None or isinstance(value, Record)
@@ -220,7 +251,7 @@ def as_plain(value: object) -> Any:
         return value.to_dict()
     if isinstance(value, Mapping):
         return {key: as_plain(inner) for key, inner in value.items()}
-    if isinstance(value, (tuple, list)):
+    if isinstance(value, (tuple, list, Rows)):
         return [as_plain(inner) for inner in value]
     if isinstance(value, (datetime.date, datetime.time)):
         return value.isoformat()
@@ -235,6 +266,35 @@ def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
         return
     for key, inner in items:
         yield from flattened(inner, f"{path}.{key}" if path else str(key))
+
+
+def _short(value: object) -> str:
+    """Text of a value inside of a record's: records within are named only."""
+    if isinstance(value, Record):
+        return f"{type(value).__name__}(…)"
+    return repr(value)
+
+
+def described(name: str, quantity: Quantity) -> str:
+    """Label, symbol, unit and meaning of a field in a line.
+
+    >>> described("ball_diameter_mm", Quantity("ball diameter", "2r", 5, "as made"))
+    'ball diameter 2r [mm]: as made'
+    """
+    unit = unit_of(name)
+    head = " ".join(part for part in (quantity.label, quantity.symbol, f"[{unit}]" if unit else "") if part)
+    return f"{head}: {quantity.meaning}" if quantity.meaning else head
+
+
+def field_lines(kind: type[Record]) -> Iterator[str]:
+    """Each field of a record with label, symbol, unit and meaning, or with the record that it holds."""
+    labelled, types = quantities(kind), hints(kind)
+    for name in kind.entries():
+        parts = (part for part in parts_of_type(types[name]) if isinstance(part, type))
+        inner = next((part for part in parts if issubclass(part, Record)), None)
+        words = [described(name, labelled[name])] if name in labelled else []
+        words += [f"see {inner.__name__}"] if inner is not None else []
+        yield f"{name}: {'; '.join(words)}" if words else name
 
 
 def hints(kind: type[Record]) -> Mapping[str, Any]:

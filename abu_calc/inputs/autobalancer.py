@@ -1,10 +1,13 @@
 """The table of the autobalancer: the room for it, how it is made, and values that may be pinned."""
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from abu_calc.inputs.reading.table import Table, problem, usual
+
+Temperature = Annotated[float, Field(ge=-60, le=250)]
+"""A temperature of the housing [°C]."""
 
 
 class Autobalancer(Table):
@@ -90,6 +93,47 @@ class Autobalancer(Table):
         le=10,
         json_schema_extra=usual(0.0005, 0.2),
     )
+    eccentricity_sum: Literal["worst-case", "rss"] = Field(
+        default="worst-case",
+        description="Rule by which the drawing's parts of the eccentricity (race run-out, fit, spindle run-out, "
+        "housing imbalance) add up to race_eccentricity_mm: worst-case or rss (root of the sum of squares). Default: "
+        "{default}.",
+    )
+    closure: Literal["pressed", "screwed"] = Field(
+        default="pressed",
+        description="Cover that closes the housing: pressed (interference fit) or screwed (a fine thread on its rim). "
+        "Default: {default}.",
+    )
+    fastening: Literal["clamped", "shrunk", "flange"] = Field(
+        default="clamped",
+        description="Fastening on the spindle: clamped (by a nut), shrunk (interference fit alone) or flange (part of "
+        "the flange that drives the wheel). Default: {default}.",
+    )
+    clamp_force_N: float | None = Field(
+        default=None,
+        description="Axial force of the nut that clamps the housing or the flange [N]; {range}. Without it the slip "
+        "torque is not evaluated.",
+        examples=[8000.0],
+        gt=0,
+        le=1e7,
+        json_schema_extra=usual(500, 200000),
+    )
+    guard_thickness_mm: float | None = Field(
+        default=None,
+        description="Thickness of the guard round the autobalancer, mild steel [mm]; {range}. Without it containment "
+        "of a ball is not evaluated.",
+        examples=[2.0],
+        gt=0,
+        le=200,
+        json_schema_extra=usual(0.5, 20),
+    )
+    temperature_range_C: Annotated[tuple[Temperature, ...], Field(strict=False, min_length=2, max_length=2)] = Field(
+        default=(0.0, 60.0),
+        description="Lowest and highest temperature of the housing [°C]; each {range}. Interferences are judged at "
+        "both, from 20 °C at assembly. Default: 0 and 60, assumed.",
+        examples=[(0.0, 80.0)],
+        json_schema_extra=usual(10, 120),
+    )
     race_hardness_HRC: float = Field(
         default=60.0,
         description="Hardness of the race [HRC]; {range}, at least 58 for balls not to dent it. Default: {default}, "
@@ -139,9 +183,26 @@ class Autobalancer(Table):
         json_schema_extra=usual(8, 300),
     )
 
+    _drag_by_oil: bool = PrivateAttr(default=False)
+    """True if the file has [oil]."""
+
+    @model_validator(mode="after")
+    def _no_sphere_for_rollers(self) -> Self:
+        if self.design == "bearing-ring" and self.corrector == "roller":
+            raise problem(
+                "the ring of a self-aligning bearing is a sphere, on which rollers cannot roll",
+                "corrector" if "corrector" in self.model_fields_set else "design",
+                found='design = "bearing-ring", corrector = "roller"',
+                allowed='corrector = "ball", or design = "one-piece" or "light"',
+            )
+        return self
+
     def unused(self) -> frozenset[str]:
-        """The stock to choose from, where the diameter is pinned."""
-        return frozenset() if self.ball_diameter_mm is None else frozenset({"ball_sizes"})
+        """The stock to choose from, where the diameter is pinned; the default drag, where the file has [oil]."""
+        unused = set[str]() if self.ball_diameter_mm is None else {"ball_sizes"}
+        if self._drag_by_oil and "rolling_drag_per_s" not in self.model_fields_set:
+            unused.add("rolling_drag_per_s")
+        return frozenset(unused)
 
     @model_validator(mode="after")
     def _bore_fits_inside(self) -> Self:
@@ -152,5 +213,18 @@ class Autobalancer(Table):
                 found=f"bore_diameter_mm = {self.bore_diameter_mm:g}, "
                 f"max_outer_diameter_mm = {self.max_outer_diameter_mm:g}",
                 allowed="bore_diameter_mm below max_outer_diameter_mm",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _temperatures_in_order(self) -> Self:
+        low, high = self.temperature_range_C
+        if low > high:
+            raise problem(
+                "the lowest temperature is above the highest",
+                "temperature_range_C",
+                found=f"[{low:g}, {high:g}]",
+                allowed="the lowest first",
+                remedy=f"write temperature_range_C = [{high:g}, {low:g}]",
             )
         return self

@@ -22,7 +22,9 @@ from abu_calc.inputs.bearing_file import (
 )
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
+from abu_calc.inputs.identified import Identified
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
+from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.optimisation import COSTS, Costs, Optimise
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
@@ -105,6 +107,8 @@ class MachineFile(Table):
     wheel: Wheel
     measured_after: MeasuredAfter | None = None
     autobalancer: Autobalancer | None = None
+    oil: Oil | None = None
+    identified: Identified | None = None
     grinding: Grinding | None = None
     run_up: RunUp | None = None
     start: Start | None = None
@@ -127,7 +131,31 @@ class MachineFile(Table):
         """An autobalancer larger than the wheel, a rim faster than wheels bear."""
         if self.autobalancer is not None:
             yield from larger_than_its_wheel(self.autobalancer, self.wheel)
+        if self.identified is not None and self.autobalancer is not None:
+            held = self.identified.in_force(self.autobalancer)
+            for key in self.identified.intervals().keys() - held.keys():
+                value = getattr(self.autobalancer, key)
+                yield ("identified", key), f"does not hold autobalancer.{key} = {bounded(value)}: it is not used."
         yield from rim_too_fast(self.machine, self.wheel, self.motor)
+
+    @model_validator(mode="after")
+    def _oil_is_in_a_race(self) -> Self:
+        if self.oil is None:
+            return self
+        if self.autobalancer is None:
+            raise problem(
+                "oil needs a race to be in",
+                "oil",
+                remedy="add [autobalancer] with max_outer_diameter_mm and max_width_mm, or remove [oil]",
+            )
+        self.autobalancer._drag_by_oil = True
+        return self
+
+    @model_validator(mode="after")
+    def _identified_values_have_an_autobalancer(self) -> Self:
+        if self.identified is not None and self.autobalancer is None:
+            raise problem("there is no autobalancer whose values are identified", "identified")
+        return self
 
     @model_validator(mode="after")
     def _measured_at_a_handle(self) -> Self:

@@ -15,7 +15,7 @@ from abu_calc.inputs.reading.document import (
     LARGEST_FILE,
     Document,
     FileReading,
-    named,
+    document_from,
     open_document,
     parsed_overrides,
     validate,
@@ -48,6 +48,8 @@ class Machine(FileReading):
     Tables that only a whole machine has are those of `whole()`: `machine.whole().wheel.mass_kg`.
     """
 
+    __repr__ = FileReading.__repr__
+
     tables: "MachineFile | BearingFile"
 
     @property
@@ -64,6 +66,22 @@ class Machine(FileReading):
 
         return machine_from(self.document, following(self.overrides, overrides_of(values), _whole()))
 
+    def to_toml(self) -> str:
+        """The machine as TOML text: the file as it was read, or, with entries replaced, all entries that are in force.
+
+        `read(machine.to_toml())` gives an equal machine. A text with replaced entries has the keys of the file in
+        their order and no comments; values with units stand in the units of the keys.
+        """
+        if not self.overrides:
+            return self.text
+        import tomli_w
+
+        from abu_calc.inputs.reading.format import FORMAT, KEY
+        from abu_calc.inputs.variation import Variants
+
+        content = Variants.whole(self, type(self.tables)).content
+        return tomli_w.dumps({KEY: FORMAT, **content})
+
     def whole(self, command: str | None = None) -> "MachineFile":
         """The tables of a whole machine; raises InputError, naming the command, for a file of bearings alone."""
         if not isinstance(self.tables, BearingFile):
@@ -76,9 +94,16 @@ class Machine(FileReading):
         )
 
 
-def read(source: str | os.PathLike[str]) -> Machine:
-    """Reads a machine file, or a preset by its name; raises InputError with file, line, key and remedy."""
-    return read_machine(named(source))
+def read(source: str | os.PathLike[str] | Mapping[str, object]) -> Machine:
+    """Reads a machine: a file, a preset by its name, a TOML text, or tables as a dictionary.
+
+        read("my-grinder.toml")        read("avtovaz-707-222")        read("[machine]\\nname = …")
+        read({"machine": {"name": …, "mass_kg": 5.6, "speed": "97 Hz"}, "suspension": …, "wheel": …})
+
+    A text with a line break is TOML, any other a name. Raises InputError with file, line, key and remedy.
+    """
+    with document_from(source) as document:
+        return machine_from(document)
 
 
 def read_machine(source: str, overrides: Sequence[str] = ()) -> Machine:

@@ -11,7 +11,14 @@ from pydantic import Field, model_validator
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.read_machine import Machine, machine_from
-from abu_calc.inputs.reading.document import Document, FileReading, named, open_document, parsed_overrides, validate
+from abu_calc.inputs.reading.document import (
+    Document,
+    FileReading,
+    document_from,
+    open_document,
+    parsed_overrides,
+    validate,
+)
 from abu_calc.inputs.reading.kinds import kind_of, refuse_others
 from abu_calc.inputs.reading.table import Table, problem
 from abu_calc.inputs.reading.text import Part
@@ -245,6 +252,8 @@ class SceneFile(Table):
 class SceneDescription(FileReading):
     """A scene file; `scene` is what stands in it, in the units people wrote."""
 
+    __repr__ = FileReading.__repr__
+
     scene: SceneTable
     sweep: "Sweep | None" = None
 
@@ -258,12 +267,15 @@ class SceneDescription(FileReading):
         return scene_from(self.document, following(self.overrides, overrides_of(values), SceneFile))
 
 
-def read_scene(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> SceneDescription:
-    """Reads a scene file with entries overridden (`scene.key=value`, typed as TOML).
+def read_scene(
+    source: str | os.PathLike[str] | Mapping[str, object], overrides: Sequence[str] = ()
+) -> SceneDescription:
+    """Reads a scene (a file, a TOML text, tables as a dictionary) with entries overridden (`scene.key=value`).
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
     """
-    return scene_from(open_document(named(source)), parsed_overrides(overrides))
+    with document_from(source) as document:
+        return scene_from(document, parsed_overrides(overrides))
 
 
 def read_any(source: str, overrides: Sequence[str] = ()) -> Machine | SceneDescription:

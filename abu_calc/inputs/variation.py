@@ -20,7 +20,8 @@ from abu_calc.inputs.reading.errors import Origin, input_error
 from abu_calc.inputs.reading.overrides import Override, apply, parse_override
 from abu_calc.inputs.reading.plain import found_as, plain_number
 from abu_calc.inputs.reading.table import Table, problem
-from abu_calc.inputs.reading.text import Part
+from abu_calc.inputs.reading.text import Part, key_path
+from abu_calc.inputs.reading.values_with_units import convert
 
 GRAMMAR: Final = (
     "LOW:HIGH:N, a list A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), triangular(LOW,MODE,HIGH), "
@@ -296,10 +297,17 @@ class Variants(Generic[Model]):
 
     @classmethod
     def of(cls, reading: FileReading, model: type[Model]) -> "Variants[Model]":
-        """Variants of a file that was read."""
-        content = reading.document.content
-        apply(content, reading.overrides, model)
+        """Variants of a file that was read, without the tables that say nothing of the machine."""
+        content = cls.whole(reading, model).content
         return cls({name: table for name, table in content.items() if name not in NOT_OF_THE_MACHINE}, model)
+
+    @classmethod
+    def whole(cls, reading: FileReading, model: type[Model]) -> "Variants[Model]":
+        """All entries of a file that are in force, in the units of the keys."""
+        content = reading.document.content
+        convert(content, model, lambda path: Place(reading.file, key=key_path(path)))
+        apply(content, reading.overrides, model)
+        return cls(content, model)
 
     def table(self, values: Mapping[tuple[Part, ...], object]) -> Model:
         """The tables with these values. Raises InputError that names the key."""

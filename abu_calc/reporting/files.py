@@ -4,7 +4,8 @@ import csv
 import importlib.util
 import io
 from collections.abc import Callable
-from typing import Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.foundation.errors import OutputError
 from abu_calc.foundation.escaping import escaped, escaped_toml
@@ -12,6 +13,9 @@ from abu_calc.foundation.quantity import flattened
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.outcome import Outcome, document, to_json
 from abu_calc.reporting.text import as_text
+
+if TYPE_CHECKING:
+    from abu_calc.reporting.write import Target
 
 FORMULAS: Final = ("=", "+", "-", "@")
 """First characters of texts that spreadsheets take for formulas."""
@@ -53,10 +57,39 @@ def as_svg(outcome: Outcome) -> str:
 
 
 def as_dxf(outcome: Outcome) -> str:
-    """The first sheet of the drawing: what can be made by it."""
+    """The first sheet of the drawing; see `further_sheets` for the others."""
     from abu_calc.reporting.drawings.dxf import dxf_text
 
     return dxf_text((outcome.drawings() if outcome.drawings else ())[0])
+
+
+def further_sheets(outcome: Outcome, path: Path) -> "tuple[Target, ...]":
+    """The sheets after the first as files beside it, the sheet's name behind its own; DXF holds one sheet a file."""
+    from abu_calc.reporting.drawings.dxf import dxf_text
+    from abu_calc.reporting.write import Target
+
+    if path.suffix.lower() != ".dxf" or outcome.drawings is None:
+        return ()
+    return tuple(
+        Target(path.with_name(f"{path.stem}-{sheet.name}{path.suffix}"), dxf_text(sheet))
+        for sheet in outcome.drawings()[1:]
+    )
+
+
+def as_pdf(outcome: Outcome) -> bytes:
+    """Every sheet of the drawing on a page of its own size."""
+    from abu_calc.reporting.charts.matplotlib_draw import drawings_pdf
+
+    return drawings_pdf(outcome.drawings() if outcome.drawings else ())
+
+
+def as_step(outcome: Outcome) -> str:
+    """The parts as solids."""
+    from abu_calc.reporting.solids.step import step_text
+
+    if outcome.solids is None:
+        raise OutputError("this result has no solids", found=".step", allowed=" ".join(FORMATS))
+    return step_text(outcome.solids())
 
 
 def as_html(outcome: Outcome) -> str:
@@ -66,13 +99,14 @@ def as_html(outcome: Outcome) -> str:
     return page(outcome)
 
 
-def as_file(outcome: Outcome, suffix: str) -> str:
+def as_file(outcome: Outcome, suffix: str) -> str | bytes:
     """The text of a file with this suffix; a text that stands for itself is written as it is, under its own suffix.
 
     Raises OutputError for a suffix by which such a text would be taken for something else.
     """
     if outcome.plain is None or (suffix == ".json" and outcome.plain_suffix != ".json"):
-        return {**FORMATS, **DRAWN}[suffix](outcome)
+        makers: dict[str, Callable[[Outcome], str | bytes]] = {**FORMATS, **DRAWN}
+        return makers[suffix](outcome)
     if suffix in (outcome.plain_suffix, ".txt"):
         return outcome.plain
     raise OutputError(
@@ -91,9 +125,11 @@ FORMATS: dict[str, Callable[[Outcome], str]] = {
     ".html": as_html,
 }
 
-DRAWN: dict[str, Callable[[Outcome], str]] = {".dxf": as_dxf, ".svg": as_svg}
+DRAWN: dict[str, Callable[[Outcome], str | bytes]] = {
+    ".dxf": as_dxf, ".svg": as_svg, ".pdf": as_pdf, ".step": as_step, ".stp": as_step
+}  # fmt: skip
 """Formats of those commands alone that draw."""
-NEEDS = {".dxf": "ezdxf"}
+NEEDS = {".dxf": "ezdxf", ".pdf": "matplotlib"}
 """Packages of the extra `report`."""
 
 

@@ -14,6 +14,7 @@ from abu_calc.reporting.blocks import Block
 if TYPE_CHECKING:
     from abu_calc.reporting.charts.figure import MakesExtras
     from abu_calc.reporting.drawings.shapes import Drawing
+    from abu_calc.reporting.solids.assembly import SolidAssembly
     from abu_calc.reporting.write import Target
     from abu_calc.simulation.result import Provenance, Result
 
@@ -36,6 +37,8 @@ class Outcome:
     """The one screen that stands in a terminal for blocks that take more."""
     drawings: "Callable[[], tuple[Drawing, ...]] | None" = None
     """Function that makes the sheets of a drawing; None if the command has none."""
+    solids: "Callable[[], SolidAssembly] | None" = None
+    """Function that makes the parts as solids; None if the command has none."""
     extras: "MakesExtras | None" = None
     """Function that makes the figures and the calculation note of a page; None if the command has none."""
     settings: tuple[tuple[str, str], ...] = ()
@@ -54,12 +57,13 @@ class Outcome:
         view: Callable[[], tuple[Block, ...]],
         short: Callable[[], tuple[Block, ...]] | None = None,
         drawings: "Callable[[], tuple[Drawing, ...]] | None" = None,
+        solids: "Callable[[], SolidAssembly] | None" = None,
     ) -> "Outcome":
         """Outcome of a study.
 
-        `view` makes all its blocks, `short` those of one screen, `drawings` its drawings.
+        `view` makes all its blocks, `short` those of one screen, `drawings` its drawings, `solids` its parts.
         """
-        return cls(result.command, result, view, short=short, drawings=drawings)
+        return cls(result.command, result, view, short=short, drawings=drawings, solids=solids)
 
     @cached_property
     def result(self) -> Any:

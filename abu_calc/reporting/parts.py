@@ -188,6 +188,9 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
     entries = [entry for key, value in provenance.overrides for entry in _entries(key, value)]
     if entries:
         blocks += [Paragraph("With these entries replaced:"), *(Paragraph(entry, indent=4) for entry in entries)]
+    if provenance.converted:
+        values = [f"{entry}: {key} = {written(value)}" for key, entry, value in provenance.converted]
+        blocks += [Paragraph("Values written with a unit:"), *(Paragraph(value, indent=4) for value in values)]
     return blocks
 
 

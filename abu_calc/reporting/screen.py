@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import Final
 
-from abu_calc.foundation.checks import Check, Status
+from abu_calc.foundation.checks import Check, verdict_words
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.parts import not_requested, told, unlike, warning_lines, without_entries
 from abu_calc.reporting.text import height
@@ -22,7 +22,6 @@ LEAST: Final = 8
 BLANK: Final[Block] = Paragraph("")
 ELSEWHERE: Final = frozenset({"checks", "warnings", "defaults", "conventions", "provenance"})
 """Ids of the sections of a whole report that a screen words in its own way, or leaves to it."""
-WORDS: Final[dict[Status, str]] = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 
 
 def one_screen(
@@ -119,23 +118,11 @@ def verdict_line(result: Result, unjudged: str | None = None) -> Paragraph:
 
     `unjudged`: text in place of PASS if no check judged what the word could stand for.
     """
-    requested = [check for check in result.checks if check.requested]
-    count, total = Counter(check.status for check in requested), len(requested)
+    grades = {check.status for check in result.checks if check.requested}
+    warned = result.status == "pass" and "warn" in grades
     if unjudged and result.status == "pass":
-        return Paragraph(unjudged, "warn" if count["warn"] else None)
-    if not total:
-        return Paragraph(f"{WORDS[result.status]}: there are no checks", result.status)
-    word, verb = WORDS[result.status], "passes" if count["pass"] == 1 else "pass"
-    text = f"{count['pass']} of {many(total, 'check')} {verb}"
-    others = (("warn", "warn" if count["warn"] != 1 else "warns"), ("fail", "fail" if count["fail"] != 1 else "fails"))
-    clauses = [f"{count[grade]} {name}" for grade, name in others if count["pass"] < total]  # type: ignore[index]
-    if count["not-done"]:
-        clauses.append(f"{count['not-done']} not evaluated")
-    if result.status == "pass" and count["warn"]:
-        word += " WITH WARNINGS"
-    return Paragraph(
-        f"{word}: {', '.join([text, *clauses])}", "warn" if count["warn"] and word[0] == "P" else result.status
-    )
+        return Paragraph(unjudged, "warn" if warned else None)
+    return Paragraph(verdict_words(result.status, result.checks), "warn" if warned else result.status)
 
 
 def many(count: int, name: str, plural: str | None = None) -> str:
@@ -162,13 +149,14 @@ def _passed(checks: Iterable[Check]) -> str:
 
 
 def _next(result: Result, more: Sequence[str]) -> str:
-    """Last line of a screen: commands for more, with the defaults and replaced entries behind the result."""
+    """Last line of a screen: commands for more, with the defaults, replaced and converted entries of the result."""
     source, codes = result.provenance, [check.code for check in result.checks if check.status != "pass"]
     codes = codes or [check.code for check in result.checks]
     asked = [f"`abu explain {codes[0]}`, what a check asks"] if codes else []
     defaults = [f"{many(len(source.defaults), 'default')} used"] if source.defaults else []
     replaced = [f"{many(len(source.overrides), 'entry', 'entries')} replaced"] if source.overrides else []
-    within = f" ({', '.join([*defaults, *replaced])})" if defaults or replaced else ""
+    converted = [f"{many(len(source.converted), 'value')} converted"] if source.converted else []
+    within = f" ({', '.join([*defaults, *replaced, *converted])})" if defaults or replaced or converted else ""
     return f"More: {'; '.join([f'--full, the whole report{within}', *more, *asked])}."
 
 

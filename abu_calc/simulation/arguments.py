@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cache, wraps
+from inspect import signature
 from types import NoneType, UnionType
 from typing import Any, Final, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
 
@@ -48,11 +49,19 @@ def checked(study: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
     def with_checked_arguments(*args: Arguments.args, **named: Arguments.kwargs) -> Answer:
         hints = _hints(study)
         # Too many arguments, or unknown ones, are Python's to refuse.
-        first = [_taken(name, value, hint) for (name, hint), value in zip(hints.items(), args, strict=False)]
+        placed = [(name, hints[name]) for name in _placed(study)]
+        first = [_taken(name, value, hint) for (name, hint), value in zip(placed, args, strict=False)]
         others = {name: _taken(name, value, hints[name]) if name in hints else value for name, value in named.items()}
         return study(*first, *args[len(first) :], **others)  # type: ignore[arg-type]
 
     return with_checked_arguments
+
+
+@cache
+def _placed(study: Callable[..., object]) -> tuple[str, ...]:
+    """Arguments that may be given without their names, in their order."""
+    parameters = signature(study).parameters.values()
+    return tuple(each.name for each in parameters if each.kind is not each.KEYWORD_ONLY)
 
 
 @cache

@@ -29,7 +29,7 @@ from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, d
 from abu_calc.simulation.residual_criteria import allowed_imbalance, balances, slip
 from abu_calc.simulation.response import Response, needed_times
 from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
-from abu_calc.simulation.start_cases import DRAGS, Member, members, scene_of_member
+from abu_calc.simulation.start_cases import Member, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.places import level_at_loudest
 
@@ -74,9 +74,9 @@ class StartRun(NamedTuple):
 
 def simulate_members(
     design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1,
-    shares: tuple[float, ...] = DRAGS, doubtful: float | None = None,
+    shares: tuple[float, ...] | None = None, doubtful: float | None = None,
 ) -> Ensemble:  # fmt: skip
-    """Every start once, at these shares of the drag given.
+    """Every start once, at these shares of the drag given; None: those of working, hot and cold oil.
 
     Those that decide a check run again at a tighter tolerance, and the worse of both counts. `doubtful` [1/s]: the drag
     below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. A start
@@ -94,7 +94,17 @@ def simulate_members(
         for k, rerun in zip(undecided, runs, strict=True):
             results[k] = worse(results[k], rerun)
     outcomes = tuple(result for result in results if isinstance(result, StartOutcome))
-    return Ensemble(design.case.drag, outcomes, tuple(result for result in results if isinstance(result, Lost)))
+    lost = tuple(result for result in results if isinstance(result, Lost))
+    oil = design.case.oil
+    return Ensemble(design.case.drag, outcomes, lost, None if oil is None else oil.temperatures)
+
+
+def simulate_first(design: Design, accuracy: float = 0.01) -> Ensemble:
+    """The first of the start cases alone, at the tighter tolerance: an ensemble of one, which proves nothing."""
+    start = next(iter(members(design, 0.0, (1.0,))))
+    result = start_once(design, start, accuracy, TIGHTER * first_tolerance(design), early_end=False)
+    done = isinstance(result, StartOutcome)
+    return Ensemble(design.case.drag, (result,) if done else (), () if done else (result,))  # type: ignore[arg-type]
 
 
 def first_tolerance(design: Design) -> float:

@@ -70,6 +70,12 @@ BALANCE = "See the action of ABU701; else reduce the friction and the eccentrici
 
 JUDGED = "ABU701", "ABU702", "ABU704"
 
+FULL, ONE, NONE = "full", "one", "none"
+"""Start cases that `size` simulates: all, the first at the given drag rate, none."""
+STARTS: Final = (FULL, ONE, NONE)
+NEED_STARTS: Final = (*JUDGED, "ABU401")
+"""Checks that no calculation without all start cases can pass."""
+
 UNCARRIED = "The balls, side by side, cannot carry the imbalance"
 CARRY = "Add balls or specify larger ones, see ABU201."
 
@@ -88,6 +94,16 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, change: TriedChan
         earlier = next((check.code for check in checks if check.remedy), None)
         checks.append(judged(design, ensemble, change, earlier))
     return tuple(checks)
+
+
+def unproven(check: Check, starts: str) -> Check:
+    """A check of a calculation that left start cases out: one that needs them fails or is NOT EVALUATED."""
+    if starts == FULL or check.code not in NEED_STARTS or check.status == "fail":
+        return check
+    known = f"{check.message}. " if starts == ONE or check.code == "ABU401" else ""
+    message = f'{known}Start cases were left out: starts="{starts}"'
+    value = check.value if known else None
+    return coded(check.code, "not-done", message, value, check.limit, check.unit, 'Call size with starts="full".')
 
 
 def level_check(closed: Check, ensemble: Ensemble | None, change: TriedChange | None = None) -> Check:
@@ -148,7 +164,7 @@ def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, ea
     moved = design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio)
     if worst and worst.imbalance > moved:
         sentences.append("The balls increase the imbalance: they gather on the heavy side or stall")
-    sentences += [f"No answer from {_words(lost.member.name, lost.member.drag, ensemble.drag)}: {lost.reason}"
+    sentences += [f"No answer from {_words(lost.member.name, lost.member.drag, ensemble)}: {lost.reason}"
                   for lost in ensemble.lost[:1]]  # fmt: skip
     if worst:
         sentences.append("The value is the largest imbalance left at the given drag rate")
@@ -196,7 +212,7 @@ def _none_stalls(design: Design, ensemble: Ensemble, change: TriedChange | None,
         count = f"{len(ensemble.hanging)} of {_starts(ensemble.members)}"
         message = f"Balls stall in {count}: {_first(ensemble.hanging, ensemble)}"
     for lost in ensemble.lost[:1]:
-        message += f". No answer from {_words(lost.member.name, lost.member.drag, ensemble.drag)}"
+        message += f". No answer from {_words(lost.member.name, lost.member.drag, ensemble)}"
     action: Action | str | None = _see(earlier)
     if action is None and change is not None:
         action = change.counting(STALLED, lambda outcome: outcome.hanging, "")
@@ -221,18 +237,23 @@ def _loudest(outcomes: Iterable[StartOutcome]) -> StartOutcome | None:
 def _named(outcome: StartOutcome, ensemble: Ensemble) -> str:
     """The start case in words, with the race's centre unless that is opposite the imbalance, as in other commands."""
     side = "" if outcome.member.eccentricity == OPPOSITE else f", race centre {outcome.member.race_centre_deg:g}°"
-    return _words(f"{outcome.member.name}{side}", outcome.member.drag, ensemble.drag)
+    return _words(f"{outcome.member.name}{side}", outcome.member.drag, ensemble)
 
 
-def _words(name: str, drag: float, given: float) -> str:
+def _words(name: str, drag: float, ensemble: Ensemble) -> str:
     """A start case and its viscous drag rate: as given, or that of hot or cold oil.
 
-    >>> _words("standstill", 5.0, 15.0)
+    >>> _words("standstill", 5.0, Ensemble(15.0, (), ()))
     'standstill, drag rate 5 1/s (hot oil)'
+    >>> _words("standstill", 5.0, Ensemble(15.0, (), (), (40.0, 80.0, 5.0)))
+    'standstill, drag rate 5 1/s (hot oil, 80 °C)'
     """
-    if drag == given:
-        return f"{name}, given drag rate {drag:.4g} 1/s"
-    return f"{name}, drag rate {drag:.4g} 1/s ({'hot' if drag < given else 'cold'} oil)"
+    degrees = ensemble.temperatures
+    if drag == ensemble.drag:
+        by_oil = "given drag rate" if degrees is None else f"oil at {degrees[0]:g} °C, drag rate"
+        return f"{name}, {by_oil} {drag:.4g} 1/s"
+    oil, place = ("hot", 1) if drag < ensemble.drag else ("cold", 2)
+    return f"{name}, drag rate {drag:.4g} 1/s ({oil} oil{'' if degrees is None else f', {degrees[place]:g} °C'})"
 
 
 def _starts(count: int) -> str:

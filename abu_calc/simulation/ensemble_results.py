@@ -85,6 +85,8 @@ class Ensemble:
     drag: float
     outcomes: tuple[StartOutcome, ...]
     lost: tuple[Lost, ...]
+    temperatures: tuple[float, float, float] | None = None
+    """Of the oil [°C] at work, hot and cold; None: the drag rates are given, not those of an oil."""
 
     @property
     def members(self) -> int:

@@ -2,14 +2,17 @@
 
 import datetime
 import importlib
+import os
 import re
 import shlex
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from abu_calc.foundation.checks import Check, Status, number_of, overall
+from abu_calc.foundation.checks import Check, Status, number_of, overall, verdict_words
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Record, as_plain, record
+from abu_calc.foundation.rows import Rows
 from abu_calc.version import __version__
 
 if TYPE_CHECKING:
@@ -19,9 +22,9 @@ if TYPE_CHECKING:
 
 
 FIGURES: Final = "abu_calc.registry"
-"""Module that draws results, in a layer above this one.
+"""Module that draws, prints and writes results, in a layer above this one.
 
-It is imported by its name when somebody wants a figure, as a plugin is.
+It is imported by its name when somebody wants that, as a plugin is.
 """
 
 COMMAND: Final = re.compile(r"(`abu [a-z-]+ )FILE\b")
@@ -34,7 +37,8 @@ NOTHING: Final = Record()
 class Provenance:
     """Provenance of a result: file as named, its hash, entries replaced, defaults in force, version, date.
 
-    `file` None: the input was no file.
+    `file` None: the input was no file; of a text or a dictionary there is a hash all the same. `converted`: keys whose
+    values were written with a unit, what was written, and the value in the unit of the key.
     """
 
     file: str | None
@@ -43,32 +47,41 @@ class Provenance:
     defaults: tuple[tuple[str, object], ...]
     version: str
     date: str
+    converted: tuple[tuple[str, str, object], ...] = ()
 
     @classmethod
     def of(cls, reading: "FileReading") -> "Provenance":
         """Provenance of a file that was read."""
         replaced = {override.key: override.value for override in reading.overrides}
-        return cls.today(reading.file or None, reading.sha256 or None, tuple(replaced.items()), reading.defaults_used)
+        converted = tuple((each.key, each.entry, each.rounded) for each in reading.converted)
+        return cls.today(
+            reading.file or None, reading.sha256 or None, tuple(replaced.items()), reading.defaults_used, converted
+        )
 
     @classmethod
     def today(
         cls, file: str | None = None, sha256: str | None = None, overrides: tuple[tuple[str, object], ...] = (),
-        defaults: tuple[tuple[str, object], ...] = (),
+        defaults: tuple[tuple[str, object], ...] = (), converted: tuple[tuple[str, str, object], ...] = (),
     ) -> "Provenance":  # fmt: skip
         """Provenance of this day and this version."""
-        return cls(file, sha256, overrides, defaults, __version__, datetime.date.today().isoformat())
+        return cls(file, sha256, overrides, defaults, __version__, datetime.date.today().isoformat(), converted)
 
     @property
     def input(self) -> dict[str, Any] | None:
-        """Input as the JSON document has it; null if that was no file."""
-        if self.file is None:
+        """Input as the JSON document has it; null if there was none, its file null if that was a text."""
+        if self.file is None and self.sha256 is None:
             return None
         return {
             "file": self.file,
             "sha256": self.sha256,
             "overrides": as_plain(dict(self.overrides)),
             "defaults": as_plain(dict(self.defaults)),
+            **({"converted": self._conversions} if self.converted else {}),
         }
+
+    @property
+    def _conversions(self) -> dict[str, Any]:
+        return {key: {"written": written, "value": as_plain(value)} for key, written, value in self.converted}
 
 
 @record
@@ -89,7 +102,7 @@ class Result(Record):
     def __init__(self, **values: object) -> None:
         super().__init__(**values)
         # Checks stand in the order of their codes; several of one code keep theirs.
-        self.__dict__["checks"] = tuple(
+        self.__dict__["checks"] = Rows(
             replace(check, message=self._named(check.message), remedy=check.remedy and self._named(check.remedy))
             for check in sorted(self.checks, key=lambda check: number_of(check.code))
         )
@@ -104,6 +117,29 @@ class Result(Record):
     def status(self) -> Status:
         """The worst of the checks."""
         return overall(self.checks)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {verdict_words(self.status, self.checks)}; {self.title}>"
+
+    def _repr_html_(self) -> str:
+        html: str = importlib.import_module(FIGURES).html(self)
+        return html
+
+    def text(self, full: bool = False) -> str:
+        """The report as the command prints it, on one screen of 80 columns; `full`: the whole of it, as --full."""
+        text: str = importlib.import_module(FIGURES).text(self, full=full)
+        return text
+
+    def save(self, path: str | os.PathLike[str], force: bool = False) -> Path:
+        """Write the result as --output does, whole or not at all, and return the path; the ending is the format.
+
+        .html page with figures · .json, .toml, .csv all numbers · .txt the whole report · of results with a drawing
+        also .svg and .dxf. `force`: over a file that is there. Raises OutputError, with the remedy, for an unknown
+        ending, a file that exists, a folder that does not, and a package that is not installed.
+        """
+        target = Path(path)
+        importlib.import_module(FIGURES).save(self, target, force=force)
+        return target
 
     @property
     def figures(self) -> tuple[str, ...]:

@@ -20,9 +20,6 @@ from abu_calc.sizing.track import track
 
 STARTS: tuple[Start, ...] = ("bunched", "behind", "spread", "standstill")
 
-DRAGS = (1.0, 1 / 3, 3.0)
-"""Factors on the given viscous drag rate: oil as intended, hot, and cold."""
-
 RUN_UP, SLOW = 1.0, 4.0
 """Run-up [s] of a file that names none, and one slow enough to catch balls at a resonance."""
 
@@ -74,8 +71,8 @@ class Member:
         return self.way if self.speed is None else f"{self.way} ({from_si(self.speed, 'rpm'):.6g} rpm)"
 
 
-def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = DRAGS) -> Iterator[Member]:
-    """All start cases that are simulated, at these shares of the given viscous drag rate.
+def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] | None = None) -> Iterator[Member]:
+    """All start cases that are simulated, at these shares of the given viscous drag rate; None: at work, hot and cold.
 
     At the given rate itself the race is off to either side. Below the rate `doubtful` [1/s] balls might stall,
     so that a slow run-up is tried, too. The ends of a speed range are tried after the rated speed: at the
@@ -86,7 +83,7 @@ def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = D
     starts: tuple[Start, ...] = STARTS if case.table.start is None else (*STARTS, "placed")
     ends = (end for end in dict.fromkeys(case.speed_range) if not math.isclose(end, case.speed))
     for speed in (None, *ends):
-        for drag in dict.fromkeys(share * case.drag for share in shares):
+        for drag in dict.fromkeys(share * case.drag for share in shares or case.drag_shares):
             both = speed is None and drag == case.drag and case.race_eccentricity > 0
             for angle in (ALIKE, OPPOSITE) if both else (ALIKE,):
                 yield from (Member(start, drag, 0.0, angle, speed=speed) for start in starts)

@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Self
 
 from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.budget import displacement_level
@@ -92,7 +92,7 @@ class HandleAxis(Record):
 
     axis: Annotated[str, Quantity("axis")]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
     a_h_before_m_per_s2: Annotated[float | None, Quantity("weighted, before", "a_h", 3)]
     a_h_after_m_per_s2: Annotated[float | None, Quantity("weighted, after", "a_h", 3)]
 
@@ -118,7 +118,7 @@ class HandleLevels(Record):
 
     name: Annotated[str, Quantity("place")]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None

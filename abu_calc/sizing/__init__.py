@@ -11,10 +11,13 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
+from abu_calc.sizing.construction import construct
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
+from abu_calc.sizing.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.handles import body_bands, handle_checks
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
+from abu_calc.sizing.oil import value_sources, with_oil
 from abu_calc.sizing.operating_speed import frequency_region, region_check
 from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.type_test import declared_checks
@@ -46,6 +49,7 @@ def instead(design: Design, candidate: Candidate, why: str) -> Design:
 
 def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:
     best = choice.best
+    case = with_oil(case, best)
     frequency = frequency_region(case, best.ball_mass, best.mass)
     race = track(case, best, frequency.natural_frequencies)
     others = tuple(track(case, runner_up, frequency.natural_frequencies) for runner_up, _ in choice.runners_up)
@@ -54,23 +58,27 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
     arm = _arm(case, imbalance.value, best)
-    advice = drawing(case, best, race)
+    eccentricity = split_eccentricity(case, best)
+    construction = construct(case, best, eccentricity)
+    advice = drawing(case, best, race, eccentricity, construction)
     bands = body_bands(case, best, frequency.balancing_possible)
     checks = (
         region_check(case, best, frequency),
         *_motor(case, best),
         *candidate_checks(case, best),
+        eccentricity_check(case, best, eccentricity),
         *track_checks(case, best, race),
+        *construction.checks,
         *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
         *handle_checks(case, imbalance.value, best, frequency.balancing_possible, bands),
         *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
         *(arm.checks if arm else ()),
     )
-    warnings = design_warnings(case, best, loaded, bands)
+    warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, arm, advice, checks,
-        warnings, bands,
+        warnings, bands, eccentricity, construction,
     )  # fmt: skip
 
 

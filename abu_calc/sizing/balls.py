@@ -12,6 +12,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.sizing.bearing_ring import fitting_rings, nearest_ring, pinned_ring, ring_of, sphere_band
 from abu_calc.sizing.budget import (
     CandidateBalls,
     ResidualBudget,
@@ -22,7 +23,15 @@ from abu_calc.sizing.budget import (
 )
 from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case, working_speeds
-from abu_calc.sizing.housing import Housing, greatest_race_radius, housing, least_race_radius, width
+from abu_calc.sizing.housing import (
+    Housing,
+    balls_go_in,
+    dimensions,
+    greatest_race_radius,
+    housing,
+    least_race_radius,
+    width,
+)
 from abu_calc.sizing.strength import Roundness, Strength, roundness, strength
 from abu_calc.standards.balls import material, stock_diameter, stock_diameters
 
@@ -40,6 +49,8 @@ def ball_diameters(case: Case) -> tuple[float, ...]:
     fitting = tuple(d for d in stock if _fits_width(case, d) and race_radii(case, d))
     if fitting:
         return fitting
+    if abu.design == "bearing-ring":
+        raise _no_ring(case, stock[0])
     if abu.race_radius_mm is not None:
         raise impossible("race_radius_mm", abu.race_radius_mm, "no stock ball runs on this race in this envelope")
     smallest = stock[0]
@@ -56,6 +67,8 @@ def ball_diameters(case: Case) -> tuple[float, ...]:
 def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
     """Race radii [m] to try for one ball: every half millimetre in the envelope and its largest, or the pinned one."""
     abu = case.autobalancer
+    if abu.design == "bearing-ring":
+        return _ring_radii(case, diameter)
     least = least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter)
     greatest = _greatest(case)
     if abu.race_radius_mm is not None:
@@ -66,6 +79,34 @@ def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
     step = to_si(RADIUS_STEP_MM, "mm")
     first, last = int(least // step) + 1, int(greatest // step)
     return tuple(sorted({*(k * step for k in range(first, last + 1)), greatest}))
+
+
+def _ring_radii(case: Case, diameter: float) -> tuple[float, ...]:
+    """Radii [m] of the spheres of bearings' rings that fit; the pinned one, as measured, if it is one of them."""
+    rings, given = fitting_rings(case, diameter), case.autobalancer.race_radius_mm
+    if given is None:
+        return tuple(dict.fromkeys(ring.sphere_radius for ring in rings))
+    pinned = pinned_ring(case, to_si(given, "mm"))
+    return (to_si(given, "mm"),) if pinned in rings else ()
+
+
+def _no_ring(case: Case, diameter: float) -> InputError:
+    """The refusal of the design "bearing-ring" where no ring of a bearing fits, or none has the pinned race."""
+    given, fitting = case.autobalancer.race_radius_mm, fitting_rings(case, diameter)
+    if given is not None and fitting:
+        ring = min(fitting, key=lambda each: abs(each.sphere_radius - to_si(given, "mm")))
+        low, high = (from_si(radius, "mm") for radius in sphere_band(ring))
+        return impossible(
+            "race_radius_mm", given, f"no ring of a bearing in this envelope has this sphere; the nearest is "
+            f"{ring.designation}", f"{low:.2f} … {high:.2f}",
+        )  # fmt: skip
+    return InputError(
+        "no outer ring of a self-aligning ball bearing (series 12, 13, 22, 23) fits the envelope, bore, wall and race",
+        place=Place(key="autobalancer.design"),
+        found="bearing-ring",
+        allowed="one-piece, light",
+        remedy=f"{nearest_ring(case, diameter)} Or specify another design.",
+    )
 
 
 def ball_counts(case: Case, diameter: float, race_radius: float) -> range:
@@ -98,6 +139,8 @@ def _pinned_diameter(case: Case, given_mm: float) -> float:
         allowed = abu.max_width_mm - from_si(width(abu.design, diameter) - diameter, "mm")
         raise impossible("ball_diameter_mm", given_mm, "wider than the envelope", f"up to {allowed:.1f}")
     if not race_radii(case, diameter):
+        if abu.design == "bearing-ring":
+            raise _no_ring(case, diameter)
         least = from_si(least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter), "mm")
         greatest = from_si(_greatest(case), "mm")
         key = "race_radius_mm" if abu.race_radius_mm is not None else "ball_diameter_mm"
@@ -152,6 +195,7 @@ class Candidate:
     strength: Strength
     roundness: Roundness
     stays_round: bool
+    fillable: bool
     mass_fraction: float
 
     @property
@@ -264,9 +308,22 @@ def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_rad
     balls = CandidateBalls(count, ball_mass, diameter / 2, pitch, held, oval.lobes)
     budget = budget_where_worst(case, imbalance, need, balls, angles)
     stays_round = ovality_residual(oval.unaided) <= permitted_displacement(case, mass, case.speed_range[1])
-    share = mass / case.machine_mass
+    share, fillable = mass / case.machine_mass, _fills(case, count, diameter, race_radius)
     return Candidate(
-        count, diameter, ball_mass, race_radius, held, need, body, balls, budget, stress, oval, stays_round, share
+        count,
+        diameter,
+        ball_mass,
+        race_radius,
+        held,
+        need,
+        body,
+        balls,
+        budget,
+        stress,
+        oval,
+        stays_round,
+        fillable,
+        share,
     )
 
 
@@ -291,11 +348,11 @@ def _smallest(
         return None
     first = bisect_left(radii, True, key=suffices)
     smallest = evaluate(case, imbalance, count, diameter, radii[first])
-    if smallest.budget.within:
+    if smallest.budget.within and smallest.fillable:
         return smallest
     larger = radii[first + 1 :]
     tried = (evaluate(case, imbalance, count, diameter, each) for each in larger[:: len(larger) // most + 1])
-    return next((candidate for candidate in tried if candidate.budget.within), smallest)
+    return next((candidate for candidate in tried if candidate.budget.within and candidate.fillable), smallest)
 
 
 def _ball_mass(case: Case, diameter: float) -> float:
@@ -305,7 +362,15 @@ def _ball_mass(case: Case, diameter: float) -> float:
 def _housing(case: Case, diameter: float, radius: float) -> Housing:
     abu = case.autobalancer
     bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
-    return housing(abu.design, radius, diameter, bore, wall, grooved=abu.corrector == "ball")
+    return housing(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
+
+
+def _fills(case: Case, count: int, diameter: float, radius: float) -> bool:
+    """True if the balls go into the race through the open side."""
+    abu = case.autobalancer
+    bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
+    size = dimensions(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
+    return balls_go_in(size, count, diameter)
 
 
 def _mass(case: Case, count: int, diameter: float, radius: float) -> float:
@@ -329,7 +394,8 @@ def sound(case: Case, candidate: Candidate) -> bool:
 
 def shortfalls(case: Case, candidate: Candidate) -> tuple[str, ...]:
     """Names of the requirements that the candidate falls short of."""
-    named = ("capacity", "strength", "roundness of the race", "accuracy of the race", "mass of the autobalancer")
+    named = ("capacity", "strength", "roundness of the race", "way of the balls into the race", "accuracy of the race",
+             "mass of the autobalancer")  # fmt: skip
     return tuple(name for name, bad in zip(named, _shortfalls(case, candidate), strict=True) if bad)
 
 
@@ -337,6 +403,7 @@ def _shortfalls(case: Case, candidate: Candidate) -> Iterator[bool]:
     yield not enough(case, candidate)
     yield not candidate.strength.enough
     yield not candidate.stays_round
+    yield not candidate.fillable
     yield not candidate.budget.within
     yield not light(case, candidate)
 
@@ -345,7 +412,8 @@ def _rank(case: Case, candidate: Candidate) -> tuple[float, ...]:
     """Sorts the best first: what is short of something is ranked by how short it is."""
     shortage = max(0.0, case.autobalancer.capacity_margin - candidate.capacity_ratio)
     excess = 0.0 if candidate.budget.within else candidate.budget.residual
-    bad = shortage, not candidate.strength.enough, not candidate.stays_round, excess, not light(case, candidate)
+    bad = (shortage, not candidate.strength.enough, not candidate.stays_round, not candidate.fillable, excess,
+           not light(case, candidate))  # fmt: skip
     return (*bad, candidate.ball_count > DOZEN, round(candidate.mass, 9), candidate.ball_diameter)
 
 
@@ -368,6 +436,8 @@ def _why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
         return "stress above the limit"
     if not candidate.stays_round:
         return "two-lobe ovality of the race too large"
+    if not candidate.fillable:
+        return "the balls do not go into the race"
     if not candidate.budget.within:
         return f"expected residual {from_si(candidate.budget.residual, 'um'):.1f} µm, above the limit"
     if not light(case, candidate):

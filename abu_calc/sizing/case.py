@@ -5,7 +5,7 @@ Elsewhere sizing asks the tables only which of several ways people have chosen.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from abu_calc.formulas.balls import INERTIA_FACTORS
 from abu_calc.formulas.body_estimate import KEYS, BodyEstimate, PlacedBody, estimated_body
@@ -16,6 +16,9 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import Autobalancer, Grinding, MachineFile, Motor
 from abu_calc.standards.vibration import hand
+
+if TYPE_CHECKING:
+    from abu_calc.formulas.oil import OilDrag
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,9 @@ class RigidMachine:
 WHEEL_PLANE: Final = "wheel plane"
 """Name of the place at which levels are given without handles."""
 
+UNKNOWN_OIL: Final = (1.0, 1 / 3, 3.0)
+"""Factors on the viscous drag rate that stand for working, hot and cold oil if the oil is not known."""
+
 EQUAL_SPEEDS: Final = 1e-3
 """Relative difference of two speeds that counts as none: 0.01 dB of a level, 0.2 % of a stress."""
 
@@ -123,6 +129,13 @@ class Case:
     """Velocity level with a balanced wheel [dB]; None: not given."""
     idle_speed: float | None = None
     """Speed [rad/s] at which the motor's torque equals what the settled machine takes; None: no motor is given."""
+    oil: "OilDrag | None" = None
+    """Drag by the oil in the race; None: the file has no [oil], or no race is chosen yet."""
+
+    @property
+    def drag_shares(self) -> tuple[float, float, float]:
+        """Factors on the viscous drag rate: at work, in hot oil, in cold oil; of oil that is not known 1, 1/3, 3."""
+        return UNKNOWN_OIL if self.oil is None else self.oil.shares
 
     @property
     def race_place(self) -> Vector:
@@ -247,7 +260,8 @@ def _body(machine: MachineFile) -> RigidMachine:
         name = "L" if "L" in lengths else "H"
         raise InputError(
             "the machine is too short for its wheel, whose polar inertia exceeds that of the estimated body",
-            place=Place(key=KEYS[name]), found=f"{1000 * lengths[name]:g} mm",
+            place=Place(key=KEYS[name]),
+            found=f"{1000 * lengths[name]:g} mm",
             remedy="Correct the length, or specify machine.rotor_polar_inertia_kg_m2.",
         ) from None
     return RigidMachine(estimate.nominal.body, estimate.nominal.wheel, in_space=True, estimate=estimate)

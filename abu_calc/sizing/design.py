@@ -12,9 +12,12 @@ from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
+from abu_calc.sizing.construction import Construction
 from abu_calc.sizing.drawing_requirements import DrawingRequirement
+from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
+from abu_calc.sizing.oil import with_oil
 from abu_calc.sizing.operating_speed import FrequencyRegion, frequency_region
 from abu_calc.sizing.places import VibrationLevels
 from abu_calc.sizing.track import Track, track
@@ -44,6 +47,10 @@ class Design:
     warnings: tuple[str, ...]
     bands: BodyBands | None
     """Bands of an estimated body; None: nothing is estimated, or the design was built as one machine."""
+    eccentricity: EccentricitySplit
+    """Parts of the eccentricity that the drawing permits."""
+    construction: Construction
+    """Parts to make, cover and seat of the ring, with their checks."""
 
     @property
     def autobalancer(self) -> Candidate:
@@ -71,6 +78,7 @@ def built(design: Design, machine: MachineFile) -> Design:
         chosen.ball_diameter if own.ball_diameter_mm is None else to_si(own.ball_diameter_mm, "mm"),
         chosen.race_radius if own.race_radius_mm is None else to_si(own.race_radius_mm, "mm"),
     )
+    case = with_oil(case, made)
     frequency = frequency_region(case, made.ball_mass, made.mass)
     return replace(
         design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),

@@ -1,31 +1,26 @@
 """Step 10: drawing requirements, each tolerance with the dB it costs."""
 
 import math
+from collections.abc import Iterator
 
-from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.inputs.oil import oil_name
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.closure import filling_gap_of
+from abu_calc.sizing.construction import Construction
+from abu_calc.sizing.cover import seat_name
+from abu_calc.sizing.eccentricity import EccentricitySplit
+from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
+from abu_calc.sizing.race_quality import RaceQuality
+from abu_calc.sizing.spindle_fit import Fit
 from abu_calc.sizing.track import Track
-from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
 
 SOFT_ARM = to_si(10, "um")
 """Lever arm of rolling friction on a soft race (assumed; 10–50 µm)."""
-OVALITY = to_si(3, "um")
-"""Circularity asked of the race."""
-RACE_TOLERANCE = to_si(0.05, "mm")
-GROOVE_TOLERANCE = to_si(0.2, "mm")
-ROUGHNESS = to_si(0.16, "um")
-"""Ra of the race, at most."""
-HARDNESS = "60–63 HRC"
-CASE_DEPTH = to_si(0.5, "mm")
-"""Least depth of the hard case after grinding [m]."""
-BORE, SPINDLE = "H6", "js6"
-WAVINESS = to_si(2.5, "um")
-DENT = to_si(1, "um")
 
 
 @dataclass(frozen=True)
@@ -53,18 +48,86 @@ def extra_level(residual: float, part: float) -> float:
     return 20 * math.log10(math.hypot(residual, part) / residual) if residual > 0 else math.inf
 
 
-def drawing(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequirement, ...]:
+def drawing(
+    case: Case, candidate: Candidate, track: Track, split: EccentricitySplit, construction: Construction
+) -> tuple[DrawingRequirement, ...]:
     """Advice for the drawing; requirements are engineering practice (assumed), costs are computed from the budget.
 
     What only changes the capacity, or what the balls themselves balance, costs nothing.
     """
-    return (*_race(case, candidate, track), *_seat_and_balls(case, candidate), *_running(case, candidate, track))
+    quality = construction.quality
+    return (
+        *_eccentricity(case, candidate, split),
+        *_race(case, candidate, track, quality),
+        *_seat_and_balls(candidate, split, quality),
+        *_construction(case, construction),
+        *_running(case, candidate, track),
+    )
 
 
-def _race(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequirement, ...]:
-    budget, abu = candidate.budget, case.autobalancer
-    eccentricity = from_si(case.race_eccentricity, "um")
+def _eccentricity(case: Case, candidate: Candidate, split: EccentricitySplit) -> tuple[DrawingRequirement, ...]:
+    """The total, and the run-outs of race and spindle that it is split into."""
+    budget = candidate.budget
     others = math.hypot(budget.rolling_friction, budget.race_ovality, budget.plane_offset)
+    fit = "the fit" if split.fit is None else split.fit.named
+    whole = "worst case" if split.rule == "worst-case" else "root of the sum of squares"
+    return (
+        DrawingRequirement(
+            "race to bore, total",
+            f"eccentricity {_um(split.total)} µm at most, {whole} of race {_um(split.race)}, {fit} "
+            f"{_um(split.clearance)}, spindle {_um(split.spindle)}, imbalance of the housing {_um(split.housing)} µm",
+            _cost(others, case.race_eccentricity),
+        ),
+        DrawingRequirement(
+            "race run-out",
+            f"{_um(2 * split.race)} µm TIR to the bore; {_how_round(split)}",
+            _cost(others, split.race),
+        ),
+        DrawingRequirement(
+            "spindle run-out", f"{_um(2 * split.spindle)} µm TIR at the seat, on its own bearings",
+            _cost(others, split.spindle),
+        ),
+    )  # fmt: skip
+
+
+def _how_round(split: EccentricitySplit) -> str:
+    """How the run-out of the race is attained."""
+    if not split.ring_class:
+        return "grind bore and race in one set-up"
+    return f"a ring of class {split.ring_class} (ISO 492) has {_um(split.ring_run_out)} µm of it, its seat the rest"
+
+
+def _construction(case: Case, construction: Construction) -> Iterator[DrawingRequirement]:
+    """Closure with the way of the balls, fastening, seat of the ring."""
+    parts, seat, abu = construction.parts, construction.seat, case.autobalancer
+    yield DrawingRequirement(
+        "closure", f"cover {parts.closure}, {seat_name(parts, construction.cover)}, after balls and oil; it holds "
+        f"{construction.cover.held:.3g} N, needed {construction.cover.needed:.3g} N",
+    )  # fmt: skip
+    yield DrawingRequirement(
+        "filling", "balls go in one by one between hub and edge of the race on the cover's side; gap beside a ball "
+        f"{_mm(filling_gap_of(parts))} mm",
+    )  # fmt: skip
+    force = "" if abu.clamp_force_N is None else f" by {abu.clamp_force_N:g} N"
+    ways = {
+        "clamped": f"clamped on the spindle by a nut{force}",
+        "shrunk": "shrunk on the spindle, no nut",
+        "flange": f"part of the wheel's flange, clamped by its nut{force}",
+    }
+    yield DrawingRequirement("fastening", ways[parts.fastening])
+    if seat is not None:
+        named = f"{seat.seat_class} " if seat.seat_class else ""
+        upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
+        low, high = abu.temperature_range_C
+        yield DrawingRequirement(
+            "seat of the ring",
+            f"{named}{upper}/{lower} µm, ring {seat.ring_class}; {_um(seat.left)} µm of interference left at least at "
+            f"{low:g} … {high:g} °C; join with the body at {seat.joining:.0f} °C",
+        )
+
+
+def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) -> tuple[DrawingRequirement, ...]:
+    budget, abu = candidate.budget, case.autobalancer
     smooth = math.hypot(budget.race_eccentricity, budget.race_ovality, budget.plane_offset)
     arm = case.friction_arm or SOFT_ARM
     race = f"R {from_si(candidate.race_radius, 'mm'):.2f} ± {_mm(RACE_TOLERANCE)} mm"
@@ -74,27 +137,25 @@ def _race(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequir
             "groove", f"{_across(track.groove_radius)} (helps to shake out friction; no effect on the level)", 0.0
         ),
         DrawingRequirement(
-            "race to bore, total",
-            f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm), bore "
-            "clearance and spindle included; grind bore and race in one set-up",
-            _cost(others, case.race_eccentricity),
-        ),
-        DrawingRequirement(
             "race circularity",
-            f"{_um(OVALITY)} µm; two lobes of {_um(OVALITY / 2)} µm leave {_um(OVALITY)} µm",
-            _cost(budget.residual, OVALITY),
+            f"{_um(quality.circularity)} µm; two lobes of {_um(quality.circularity / 2)} µm leave "
+            f"{_um(quality.circularity)} µm",
+            _cost(budget.residual, quality.circularity),
         ),
         DrawingRequirement(
-            "race waviness", "n_k lobes of amplitude a_k leave n_k·a_k: 5 × 0.5 µm", _cost(budget.residual, WAVINESS)
+            "race waviness",
+            f"n_k lobes of amplitude a_k leave n_k·a_k: {_um(quality.waviness)} µm at most, such as 5 × "
+            f"{_um(quality.waviness / 5)} µm",
+            _cost(budget.residual, quality.waviness),
         ),
         DrawingRequirement(
             "race surface",
-            f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: a dent {_um(DENT)} µm deep holds a ball",
-            _cost(budget.residual, DENT * candidate.pitch_radius / _dent_half_width(candidate)),
+            f"Ra ≤ {_um(quality.roughness)} µm, no dents: a dent {_um(quality.dent)} µm deep holds a ball",
+            _cost(budget.residual, quality.dent * candidate.pitch_radius / _dent_half_width(candidate, quality.dent)),
         ),
         DrawingRequirement(
             "race hardness",
-            f"{HARDNESS}, case ≥ {_mm(CASE_DEPTH)} mm after grinding (given: "
+            f"{hardness_text(quality)}, case ≥ {_mm(quality.case_depth)} mm after grinding (given: "
             f"{abu.race_hardness_HRC:g}); a soft race has a lever arm of {_um(SOFT_ARM)} µm",
             _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction),
         ),
@@ -110,18 +171,43 @@ def _across(groove: float | None) -> str:
     return "straight ± 2 µm" if groove is None else f"R {from_si(groove, 'mm'):.2f} ± {_mm(GROOVE_TOLERANCE)} mm across"
 
 
-def _seat_and_balls(case: Case, candidate: Candidate) -> tuple[DrawingRequirement, ...]:
-    clearance = _bore_clearance(to_si(case.autobalancer.bore_diameter_mm, "mm"))
+def hardness_text(quality: RaceQuality) -> str:
+    """Hardness of the race as a drawing writes it."""
+    low, high = quality.hardness
+    return f"{low:g}–{high:g} HRC"
+
+
+def _seat_and_balls(
+    candidate: Candidate, split: EccentricitySplit, quality: RaceQuality
+) -> tuple[DrawingRequirement, ...]:
     rest = math.hypot(candidate.budget.rolling_friction, candidate.budget.race_ovality, candidate.budget.plane_offset)
-    play = "" if clearance is None else f"; {from_si(clearance / 2, 'um'):.0f} µm of the eccentricity above at most"
-    cost = None if clearance is None else _cost(rest, clearance / 2)
+    fit = split.fit
+    named = "no standard fit" if fit is None else (
+        f"bore {fit.bore_class}, spindle {fit.spindle_class}; {_clearance(fit)}; the largest clearance gives "
+        f"{_um(split.clearance)} µm of the eccentricity"
+    )  # fmt: skip
     return (
-        DrawingRequirement("bore and spindle", f"bore {BORE}, spindle {SPINDLE}{play}", cost),
+        DrawingRequirement("bore and spindle", named, None if fit is None else _cost(rest, split.clearance)),
         DrawingRequirement(
-            "balls", "of one lot, grade 20 (ISO 3290); the balls balance the 0.5 µm of their diameters", 0.0
+            "balls", f"of one lot, grade {quality.ball_grade} (ISO 3290-1); the balls balance the differences of their "
+            "diameters", 0.0,
         ),
-        DrawingRequirement("housing without balls", "balanced to G6.3 (ISO 21940-11); the balls balance the rest", 0.0),
-    )
+        DrawingRequirement(
+            "housing without balls",
+            f"balanced to {split.balance_grade} (ISO 21940-11); the balls balance the static rest, the couple counts "
+            f"as {_um(split.housing)} µm of the eccentricity",
+            0.0,
+        ),
+    )  # fmt: skip
+
+
+def _clearance(fit: Fit) -> str:
+    """Clearance or interference of a fit in words."""
+    if fit.tightest <= 0:
+        return f"clearance {_um(-fit.tightest)} … {_um(-fit.loosest)} µm"
+    if fit.loosest >= 0:
+        return f"interference {_um(fit.loosest)} … {_um(fit.tightest)} µm"
+    return f"clearance {_um(-fit.loosest)} to interference {_um(fit.tightest)} µm"
 
 
 def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequirement, ...]:
@@ -130,8 +216,11 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
     return (
         DrawingRequirement(
             "oil",
-            f"for a viscous drag rate of about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
-            "to 50 1/s, depending on slip, more when cold; specify grade and volume",
+            f"for a viscous drag rate of about {case.drag:g} 1/s{optimum}; VG 46 gives 3 "
+            "to 50 1/s, depending on slip, more when cold; specify grade and volume"
+            if case.table.oil is None
+            else f"{case.table.oil.fill_ml:g} ml of {oil_name(case.table.oil)}, for a viscous drag rate of about "
+            f"{case.drag:.3g} 1/s{optimum} at {case.table.oil.temperature_C:g} °C",
         ),
         DrawingRequirement(
             "web and cover",
@@ -151,25 +240,11 @@ def _mm(length: float) -> str:
     return f"{from_si(length, 'mm'):.3g}"
 
 
-def bore_limits(bore: float) -> DeviationLimits | None:
-    """Limits of the bore [m], where they are tabulated."""
-    try:
-        return part_limits("housing", BORE, bore)
-    except RangeError:
-        return None
-
-
-def _bore_clearance(bore: float) -> float | None:
-    """Largest clearance of a bore H6 on a spindle js6 [m] (ISO 286-2), where both are tabulated."""
-    hole = bore_limits(bore)
-    return None if hole is None else hole.upper - part_limits("shaft", SPINDLE, bore).lower
-
-
 def _cost(rest: float, part: float) -> float | None:
     cost = extra_level(rest, part)
     return cost if math.isfinite(cost) else None
 
 
-def _dent_half_width(candidate: Candidate) -> float:
-    """Half chord [m] of the ball in a dent of that depth."""
-    return math.sqrt(candidate.ball_diameter * DENT)
+def _dent_half_width(candidate: Candidate, dent: float) -> float:
+    """Half chord [m] of the ball in a dent of that depth [m]."""
+    return math.sqrt(candidate.ball_diameter * dent)

@@ -109,32 +109,150 @@ def groove_depth(groove: float, inner_width: float) -> float:
     return groove - math.sqrt(groove**2 - inner_width**2 / 4)
 
 
+@dataclass(frozen=True)
+class BearingRing:
+    """Outer ring of a self-aligning ball bearing: designation, outside diameter, width, radius of its sphere [m]."""
+
+    designation: str
+    outside_diameter: float
+    width: float
+    sphere_radius: float
+
+
+@dataclass(frozen=True)
+class HousingDimensions:
+    """Lengths [m] from which the parts follow; `groove_radius` None: a straight race, for rollers.
+
+    `ring_radius`: outside of the race's own ring, or of the wall that has it. `ring_end`: open end of that ring on the
+    axis. `seat_radius`: radius at which the cover is seated.
+    """
+
+    bore_radius: float
+    hub_radius: float
+    race_radius: float
+    groove_radius: float | None
+    ring_radius: float
+    outer_radius: float
+    seat_radius: float
+    web: float
+    inner_width: float
+    ring_end: float
+
+    @property
+    def width(self) -> float:
+        """Width of the housing [m]."""
+        return self.inner_width + 2 * self.web
+
+    @property
+    def cover_start(self) -> float:
+        """Place of the cover's inner face on the axis [m]."""
+        return self.web + self.inner_width
+
+    @property
+    def middle(self) -> float:
+        """Place of the balls' plane on the axis [m]."""
+        return self.web + self.inner_width / 2
+
+    @property
+    def has_ring(self) -> bool:
+        """True if the race is in a ring of its own."""
+        return self.outer_radius > self.ring_radius
+
+    @property
+    def sagitta(self) -> float:
+        """Depth of the groove at the edges of the race [m]."""
+        return 0.0 if self.groove_radius is None else groove_depth(self.groove_radius, self.inner_width)
+
+    @property
+    def shoulder_radius(self) -> float:
+        """Radius of the race at its edges [m]."""
+        return self.race_radius - self.sagitta
+
+
+def dimensions(
+    design: Design, race_radius: float, ball_diameter: float, bore_diameter: float, wall: float, grooved: bool = True,
+    ring: BearingRing | None = None,
+) -> HousingDimensions:  # fmt: skip
+    """Lengths of a housing by the rules of its design; `ring`: the bearing's ring that takes the place of the wall."""
+    rules = RULES[design]
+    groove = groove_radius(race_radius, ball_diameter / 2) if grooved else None
+    inner, ring_radius = ball_diameter + 2 * GROOVE_CLEARANCE, race_radius + wall
+    ring_end, seat = inner + 2 * rules.web, race_radius
+    if ring is not None:
+        inner, ring_radius, groove = ring.width, ring.outside_diameter / 2, race_radius
+        ring_end, seat = rules.web + inner, ring_radius
+    return HousingDimensions(
+        bore_radius=bore_diameter / 2, hub_radius=bore_diameter / 2 + rules.hub_wall, race_radius=race_radius,
+        groove_radius=groove, ring_radius=ring_radius, outer_radius=ring_radius + rules.body_wall, seat_radius=seat,
+        web=rules.web, inner_width=inner, ring_end=ring_end,
+    )  # fmt: skip
+
+
+LEAST_FILLING: Final = to_si(0.1, "mm")
+"""Least gap at which a ball passes between hub and edge of the race [m] (assumed)."""
+
+
+@formula(
+    "Gap through which a ball passes from the open side to its race",
+    "R_k − d − R_h",
+    "m",
+    where=(
+        "R_k is the radius of the race at its edge, R_h that of the hub, d the diameter of the balls. The last ball "
+        "passes between the others, which are pushed together, if the chord to each of them is at least d."
+    ),
+    source="geometry",
+)
+def filling_gap(edge_radius: float, ball_diameter: float, hub_radius: float) -> float:
+    """
+    >>> round(1e3 * filling_gap(29.6e-3, 15.9e-3, 12.5e-3), 2)
+    1.2
+    """
+    return edge_radius - ball_diameter - hub_radius
+
+
+def last_ball_passes(size: HousingDimensions, count: int, ball_diameter: float) -> bool:
+    """True if the last ball, at the race's edge, passes between the others, pushed together in the race."""
+    pitch, entry = size.race_radius - ball_diameter / 2, size.shoulder_radius - ball_diameter / 2
+    half = math.pi - math.asin(min(1.0, ball_diameter / 2 / pitch)) * (count - 2)
+    if half <= 0:
+        return False
+    squared = entry**2 + pitch**2 - 2 * entry * pitch * math.cos(min(half, math.pi))
+    return math.sqrt(squared) >= ball_diameter * (1 - 1e-9)
+
+
+def balls_go_in(size: HousingDimensions, count: int, ball_diameter: float) -> bool:
+    """True if all balls go in through the open side."""
+    gap = filling_gap(size.shoulder_radius, ball_diameter, size.hub_radius)
+    return gap >= LEAST_FILLING - 1e-9 and last_ball_passes(size, count, ball_diameter)
+
+
 @formula(
     "Dimensions and mass of the housing, from rings and discs",
     where=(
         "The ring is of steel, from R to R plus the wall. Its groove is filled toward the edges; the volume of the "
         "turned circular arc is exact. Body wall, webs and hub are of the body's material. The rules of the design "
         "give their thicknesses. The body's own web reaches its wall, the cover's web fits inside the ring. A race "
-        "for rollers is straight, without a groove."
+        "for rollers is straight, without a groove. The ring of a bearing has the width of its designation, and the "
+        "cover is seated beside it in the body."
     ),
     assumed="the drawing gives the final dimensions",
     source="own rules",
 )
 def housing(
-    design: Design, race_radius: float, ball_diameter: float, bore_diameter: float, wall: float, grooved: bool = True
-) -> Housing:
-    rules = RULES[design]
-    inner_width, whole_width = ball_diameter + 2 * GROOVE_CLEARANCE, width(design, ball_diameter)
-    outer, hub = race_radius + wall, bore_diameter / 2 + rules.hub_wall
-    fill = _fill(race_radius, groove_radius(race_radius, ball_diameter / 2), inner_width) if grooved else 0.0
-    ring = _ring(race_radius, outer, whole_width - rules.web) + fill
+    design: Design, race_radius: float, ball_diameter: float, bore_diameter: float, wall: float, grooved: bool = True,
+    bearing_ring: BearingRing | None = None,
+) -> Housing:  # fmt: skip
+    size = dimensions(design, race_radius, ball_diameter, bore_diameter, wall, grooved, bearing_ring)
+    outer, hub = size.ring_radius, size.hub_radius
+    fill = _fill(race_radius, size.groove_radius, size.inner_width) if size.groove_radius else 0.0
+    ring = _ring(race_radius, outer, size.ring_end - size.web) + fill
     body = (
-        _ring(outer, outer + rules.body_wall, whole_width)
-        + _ring(hub, outer, rules.web)
-        + _ring(hub, race_radius, rules.web)
-        + _ring(bore_diameter / 2, hub, whole_width)
+        _ring(outer, size.outer_radius, size.width)
+        + _ring(hub, outer, size.web)
+        + _ring(hub, size.seat_radius, size.web)
+        + _ring(size.bore_radius, hub, size.width)
     )
-    return Housing(2 * (outer + rules.body_wall), whole_width, STEEL * ring + rules.body_density * body)
+    return Housing(2 * size.outer_radius, size.width, STEEL * ring + RULES[design].body_density * body)
 
 
 def _fill(race_radius: float, groove: float, inner_width: float) -> float:

@@ -9,8 +9,9 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.foundation.validity import Range
+from abu_calc.sizing.bearing_ring import race_groove, ring_of
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.housing import ALUMINIUM, GROOVE_CLEARANCE, RULES, STEEL, groove_radius
+from abu_calc.sizing.housing import ALUMINIUM, GROOVE_CLEARANCE, RULES, STEEL
 from abu_calc.standards.balls import vickers
 
 STEEL_MODULUS = 208e9
@@ -169,7 +170,7 @@ def strength(case: Case, ball_mass: float, diameter: float, race_radius: float, 
     abu, top, radius = case.autobalancer, case.speed_range[1], diameter / 2
     force = ball_mass * (race_radius - radius) * top**2
     if abu.corrector == "ball":
-        pressure = hertz_ball_in_toroid(force, radius, race_radius, groove_radius(race_radius, radius))
+        pressure = hertz_ball_in_toroid(force, radius, race_radius, race_groove(case, race_radius, radius))
     else:
         pressure = hertz_roller_in_cylinder(force, radius, race_radius, diameter)
     rim = ALUMINIUM if abu.design == "light" else STEEL
@@ -190,7 +191,8 @@ MODULUS = {STEEL: STEEL_MODULUS, ALUMINIUM: 70e9}
 class Roundness:
     """Amplitudes [m] of the race's two lobes under two opposite balls at the top of the speed range.
 
-    `lobes`: as drawn, web and cover both carry the wall and the spindle holds the hub. `unaided`: only one web carries
+    `lobes`: as drawn, web and pressed cover both carry the wall and the spindle holds the hub; a screwed cover has
+    clearance in its thread and carries nothing. `unaided`: only one web carries
     it, like a hinge, and the hub is free, as a cover fitted with clearance leaves it. `free_ring`: what the diameter
     would gain with no web at all.
     """
@@ -208,12 +210,17 @@ def roundness(case: Case, force: float, race_radius: float, ball_diameter: float
     abu = case.autobalancer
     rules, wall = RULES[abu.design], to_si(abu.min_wall_mm, "mm")
     hub, between = to_si(abu.bore_diameter_mm, "mm") / 2 + rules.hub_wall, ball_diameter + 2 * GROOVE_CLEARANCE
+    ring = ring_of(case, race_radius)
+    if ring is not None:
+        wall, between = ring.outside_diameter / 2 - race_radius, ring.width
     modulus = MODULUS[rules.body_density]
     held = web_lobes(force / 2, race_radius, 0.0, rules.web, modulus)
     unheld = web_lobes(force, race_radius, hub, rules.web, modulus)
     free = ring_flexure(force, race_radius, between + 2 * rules.web, wall)
+    unaided = min(unheld + hinged_wall_lobes(force, race_radius, between, wall), free / 2)
+    lobes = min(held + wall_lobes(force, race_radius, between, wall), free / 2)
     return Roundness(
-        lobes=min(held + wall_lobes(force, race_radius, between, wall), free / 2),
-        unaided=min(unheld + hinged_wall_lobes(force, race_radius, between, wall), free / 2),
+        lobes=lobes if abu.closure == "pressed" else unaided,
+        unaided=unaided,
         free_ring=free,
     )

@@ -11,9 +11,9 @@ from abu_calc.foundation.units import GRAVITY, from_si
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import followed, pins, set_action, speeds_from
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.bearing_ring import race_groove
 from abu_calc.sizing.budget import ovality_residual, permitted_displacement
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.housing import groove_radius
 from abu_calc.sizing.trials import TriedRequirement
 
 LEAST_HARDNESS_HRC, GROUND_HARDNESS_HRC = 58.0, 60.0
@@ -26,7 +26,7 @@ OVER = 1.05
 class Track:
     """Groove, slow motion of the balls [SI]; null where there is none.
 
-    `decay_rates`: drag and slowest rate [1/s] at the drag of the file, a third of it and three times it.
+    `decay_rates`: drag and slowest rate [1/s] at the drag rate at work, in hot and in cold oil.
     """
 
     groove_radius: float | None
@@ -58,12 +58,12 @@ def track(case: Case, candidate: Candidate, frequencies: tuple[float, float]) ->
     slowest, _ = slow_stiffness((kappa,) * candidate.ball_count, candidate.budget.resting_angles)
     rolls = case.autobalancer.corrector == "roller"
     return Track(
-        groove_radius=None if rolls else groove_radius(candidate.race_radius, candidate.ball_diameter / 2),
+        groove_radius=None if rolls else race_groove(case, candidate.race_radius, candidate.ball_diameter / 2),
         carry_over=carry_over_speed(candidate.pitch_radius),
         ball_stiffness=kappa,
         optimum_drag=optimum_drag(slowest, case.inertia_factor) if slowest > 0 else None,
         decay_rates=tuple(
-            (drag, _rate(case, candidate, kappa, drag)) for drag in (case.drag, case.drag / 3, 3 * case.drag)
+            (drag, _rate(case, candidate, kappa, drag)) for drag in (share * case.drag for share in case.drag_shares)
         ),
     )
 

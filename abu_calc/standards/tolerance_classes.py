@@ -64,6 +64,21 @@ def part_limits(seat: Seat, tolerance_class: str, size: float) -> DeviationLimit
     return _look_up(rows[tolerance_class], size, f"size for {tolerance_class}", "Choose another tolerance class.")
 
 
+@lru_cache(maxsize=4096)
+def grade_tolerance(grade: int, size: float) -> float:
+    """Standard tolerance [m] of grade IT1 … IT9 for a size [m]; sizes above the table get its last row.
+
+    Range: 0 … 3150 mm and beyond (the last row, which is then less than the rule would give). Source: ISO 286-1:2010.
+
+    >>> round(1e6 * grade_tolerance(6, 0.020), 1), round(1e6 * grade_tolerance(4, 0.062), 1)
+    (13.0, 8.0)
+    """
+    millimetres = _millimetres(size)
+    rows = [tuple(map(float, row)) for row in csv_rows("it_grades")]
+    row = next((row for row in rows if row[0] < millimetres <= row[1]), rows[-1])
+    return round(to_si(row[1 + grade], "um"), 12)
+
+
 def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size: float) -> DeviationLimits:
     """Limit deviations of a ring's single-plane mean diameter, bore (inner) or outside (outer), nominal size [m].
 

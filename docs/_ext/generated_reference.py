@@ -42,6 +42,7 @@ def write(app: Sphinx) -> None:
         "checks": checks(),
         "formulas": formulas(),
         "results": results(),
+        "units": units(),
         "python": python(),
     }
     for name, text in pages.items():
@@ -74,6 +75,8 @@ def keys(kind: str) -> str:
         lines += [f"## {path}", "", _escaped(table.get("description", "")), "", "| key | meaning |", "|---|---|"]
         required = set(table.get("required", ()))
         for key, entry in table["properties"].items():
+            if "x-canonical-key" in entry:
+                continue  # the page on units lists these
             needed = " (required)" if key in required else ""
             lines.append(f"| `{key}`{needed} | {_cell(_described(entry, schema))} |")
         lines.append("")
@@ -171,6 +174,31 @@ def results() -> str:
     return "\n".join(lines)
 
 
+def units() -> str:
+    """Units that values in files may have."""
+    from abu_calc.units import allowed_units
+
+    lines = [
+        "# Values with units",
+        "",
+        'The unit of a number stands in its key, `mass_kg = 5.6`, or behind the number: `mass = "5.6 kg"`. The key is '
+        "then written without its unit. This holds for every key of machine, scene, readings and recordings files that "
+        'ends in a unit, for lists (`natural_frequencies = ["12 Hz", "15 Hz"]`) and for `--set`. A file gives each '
+        "value in one form. Reports list the conversions; results and JSON have the keys with units.",
+        "",
+        "Products may be written with `·`, `*` or a blank, powers as `²`, `2` or `^2`, micro as `µ` or `u`. Other "
+        "units are refused. A runout by total indicator reading has a key of its own, `runout_tir`; a temperature "
+        "difference is given in K.",
+        "",
+        "| quantity | keys end in | units |",
+        "|---|---|---|",
+    ]
+    for quantity, suffixes, names in allowed_units():
+        endings = ", ".join(f"`_{suffix}`" for suffix in suffixes)
+        lines.append(f"| {quantity} | {endings} | {', '.join(names)} |")
+    return "\n".join(lines) + "\n"
+
+
 def python() -> str:
     """Public names of the package, with signatures and docstrings."""
     import abu_calc
@@ -183,6 +211,8 @@ def python() -> str:
     ]
     for name in sorted(abu_calc.__all__, key=str.lower):
         value = getattr(abu_calc, name)
+        if inspect.ismodule(value):
+            lines += [f"## {name}", "", "```text", inspect.getdoc(value) or "", "```", ""]
         if not callable(value):
             continue
         lines += [f"## {name}", ""]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from abu_calc.formulas.shaken_friction import TILT, friction_number, remaining_band
+from abu_calc.formulas.shaken_friction import COUNTED, friction_number, remaining_band
 from abu_calc.foundation.units import GRAVITY
 
 SPEED, PITCH, INERTIA = 607.37, 23e-3, 1.4
@@ -33,7 +33,7 @@ SHAKE = GRAVITY / SPEED**2
 
 @pytest.mark.parametrize("number", [1.3, 2.0, 4.0])
 def test_a_ball_stays_just_within_the_band_that_a_level_spindle_leaves(number: float) -> None:
-    """The product counts less of gravity, for a spindle that is held askew: never less friction than here."""
+    """The product counts half of gravity: never less friction than here."""
     band = number * SHAKE
     assert _crept(0.99 * (band - SHAKE), band, 5) == 0
     assert _crept(band - 0.95 * SHAKE, band) > 1e-6
@@ -57,7 +57,7 @@ def test_creeping_close_to_the_band_is_as_slow_as_told() -> None:
 
 
 def test_band_by_hand_and_its_ends() -> None:
-    assert remaining_band(30e-6, SPEED) == pytest.approx(30e-6 - GRAVITY * math.cos(TILT) / SPEED**2)
+    assert remaining_band(30e-6, SPEED) == pytest.approx(30e-6 - COUNTED * GRAVITY / SPEED**2)
     number = friction_number(1e-6, 24e-3, 8e-3, SPEED)
     assert number == pytest.approx(1e-6 * 24e-3 * SPEED**2 / (8e-3 * 9.80665))
     assert remaining_band(1e-6 * 24e-3 / 8e-3, SPEED) == 0 and number < 1

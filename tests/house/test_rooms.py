@@ -45,7 +45,7 @@ FEATURES = (
 )
 """Features in order; each may use those before it."""
 
-TOP = ("abu_calc", "abu_calc.__main__", "abu_calc.version", "abu_calc.cli.app", "abu_calc.cli.start")
+TOP = ("abu_calc", "abu_calc.__main__", "abu_calc.units", "abu_calc.version", "abu_calc.cli.app", "abu_calc.cli.start")
 """The public face, and where the command begins: they know the registry, and import features by its names."""
 
 DYNAMICS = ("supports", "equations", "switching", "effects", "codegen", "integrators", "averaging", "stability")

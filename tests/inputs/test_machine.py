@@ -48,7 +48,8 @@ IN_SPACE = {
 
 def test_the_full_sample_names_every_key_of_the_models() -> None:
     """Otherwise the properties over its numbers would pass by a key that was added later."""
-    alternatives = {"runout_tir_mm", "imbalance_g_mm", "balance_grade", "designation", *PAUSE, *QUANTITIES, *IN_SPACE}
+    alternatives = {"runout_tir_mm", "imbalance_g_mm", "balance_grade", "designation", "viscosity_mm2_per_s"}
+    alternatives |= {"viscosity_index", *PAUSE, *QUANTITIES, *IN_SPACE}
     for path, table in all_tables(MachineFile):
         if path == ("sweep",):
             continue  # not the machine but a study of many, which has its own tests
@@ -77,6 +78,10 @@ def test_defaults_in_force_are_listed(tmp_path: Path) -> None:
         "autobalancer.race_eccentricity_mm": 0.010,
         "autobalancer.race_hardness_HRC": 60,
         "autobalancer.min_wall_mm": 2.5,
+        "autobalancer.eccentricity_sum": "worst-case",
+        "autobalancer.closure": "pressed",
+        "autobalancer.fastening": "clamped",
+        "autobalancer.temperature_range_C": (0, 60),
         "autobalancer.plane_offset_mm": 0,
         "grinding.press_force_N": 45,
         "grinding.cutting_coefficient": 0.35,

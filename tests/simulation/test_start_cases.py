@@ -7,7 +7,6 @@ import pytest
 
 from abu_calc.simulation.start_cases import (
     ALIKE,
-    DRAGS,
     OPPOSITE,
     Member,
     SwitchedOn,
@@ -53,7 +52,7 @@ def test_a_race_without_eccentricity_has_one_side() -> None:
 
 def test_drags_are_the_given_one_a_third_and_three_times() -> None:
     drags = {member.drag for member in members(design())}
-    assert sorted(drags) == pytest.approx(sorted(share * design().case.drag for share in DRAGS))
+    assert sorted(drags) == pytest.approx(sorted(share * design().case.drag for share in design().case.drag_shares))
 
 
 def test_a_slow_run_up_is_tried_below_the_doubtful_drag_alone() -> None:

@@ -57,6 +57,8 @@ def machines(draw: st.DrawFn) -> dict[str, Any]:
         "autobalancer__rolling_friction_mm": draw(st.sampled_from([0.0, 0.002, 0.05])),
         "autobalancer__race_eccentricity_mm": draw(st.sampled_from([0.0, 0.01, 0.1])),
     }
+    if changes["autobalancer__design"] == "bearing-ring":
+        changes["autobalancer__corrector"] = "ball"
     if draw(st.booleans()):
         changes["machine__transverse_inertia_kg_m2"] = draw(_between(0.001, 10))
         changes["machine__center_of_mass_to_wheel_mm"] = draw(_between(10, 500))

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from abu_calc.sizing import size
-from abu_calc.sizing.drawing_requirements import bore_limits, extra_level
+from abu_calc.sizing.drawing_requirements import extra_level
 from tests.sizing.machines import machine
 
 
@@ -23,13 +23,6 @@ def test_a_part_as_large_as_the_rest_costs_three_decibels() -> None:
     assert extra_level(10e-6, 10e-6) == pytest.approx(10 * math.log10(2))
     assert extra_level(10e-6, 0.0) == 0.0
     assert extra_level(0.0, 1e-6) == math.inf
-
-
-def test_bore_limits_are_tabulated_or_none() -> None:
-    """H6 above 18 to 30 mm: 0 to 13 µm (ISO 286-2)."""
-    limits = bore_limits(20e-3)
-    assert limits is not None and (limits.lower, limits.upper) == (0.0, pytest.approx(13e-6))
-    assert bore_limits(10.0) is None
 
 
 def test_what_costs_without_bound_has_no_number() -> None:

@@ -10,6 +10,8 @@ from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.features.accuracy.study import AccuracyResult
+
     pass
 
 
@@ -33,7 +35,6 @@ def accuracy(
 ) -> Outcome:
     """Compare methods of simulation by error and computing time."""
     from abu_calc.features.accuracy.study import accuracy as study
-    from abu_calc.features.accuracy.view import accuracy_blocks, accuracy_screen
     from abu_calc.inputs.scene import read_any
 
     with progress(how) as tell:
@@ -47,6 +48,13 @@ def accuracy(
             duration_s=duration_s,
             progress=tell,
         )
+    return outcome_of(result)
+
+
+def outcome_of(result: "AccuracyResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.accuracy.view import accuracy_blocks, accuracy_screen
+
     return Outcome.of(result, lambda: accuracy_blocks(result), lambda: accuracy_screen(result))
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -10,6 +10,9 @@ from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.output import Delivery
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.balancing.study import BalanceResult
 
 
 def balance(
@@ -31,13 +34,12 @@ def balance(
     """
     from abu_calc.features.balancing.read import read_readings
     from abu_calc.features.balancing.study import balance as study
-    from abu_calc.features.balancing.view import balance_blocks, balance_screen
     from abu_calc.reporting.write import Target, check_target
 
     if save_coefficients is not None:
         check_target(save_coefficients, force=how.force, suffixes=(".toml",), option="--save-coefficients")
     result = study(read_readings(readings, set_ or ()), coefficients)
-    outcome = Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
+    outcome = outcome_of(result)
     if save_coefficients is None:
         return outcome
     if result.coefficients_text is None:
@@ -46,6 +48,13 @@ def balance(
             found=f"an answer by {result.method}", remedy="Make a run with a trial mass in each plane.",
         )  # fmt: skip
     return replace(outcome, further=(Target(save_coefficients, result.coefficients_text),))
+
+
+def outcome_of(result: "BalanceResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.balancing.view import balance_blocks, balance_screen
+
+    return Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
 
 
 def register(app: typer.Typer) -> None:

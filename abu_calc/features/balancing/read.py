@@ -10,7 +10,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading import sources as presets
-from abu_calc.inputs.reading.document import Document, FileReading, named, open_document, parsed_overrides, validate
+from abu_calc.inputs.reading.document import Document, FileReading, document_from, parsed_overrides, validate
 from abu_calc.inputs.reading.kinds import refuse_others
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Readings(FileReading):
     """A file of readings; `tables` are what stands in it, in the units people wrote."""
+
+    __repr__ = FileReading.__repr__
 
     tables: ReadingsFile
 
@@ -39,16 +41,19 @@ class Readings(FileReading):
 
     def beside(self, name: str) -> Path:
         """A file that this one names: by its whole path, or beside it."""
+        if not self.file:
+            return Path.cwd() / name
         own_path = Path(self.file) if Path(self.file).exists() else presets.find(self.file) or Path(self.file)
         return own_path.absolute().parent / name
 
 
-def read_readings(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Readings:
-    """Reads a file of readings with entries overridden (`rig.key=value`, typed as TOML).
+def read_readings(source: str | os.PathLike[str] | Mapping[str, object], overrides: Sequence[str] = ()) -> Readings:
+    """Reads readings (a file, a TOML text, tables as a dictionary) with entries overridden (`rig.key=value`).
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
     """
-    return readings_from(open_document(named(source)), parsed_overrides(overrides))
+    with document_from(source) as document:
+        return readings_from(document, parsed_overrides(overrides))
 
 
 def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> Readings:

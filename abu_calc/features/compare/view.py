@@ -12,6 +12,7 @@ from typing import Any, Final, NamedTuple
 from abu_calc.features.compare.labels import label_of
 from abu_calc.features.compare.main_numbers import main_blocks
 from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part, checks_named
+from abu_calc.foundation.checks import WORDS as VERDICTS
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.reading.text import is_number
 from abu_calc.inputs.reading.text import shown as exact
@@ -19,7 +20,6 @@ from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import RANK, WORD, check_blocks, provenance_blocks, warning_blocks
-from abu_calc.reporting.screen import WORDS as VERDICTS
 from abu_calc.reporting.screen import many, verdict_line
 
 SECTIONS: Final[dict[Part, str]] = {

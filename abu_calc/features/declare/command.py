@@ -1,6 +1,6 @@
 """`abu declare MACHINE`: the type test simulated; `abu declare --recordings FILE`: the same from measured runs."""
 
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -9,6 +9,10 @@ from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.declare.measured import MeasuredDeclareResult
+    from abu_calc.features.declare.study import DeclareResult
 
 MEASURED: Final = "Measured runs"
 """Panel of the options about recordings."""
@@ -68,23 +72,32 @@ def declare(
         key = "--sensitivity" if sensitivity else "--automatic-balancing"
         raise InputError("for recordings only", place=Place(key=key), remedy="Leave it out, or give --recordings FILE.")
     from abu_calc.features.declare.study import declare as study
-    from abu_calc.features.declare.view import declare_blocks, declare_screen
     from abu_calc.inputs.read_machine import read_machine
 
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), starts, tell)
-    return Outcome.of(result, lambda: declare_blocks(result), lambda: declare_screen(result))
+    return outcome_of(result)
 
 
 def _measured(how: Delivery, recordings: list[str], sensitivity: list[str], automatic_balancing: bool) -> Outcome:
     from abu_calc.features.declare.measured import declare_recordings
-    from abu_calc.features.declare.measured_view import measured_blocks, measured_screen
 
     with progress(how) as tell:
         result = declare_recordings(
             recordings, sensitivity=sensitivity, automatic_balancing=automatic_balancing, progress=tell
         )
-    return Outcome.of(result, lambda: measured_blocks(result), lambda: measured_screen(result))
+    return outcome_of(result)
+
+
+def outcome_of(result: "DeclareResult | MeasuredDeclareResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.declare.measured import MeasuredDeclareResult
+    from abu_calc.features.declare.measured_view import measured_blocks, measured_screen
+    from abu_calc.features.declare.view import declare_blocks, declare_screen
+
+    if isinstance(result, MeasuredDeclareResult):
+        return Outcome.of(result, lambda: measured_blocks(result), lambda: measured_screen(result))
+    return Outcome.of(result, lambda: declare_blocks(result), lambda: declare_screen(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from abu_calc.features.declare.tables import RecordedFile, RecordedRun, RecordingsFile
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.reading.document import Document, FileReading, named, open_document, parsed_overrides, validate
+from abu_calc.inputs.reading.document import Document, FileReading, document_from, parsed_overrides, validate
 from abu_calc.inputs.reading.kinds import refuse_others
 from abu_calc.inputs.recording import Recording
 from abu_calc.inputs.recording_files import is_recording, read_recording
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Recordings(FileReading):
     """A file that lists recordings; `tables` are what stands in it."""
+
+    __repr__ = FileReading.__repr__
 
     tables: RecordingsFile
 
@@ -48,7 +50,8 @@ class Run:
 
 def read_recordings(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Recordings:
     """Reads a file that lists recordings; raises InputError with file, line, key and remedy for what is wrong."""
-    return recordings_from(open_document(named(source)), parsed_overrides(overrides))
+    with document_from(source) as document:
+        return recordings_from(document, parsed_overrides(overrides))
 
 
 def recordings_from(document: Document, overrides: "Sequence[Override]" = ()) -> Recordings:

@@ -14,6 +14,7 @@ from abu_calc.reporting.outcome import Outcome
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
     from abu_calc.reporting.drawings.shapes import Drawing
+    from abu_calc.reporting.solids.assembly import SolidAssembly
 
 
 def size(
@@ -33,8 +34,15 @@ def size(
 
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
+    return outcome_of(result, explain=explain)
+
+
+def outcome_of(result: "SizeResult", *, explain: bool = False) -> Outcome:
+    """Outcome of a result: how it is shown and written; `explain`: with every formula."""
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
+    return Outcome.of(
+        result, lambda: _blocks(result, explain), short, lambda: _drawings(result), lambda: _solids(result)
+    )
 
 
 def _screen(result: "SizeResult") -> tuple[Block, ...]:
@@ -59,6 +67,12 @@ def _drawings(result: "SizeResult") -> "tuple[Drawing, ...]":
     return size_sheets(result)
 
 
+def _solids(result: "SizeResult") -> "SolidAssembly":
+    from abu_calc.features.design.solids import size_solids
+
+    return size_solids(result)
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "size", size, drawn=(".dxf", ".svg"), simulates=True)
+    add_command(app, "size", size, drawn=(".dxf", ".svg", ".pdf", ".step", ".stp"), simulates=True)

@@ -130,8 +130,11 @@ def data_gaps(design: Design, ensemble: Ensemble | None, accuracy: float) -> tup
 
 def assumed_values(file: MachineFile) -> Iterator[tuple[str, UsualRange]]:
     """The values of a file that are assumed: left to the default, or just that figure."""
+    known = {} if file.identified is None else file.identified.in_force(file.autobalancer)
     for key, usual in RANGES.items():
         table, name = key.split(".")
+        if (key == DRAG and file.oil is not None) or (table == "autobalancer" and name in known):
+            continue
         value = getattr(getattr(file, table), name, None)
         figures = set(value) if isinstance(value, tuple) else {value}
         if figures == {usual.assumed}:

@@ -4,41 +4,33 @@ The section holds every length that its drawing shows, and the outlines.
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from abu_calc.features.design.region import TrueRegion
-from abu_calc.features.design.section import section
 from abu_calc.features.grinding.lower_bound import LevelBound
 from abu_calc.features.grinding.outcomes import LoadedStarts
 from abu_calc.formulas.body_estimate import estimate_source
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.shaken_friction import friction_number
-from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
 from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import WHEEL_PLANE
+from abu_calc.sizing.cover import seat_name
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.drawing_requirements import (
-    BORE,
-    CASE_DEPTH,
-    GROOVE_TOLERANCE,
-    HARDNESS,
-    OVALITY,
-    RACE_TOLERANCE,
-    ROUGHNESS,
-    bore_limits,
-)
+from abu_calc.sizing.drawing_requirements import hardness_text
+from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
+from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
-
-if TYPE_CHECKING:
-    from abu_calc.features.design.section import TurnedPart
 
 
 @record
@@ -83,7 +75,7 @@ class Frequency(Record):
 
 @record
 class AutobalancerRecord(Record):
-    """One candidate."""
+    """An autobalancer, chosen or a runner-up: its balls, race and housing, and the numbers that judge them."""
 
     schema_title: ClassVar[str] = "Autobalancer"
 
@@ -233,7 +225,7 @@ class SpeedLevel(Record):
     """Level with the autobalancer at one speed, at the loudest place."""
 
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    level_after_db: Annotated[float, Quantity("level after", "L")]
+    level_after_db: Annotated[float, LEVEL_AFTER]
 
 
 @record
@@ -242,7 +234,7 @@ class IdleSpeedLevels(Record):
 
     speed_rpm: Annotated[float, Quantity("idle speed of the motor", "Ω", 6)]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
 
     @classmethod
@@ -290,7 +282,7 @@ class Vibration(Record):
     )
 
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     handles: tuple[HandleLevels, ...]
     place: Annotated[str, Quantity("place of the level")] = WHEEL_PLANE
@@ -357,6 +349,44 @@ class DrawingLine(Record):
 
 
 @record
+class Eccentricity(Record):
+    """Parts of the eccentricity that the drawing permits; the simulation uses `total_um`."""
+
+    rule: Annotated[str, Quantity("rule of the sum")]
+    total_um: Annotated[float, Quantity("permitted in all", "Δ", 3)]
+    sum_um: Annotated[float, Quantity("sum of the parts", "", 3)]
+    race_um: Annotated[float, Quantity("race to bore", "Δ_r", 3)]
+    clearance_um: Annotated[float, Quantity("clearance of bore and spindle", "Δ_f", 3)]
+    spindle_um: Annotated[float, Quantity("spindle", "Δ_s", 3)]
+    housing_um: Annotated[float, Quantity("imbalance of the housing", "Δ_h", 3)]
+    least_um: Annotated[float, Quantity("least attainable sum", "", 3)]
+    bore_class: Annotated[str | None, Quantity("tolerance class of the bore")]
+    spindle_class: Annotated[str | None, Quantity("tolerance class of the spindle")]
+    spindle_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the spindle")]
+    balance_grade: Annotated[str, Quantity("balance grade of the housing")]
+
+    @classmethod
+    def of(cls, split: EccentricitySplit) -> Self:
+        """Record in user units."""
+        fit = split.fit
+        return cls(
+            rule=split.rule,
+            total_um=_micrometres(split.total),
+            sum_um=_micrometres(split.sum),
+            race_um=_micrometres(split.race),
+            clearance_um=_micrometres(split.clearance),
+            spindle_um=_micrometres(split.spindle),
+            housing_um=_micrometres(split.housing),
+            least_um=_micrometres(split.least),
+            bore_class=None if fit is None else fit.bore_class,
+            spindle_class=None if fit is None else fit.spindle_class,
+            spindle_limits_um=None if fit is None else
+            (_micrometres(fit.spindle.lower), _micrometres(fit.spindle.upper)),
+            balance_grade=split.balance_grade,
+        )  # fmt: skip
+
+
+@record
 class SectionPart(Record):
     """One part of the housing.
 
@@ -371,14 +401,14 @@ class SectionPart(Record):
     outline_mm: Annotated[tuple[tuple[float, float, float], ...], Quantity("outline of the half section")]
 
     @classmethod
-    def of(cls, part: "TurnedPart") -> Self:
+    def of(cls, part: TurnedPart) -> Self:
         """Record in user units."""
         return cls(
             name=part.name,
             material=part.material,
             mass_g=from_si(part.mass, "g"),
             section_area_mm2=1e6 * part.area,
-            outline_mm=tuple((_mm(v.x), _mm(v.r), v.bulge) for v in part.outline),
+            outline_mm=tuple((_mm(edge.start.z), _mm(edge.start.r), edge.bulge) for edge in part.profile),
         )
 
 
@@ -399,23 +429,30 @@ class Section(Record):
     wall_mm: Annotated[float, Quantity("wall outside the race")]
     web_mm: Annotated[float, Quantity("web and cover")]
     inner_width_mm: Annotated[float, Quantity("between web and cover")]
-    runout_um: Annotated[float, Quantity("runout race to bore, all in", "TIR")]
+    runout_um: Annotated[float, Quantity("runout of the race to the bore", "TIR")]
     circularity_um: Annotated[float, Quantity("circularity of the race")]
     roughness_Ra_um: Annotated[float, Quantity("roughness of the race", "Ra")]
     hardness: Annotated[str, Quantity("hardness of the race")]
     case_depth_mm: Annotated[float, Quantity("depth of the hard case, at least")]
+    closure: Annotated[str, Quantity("closure")]
+    cover_fit: Annotated[str, Quantity("fit or thread of the cover")]
+    fastening: Annotated[str, Quantity("fastening")]
+    ring_seat_class: Annotated[str | None, Quantity("tolerance class of the ring's seat", "", 3, "None: no ring")]
+    ring_seat_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the ring's seat")]
+    bearing_ring: Annotated[str | None, Quantity("bearing whose outer ring is the race")]
     parts: tuple[SectionPart, ...]
 
     @classmethod
     def of(cls, design: "Design") -> Self:
         """Record of a design."""
-        cut = section(design.case, design.autobalancer)
-        limits = bore_limits(2 * cut.bore_radius)
+        built = design.construction
+        parts, quality, fit, seat = built.parts, built.quality, design.eccentricity.fit, built.seat
+        cut = parts.dimensions
         return cls(
             design=design.case.autobalancer.design,
             bore_diameter_mm=_mm(2 * cut.bore_radius),
-            bore_class=BORE,
-            bore_limits_um=None if limits is None else (_micrometres(limits.lower), _micrometres(limits.upper)),
+            bore_class="" if fit is None else fit.bore_class,
+            bore_limits_um=None if fit is None else (_micrometres(fit.bore.lower), _micrometres(fit.bore.upper)),
             hub_diameter_mm=_mm(2 * cut.hub_radius),
             race_diameter_mm=_mm(2 * cut.race_radius),
             race_tolerance_mm=_mm(RACE_TOLERANCE),
@@ -425,13 +462,27 @@ class Section(Record):
             wall_mm=_mm(cut.ring_radius - cut.race_radius),
             web_mm=_mm(cut.web),
             inner_width_mm=_mm(cut.inner_width),
-            runout_um=_micrometres(2 * design.case.race_eccentricity),
-            circularity_um=_micrometres(OVALITY),
-            roughness_Ra_um=_micrometres(ROUGHNESS),
-            hardness=HARDNESS,
-            case_depth_mm=_mm(CASE_DEPTH),
-            parts=tuple(map(SectionPart.of, cut.parts)),
+            runout_um=_micrometres(2 * design.eccentricity.race),
+            circularity_um=_micrometres(quality.circularity),
+            roughness_Ra_um=_micrometres(quality.roughness),
+            hardness=hardness_text(quality),
+            case_depth_mm=_mm(quality.case_depth),
+            closure=parts.closure,
+            cover_fit=seat_name(parts, built.cover),
+            fastening=parts.fastening,
+            ring_seat_class=None if seat is None else seat.seat_class,
+            ring_seat_limits_um=None
+            if seat is None
+            else (_micrometres(seat.seat.lower), _micrometres(seat.seat.upper)),
+            bearing_ring=_designation(design),
+            parts=tuple(map(SectionPart.of, parts.turned)),
         )
+
+
+def _designation(design: "Design") -> str | None:
+    """The bearing whose outer ring is the race; None for other designs."""
+    ring = ring_of(design.case, design.autobalancer.race_radius)
+    return None if ring is None else ring.designation
 
 
 def _mm(length: float) -> float:

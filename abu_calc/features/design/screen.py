@@ -119,6 +119,16 @@ def about(result: SizeResult) -> list[Block]:
             *make(result)]  # fmt: skip
 
 
+def _eccentricity(result: SizeResult) -> str:
+    """The total that the simulation uses, run-outs of race and spindle, and the fit."""
+    split = result.eccentricity
+    fit = "no standard fit" if split.bore_class is None else f"{split.bore_class}/{split.spindle_class}"
+    return (
+        f"{number(split.total_um, 3)} µm at most: race TIR {number(2 * split.race_um, 3)} µm, {fit}, spindle TIR "
+        f"{number(2 * split.spindle_um, 3)} µm"
+    )
+
+
 def make(result: SizeResult) -> list[Block]:
     """Parts to make or buy, in a few rows."""
     abu, section = result.autobalancer, result.section
@@ -140,8 +150,7 @@ def make(result: SizeResult) -> list[Block]:
             f"{abu.housing.split(':')[0]}, Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
             f"{section.bore_diameter_mm:g} mm {section.bore_class}",
         ),
-        Case("Eccentricity", f"{number(section.runout_um / 2, 3)} µm at most, race to spindle (TIR "
-             f"{number(section.runout_um, 3)} µm)"),
+        Case("Eccentricity", _eccentricity(result)),
         Case("Capacity", f"{number(abu.capacity_g_mm, 5)} g·mm ({capacity})"),
         Case("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
     )  # fmt: skip
@@ -371,18 +380,26 @@ def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[
     others = [drag for drag in slowest_by_drag if drag != given]
     # A file from the template gives the default.
     usual = DRAG in dict(result.provenance.defaults) or given == RANGES[DRAG].assumed
-    nominal = "default" if usual else "as given"
+    oils = _oils(result, "default" if usual else "as given")
     shown = [given] * (given in slowest_by_drag)
     shown += [max(others, key=lambda drag: _time_of(slowest_by_drag[drag]))] if others else []
     for drag in shown:
         slowest = slowest_by_drag[drag]
-        oil = nominal if drag == given else "hot oil" if drag < given else "cold oil"
+        oil = oils[0] if drag == given else oils[1] if drag < given else oils[2]
         label = f"Slowest, drag rate {number(drag, 3)} 1/s {oil}: {slowest.start}"
         cases.append(judged(label, slowest.settling_time_s, decides=drag == given))
     return [
         *cases,
         *(judged(label, time, decides=False) for label, time in _late_ones(many_starts.further_starts, check)),
     ]
+
+
+def _oils(result: SizeResult, given: str) -> tuple[str, str, str]:
+    """The oil at work, hot and cold in words; `given`: for a drag rate that is not by the oil."""
+    if result.oil is None:
+        return given, "hot oil", "cold oil"
+    cold, work, hot = (f"{each.temperature_C:g} °C" for each in result.oil.temperatures)
+    return given if result.oil.overridden else f"oil {work}", f"hot oil {hot}", f"cold oil {cold}"
 
 
 def _late_ones(further: FurtherStarts | None, check: Check | None) -> list[tuple[str, float | None]]:
@@ -468,6 +485,8 @@ def starts_and_defaults(result: SizeResult) -> str:
         sentences.append(f"The motor idles at {result.idle_speed_rpm:.0f} rpm.")
     if used:
         sentences.append(f"{many(used, 'default')} used.")
+    if converted := len(result.provenance.converted):
+        sentences.append(f"{many(converted, 'value')} converted.")
     return " ".join(sentences)
 
 
@@ -475,7 +494,8 @@ def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
     """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
     hidden = [many(count, name) for count, name in ((gaps, "more data gap"), (notes, "note")) if count]
     sentences = [starts_and_defaults(result), f"{', '.join(hidden)}: --full." if hidden else ""]
-    code = next((check.code for check in sorted(result.checks, key=_rank) if check.status != "pass"), "ABU401")
+    asked = [check for check in sorted(result.checks, key=_rank) if check.requested and check.status != "pass"]
+    code = asked[0].code if asked else "ABU401"
     commands = ["--full", "--explain", "--output report.html", f"`abu explain {code}`"]
     if result.swing_arm:
         commands[2:2] = [f"`abu stability {file_of(result)} --scene swing-arm-cutting`"]

@@ -5,11 +5,13 @@ lies along the lines.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from abu_calc.features.design.records import AutobalancerRecord, Section
+from abu_calc.reporting.drawings.callouts import balloon
 from abu_calc.reporting.drawings.dimensions import arrow, datum, extent, fits, leader, moved, roughness, tolerance_frame
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
@@ -43,8 +45,10 @@ OVERHANG = 4.0
 """Overhang of centre lines, on paper [mm]."""
 
 
-def section_view(result: "SizeResult", scale: float, right: float = 0.0) -> tuple[Shape, ...]:
-    """The section, the axis along y = 0; its closed web stands at x = `right`."""
+def section_view(
+    result: "SizeResult", scale: float, right: float = 0.0, items: Mapping[str, str] | None = None
+) -> tuple[Shape, ...]:
+    """The section, the axis along y = 0; its closed web stands at x = `right`. `items`: numbers instead of names."""
     abu, unit = result.autobalancer, 1 / scale
     outer = abu.outer_diameter_mm / 2
     shapes = (
@@ -54,11 +58,27 @@ def section_view(result: "SizeResult", scale: float, right: float = 0.0) -> tupl
         Line("centre", (-OVERHANG * unit, 0), (abu.width_mm + OVERHANG * unit, 0)),
         *_diameters(result, unit),
         *_widths(result, unit),
-        *_race_notes(result, scale),
-        *_part_names(result, scale),
+        *(() if items else _race_notes(result, scale)),
+        *_part_names(result, scale, items or {}),
         Text((abu.width_mm / 2, outer + (STACK + 2 * STEP) * unit), "A–A", 1.4 * HEIGHT, "centre"),
     )
-    return tuple(moved(shape, (right, 0.0)) for shape in shapes)
+    told = (_on_other_sheets(result, shape) for shape in shapes) if items else shapes
+    return tuple(moved(shape, (right, 0.0)) for shape in told)
+
+
+def _on_other_sheets(result: "SizeResult", shape: Shape) -> Shape:
+    """A dimension that the sheet of a part gives, in brackets and without its tolerance; others as they are."""
+    if not isinstance(shape, Length | Radius) or shape.text.startswith("("):
+        return shape
+    own = result.autobalancer.outer_diameter_mm, result.autobalancer.width_mm, result.section.bore_diameter_mm
+    if isinstance(shape, Length) and any(abs(shape.value - size) < 1e-9 for size in own):
+        return shape
+    return replace(shape, text=f"({shape.text.partition(' ')[0]})")
+
+
+def assembly_face(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
+    """The face as the assembly's sheet shows it: what parts' sheets dimension stands in brackets."""
+    return tuple(_on_other_sheets(result, shape) for shape in face_view(result, scale))
 
 
 def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
@@ -76,10 +96,10 @@ def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
         Line("centre", (-reach, 0), (reach, 0)),
         *_cutting_plane(outer, scale),
         *_balls_seen(result),
-        *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text) for (radius, text), angle in zip((
-            (abu.race_radius_mm, f"R{digits(abu.race_radius_mm)} ±{digits(section.race_tolerance_mm)}"),
-            (pitch, f"(R{digits(pitch)})"),
-            (section.hub_diameter_mm / 2, f"R{digits(section.hub_diameter_mm / 2)}"),
+        *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text, True) for (radius, text), angle in zip((
+            (abu.race_radius_mm, f"Ø{digits(2 * abu.race_radius_mm)} ±{digits(2 * section.race_tolerance_mm)}"),
+            (pitch, f"(Ø{digits(2 * pitch)})"),
+            (section.hub_diameter_mm / 2, f"Ø{digits(section.hub_diameter_mm)}"),
         ), _clear_of_balls(abu), strict=True)),
         Text((0, outer + (STACK + 2 * STEP) * unit), "cover off", HEIGHT, "centre"),
     )  # fmt: skip
@@ -165,7 +185,7 @@ def _balls_cut(result: "SizeResult") -> Iterator[Shape]:
 def _diameters(result: "SizeResult", unit: float) -> Iterator[Shape]:
     """Left of the closed web, the smallest nearest to it."""
     abu, section = result.autobalancer, result.section
-    bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}", bore_limits(section)
+    bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}".strip(), bore_limits(section)
     if not fits(section.bore_diameter_mm, limits, 1 / unit):
         limits = ""
     rows = [(section.bore_diameter_mm, bore, 0.0)]
@@ -198,10 +218,10 @@ def _widths(result: "SizeResult", unit: float) -> Iterator[Length]:
     outer, right = abu.outer_diameter_mm / 2, abu.width_mm
     web, shoulder = section.web_mm, section.shoulder_diameter_mm / 2
     top = outer + STACK * unit
-    inner = digits(section.inner_width_mm)
+    inner = digits(section.inner_width_mm, 2)
     yield Length((web, shoulder), (right - web, shoulder), top, inner, beyond="start", clear=web)
     yield Length((right - web, shoulder), (right, outer), top, digits(web))
-    yield Length((0, outer), (right, outer), top + STEP * unit, digits(right))
+    yield Length((0, outer), (right, outer), top + STEP * unit, digits(right, 2))
     yield Length((0, -outer), (web, -shoulder), -outer - STACK * unit, digits(web), beyond="start")
 
 
@@ -237,11 +257,19 @@ def _on_race(result: "SizeResult", share: float) -> Point:
     return abu.width_mm / 2 + x, abu.race_radius_mm - drop
 
 
-def _part_names(result: "SizeResult", scale: float) -> Iterator[Shape]:
-    """Balls and parts by name, right of the section."""
+def _part_names(result: "SizeResult", scale: float, items: Mapping[str, str]) -> Iterator[Shape]:
+    """Balls and parts by name right of the section, or by their numbers in balloons."""
     column = result.autobalancer.width_mm + COLUMN / scale
     for tip, text, pointed, y in _named(result, 1 / scale):
-        yield from leader(tip, (column, y), text, scale, pointed=pointed)
+        if text in items:
+            yield from balloon(tip, (column + 6 / scale, y), items[text], scale)
+        else:
+            yield from leader(tip, (column, y), text, scale, pointed=pointed)
+
+
+def balls_text(abu: AutobalancerRecord) -> str:
+    """Count and diameter of the balls, as the section names them."""
+    return f"{abu.ball_count} × Ø{digits(abu.ball_diameter_mm)}"
 
 
 def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool, float]]:
@@ -254,13 +282,13 @@ def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool
     tips = {"body": (x, -(hub + section.bore_diameter_mm / 2) / 2), "cover": (x, -(hub + race) / 2),
             "race ring": (x, -(race + ring) / 2)}  # fmt: skip
     named = [((abu.width_mm / 2 + ball[0], abu.pitch_radius_mm - ball[1]),
-              f"{abu.ball_count} × Ø{digits(abu.ball_diameter_mm)}", True)]  # fmt: skip
+              balls_text(abu), True)]  # fmt: skip
     named += [(tips[part.name], part.name, False) for part in section.parts]
     top = abu.outer_diameter_mm / 2 - 7.2 * HEIGHT * unit
     for tip, text, pointed in sorted(named, key=lambda row: -row[0][1]):
         top = min(top, tip[1])
         yield tip, text, pointed, top
-        top -= 2.2 * HEIGHT * unit
+        top -= 3.2 * HEIGHT * unit
 
 
 def _cutting_plane(outer: float, scale: float) -> Iterator[Shape]:

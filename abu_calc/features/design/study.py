@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.later_settling import with_later_settling
+from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
     BodyRecord,
     DrawingLine,
+    Eccentricity,
     Frequency,
     IdleSpeedLevels,
     Section,
@@ -35,14 +37,15 @@ from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
-from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
+from abu_calc.foundation.rows import Rows
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.arguments import checked
+from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
-from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check, not_simulated
+from abu_calc.simulation.ensemble_checks import FULL, STARTS, ensemble_checks, level_check, not_simulated, unproven
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SettlingEstimate, SimulatedScene
@@ -50,9 +53,10 @@ from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
-from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
+from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.parts.housing_parts import HousingParts
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -107,6 +111,30 @@ class SizeModel(Record):
         )
 
 
+@record
+class PlaceLevelRow(Record):
+    """Levels at one place in one state: idle at the rated speed, or grinding; `place` as the file names it."""
+
+    state: Annotated[str, Quantity("state", "", 4, "idle or grinding")]
+    place: Annotated[str, Quantity("place")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+    level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")]
+
+    @classmethod
+    def of(cls, state: str, place: str, levels: Vibration | HandleLevels) -> Self:
+        """Row of the levels of a place."""
+        return cls(
+            state=state,
+            place=place,
+            level_before_db=levels.level_before_db,
+            level_after_db=levels.level_after_db,
+            reduction_db=levels.reduction_db,
+            level_at_once_db=levels.level_at_once_db,
+        )
+
+
 IDLE_START: Final = "bunched"
 """Start of the idle scene."""
 
@@ -116,8 +144,8 @@ class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 
     command: ClassVar[str] = "size"
-    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion"})
-    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
+    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion", "oil"})
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts", "parts"}
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -131,11 +159,13 @@ class SizeResult(Result):
     required_capacity_compliant_g_mm: Annotated[float | None, Quantity("required by the compliant contact")]
     autobalancer: AutobalancerRecord
     section: Section
+    eccentricity: Eccentricity
     alternatives: tuple[AutobalancerRecord, ...]
     accuracy_budget: AccuracyBudget
     vibration: Vibration
     vibration_loaded: Vibration | None
     measured_after: MeasuredAfterRecord | None
+    oil: OilRecord | None
     ensemble: EnsembleResult | None
     data_gaps: tuple[DataGap, ...]
     simulation: tuple[SimulatedScene, ...]
@@ -149,6 +179,33 @@ class SizeResult(Result):
     """The same at work."""
     starts: Starts = field(compare=False, repr=False)
     """Some starts of the ensemble, run again when they are asked for."""
+    parts: HousingParts = field(compare=False, repr=False)
+    """Geometry of the parts, for drawings and solids."""
+
+    @property
+    def candidates(self) -> Rows[AutobalancerRecord]:
+        """The chosen autobalancer, then the runners-up, as a table."""
+        return Rows((self.autobalancer, *self.alternatives))
+
+    @property
+    def level_after_db(self) -> float | None:
+        """`vibration.level_after_db`, the expected level with the autobalancer at the loudest place [dB].
+
+        It is calculated from eccentricity and friction of manufacture; None: the balls cannot balance. The median of
+        the simulated start cases is `ensemble.level_db.typical`, their worst `ensemble.level_db.worst`.
+        """
+        return self.vibration.level_after_db
+
+    @property
+    def levels(self) -> Rows[PlaceLevelRow]:
+        """Levels before and after at each place, idle and under load, as a table."""
+        rows = [PlaceLevelRow.of("idle", self.vibration.place, self.vibration)]
+        rows += [PlaceLevelRow.of("idle", handle.name, handle) for handle in self.vibration.handles]
+        if (loaded := self.vibration_loaded) is not None:
+            rows.append(PlaceLevelRow.of("grinding", loaded.place, loaded))
+            rows += [PlaceLevelRow.of("grinding", handle.name, handle) for handle in loaded.handles]
+        # The limited place may be one of the handles.
+        return Rows({(row.state, row.place): row for row in rows}.values())
 
 
 WORKERS: Final = Range("workers", 1, 1024, key="workers")
@@ -156,25 +213,34 @@ WORKERS: Final = Range("workers", 1, 1024, key="workers")
 
 @checked
 def size(
-    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: int | None = None
+    machine: Machine,
+    accuracy: float = 0.01,
+    progress: Progress = silent,
+    workers: int | None = None,
+    *,
+    starts: str = FULL,
 ) -> SizeResult:
     """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
 
     `workers`: how many starts run side by side, in threads; the result does not depend on it. None: one for each
     processor.
+    `starts`: "full" simulates all start cases; "one", the first of them, and "none" are for loops over many machines:
+    the design is the lightest one, and the checks that need the start cases fail or are not-done, but never pass.
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
     ACCURACY.check(accuracy)
+    one_of("starts", starts, STARTS)
     WORKERS.check(1 if workers is None else workers)
     tables = machine.whole("size")
     with machine.located():
         seats = _seats(tables)
         threads = processors() if workers is None else workers
-        tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads)
+        tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads, starts=starts)
         design = tried.design
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
-        work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads)
+        whole = starts == FULL
+        work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads) if whole else (work, None)
         seats = _with_lives(seats, design, tried.ensemble, tables)
         region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress)
@@ -187,15 +253,18 @@ def size(
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
-        checks=(
-            *_checks(tried, [check for bearing in seats for check in bearing.checks], arm, accuracy),
-            *stays,
-            region.check,
-            *(
-                with_searched(check, tried.searched, design)
-                for check in ensemble_checks(design, tried.ensemble, tried.change)
-            ),
-            *lost,
+        checks=tuple(
+            unproven(check, tried.starts)
+            for check in (
+                *_checks(tried, [check for bearing in seats for check in bearing.checks], arm, accuracy),
+                *stays,
+                region.check,
+                *(
+                    with_searched(check, tried.searched, design)
+                    for check in ensemble_checks(design, tried.ensemble, tried.change)
+                ),
+                *lost,
+            )
         ),
         warnings=merged(
             *machine.warnings,
@@ -204,6 +273,7 @@ def size(
             *design.warnings,
             *remarks,
             *_under_load(work, loads, bound),
+            *(() if whole else (f'Start cases were left out (starts="{starts}"): this result is no verdict.',)),
         ),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
@@ -218,6 +288,7 @@ def size(
         required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
         autobalancer=AutobalancerRecord.of(design.case.autobalancer, design.autobalancer, design.track),
         section=Section.of(design),
+        eccentricity=Eccentricity.of(design.eccentricity),
         alternatives=tuple(
             AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why)
             for (runner_up, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
@@ -238,10 +309,11 @@ def size(
             compared_starts(design, tried.ensemble),
             level_where_measured(design, work.moved) if isinstance(work, Work) else None,
         ),
+        oil=OilRecord.of(design),
         ensemble=None
         if tried.ensemble is None
         else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
-        data_gaps=data_gaps(design, tried.ensemble, accuracy),
+        data_gaps=data_gaps(design, tried.ensemble, accuracy) if whole else (),
         simulation=tuple(
             SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
         ),
@@ -252,6 +324,7 @@ def size(
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
+        parts=design.construction.parts,
     )
 
 

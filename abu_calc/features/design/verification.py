@@ -17,8 +17,8 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
-from abu_calc.simulation.ensemble import simulate_members
-from abu_calc.simulation.ensemble_checks import TriedChange
+from abu_calc.simulation.ensemble import simulate_first, simulate_members
+from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing import instead
 from abu_calc.sizing.actions import pins, with_entries, words
@@ -213,15 +213,22 @@ class Proven:
     warnings: tuple[str, ...] = ()
     searched: SearchResult | None = None
     """Result of further start cases, if all listed ones pass."""
+    starts: str = FULL
+    """Start cases that were simulated: all, one or none of them."""
 
 
-def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1) -> Proven:
+def proven(
+    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1, starts: str = FULL
+) -> Proven:
     """The best candidate if it passes from every start at the drag given, else the next one that does.
 
-    If none does, the best one, with the first change that would make it pass.
+    If none does, the best one, with the first change that would make it pass. With one start or none nothing is
+    proven: the best candidate stands, and `unproven` takes the checks that need all start cases.
     """
     if not _carries(design):
         return Proven(design, None)
+    if starts != FULL:
+        return Proven(design, simulate_first(design, accuracy) if starts == ONE else None, starts=starts)
     first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first):
         proof = _with_search(Proven(design, first), accuracy, progress, workers)

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from abu_calc.features.design.figures import IDLE_START, idle_case, size_charts, start_case
+from abu_calc.features.design.oil import OilRecord, oil_blocks
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
 from abu_calc.features.design.screen import (
     MOST_HANDLES,
@@ -43,10 +44,11 @@ START = (
     "The estimated influence of an effect is the change that leaving it out may cause. `abu effects {file}` lists them."
 )
 
+UNKNOWN_OIL = "A third of the given drag rate stands for hot oil, three times of it for cold oil."
 WAYS = (
     "Bunched: the balls start together, 20° ahead of the imbalance. Behind: together, 20° behind it. Spread: evenly "
     "spread. Standstill: not turning with the race. Run-up: the machine starts from standstill.",
-    "A third of the given drag rate stands for hot oil, three times of it for cold oil. Settling times count from full "
+    f"{UNKNOWN_OIL} Settling times count from full "
     "speed. Each is that of the slower side of the race. Its centre is at 0° from the imbalance, and at the given drag "
     "rate also at 180°.",
     "Below the optimum drag rate small disturbances decay at h₀/(2J), whatever the mass of the balls. Above it heavier "
@@ -80,6 +82,7 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
         *_section(result),
         *_need(result),
         *_vibration(result),
+        *oil_blocks(result.oil, result.autobalancer.optimum_drag_per_s),
         *_ensemble(result),
         *_data_gaps(result),
         *_simulation(result),
@@ -141,10 +144,22 @@ def _ensemble(result: SizeResult) -> list[Block]:
         Grid(("", "median at rated speed", "largest of all", ""), rows, frozenset({1, 2})),
         Heading("Settling time in s, by start case and drag rate, slower side of the race"),
         _ways(many.settling_by_start),
-        *map(Paragraph, WAYS),
+        *map(Paragraph, _ways_in_words(result.oil)),
         Paragraph(REPEAT.format(file=file_of(result))),
         *_further(result, many.further_starts),
     ]
+
+
+def _ways_in_words(oil: OilRecord | None) -> tuple[str, ...]:
+    """Explanation of the start cases; drag rates stand for working, hot and cold oil."""
+    if oil is None:
+        return WAYS
+    cold, _, hot = oil.temperatures
+    states = (
+        f"The lowest drag rate is that of hot oil, {hot.temperature_C:g} °C, the highest that of cold oil, "
+        f"{cold.temperature_C:g} °C."
+    )
+    return WAYS[0], WAYS[1].replace(UNKNOWN_OIL, states), WAYS[2]
 
 
 def _further(result: SizeResult, further: FurtherStarts | None) -> list[Block]:

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, get_type_hints
 
 from abu_calc.foundation.checks import Check, Status
-from abu_calc.foundation.quantity import Quantity, Record, hints, quantities
-from abu_calc.foundation.units import unit_of
+from abu_calc.foundation.quantity import Record, described, hints, quantities
+from abu_calc.inputs.reading.schema import HOME
 from abu_calc.registry import FEATURES, imported
 from abu_calc.simulation.result import Result
 
@@ -25,6 +25,7 @@ def result_schema() -> Schema:
     results = [_of_command(command, definitions) for command in dict.fromkeys(kind.command for kind in RESULTS)]
     return {
         "$schema": DRAFT,
+        "$id": f"{HOME}abu-calc-result.json",
         "title": "abu-calc results",
         "type": "object",
         "properties": _envelope(definitions),
@@ -37,10 +38,11 @@ def result_schema() -> Schema:
 def _envelope(definitions: dict[str, Schema]) -> Schema:
     """Properties of every document; a document of an error has `error` and no result."""
     text, anything = {"type": "string"}, {"type": "object"}
+    source = _object(file={"anyOf": [text, {"type": "null"}]}, sha256=text, overrides=anything, defaults=anything)
     check = {name: _type(hint, definitions) for name, hint in get_type_hints(Check).items()}
     return {
         "abu": _object(version=text, command=text, schema={"type": "integer"}, date=text),
-        "input": {"anyOf": [_object(file=text, sha256=text, overrides=anything, defaults=anything), {"type": "null"}]},
+        "input": {"anyOf": [source, {"type": "null"}]},
         "status": _type(Status, definitions),
         "checks": {"type": "array", "items": _object(**check)},
         "result": {},
@@ -80,21 +82,14 @@ def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
         properties = {name: _type(hints(kind)[name], definitions) for name in names}
         for name in names:
             if name in labelled:
-                properties[name] = {"description": _description(name, labelled[name]), **properties[name]}
+                properties[name] = {"description": described(name, labelled[name]), **properties[name]}
         definitions[title] = {
             "type": "object",
-            "description": (kind.__doc__ or "").split("\n\n")[0],
+            "description": (kind.__doc__ or "").split("\n\n")[0].strip(),
             "properties": properties,
             "required": [name for name in names if name not in kind.optional],
         }
     return {"$ref": f"#/$defs/{title}"}
-
-
-def _description(name: str, quantity: Quantity) -> str:
-    """Label, symbol, unit and meaning in a line."""
-    unit = unit_of(name)
-    head = " ".join(part for part in (quantity.label, quantity.symbol, f"[{unit}]" if unit else "") if part)
-    return f"{head}: {quantity.meaning}" if quantity.meaning else head
 
 
 def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:

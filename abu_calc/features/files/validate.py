@@ -126,9 +126,11 @@ def validate(
         replaced = {override.key: override.value for override in loaded.overrides}
         results.append({"file": file, "sha256": loaded.sha256, "overrides": as_plain(replaced), "defaults": defaults,
                         "warnings": list(loaded.warnings),
+                        **({"converted": [str(each) for each in loaded.converted]} if loaded.converted else {}),
                         **({"missing": list(missing)} if missing else {})})  # fmt: skip
         warnings += [f"{file}: {warning}" for warning in loaded.warnings]
         blocks.append(Paragraph(f"{file}: valid, {many(len(defaults), 'default')} used", "pass"))
+        blocks += [Paragraph(str(conversion), indent=4) for conversion in loaded.converted]
         blocks += [Paragraph(f"! {warning}", indent=4) for warning in loaded.warnings]
         blocks += [Paragraph(line, indent=4) for line in missing]
     if len(faults) == 1:

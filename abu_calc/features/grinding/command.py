@@ -10,17 +10,25 @@ from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.features.grinding.study import GrindingResult
+
     pass
 
 
 def grinding(how: Delivery, machine: Machine, set_: Overrides = None, accuracy: Accuracy = 0.01) -> Outcome:
     """Calculate vibration, contact force and wheel wear while grinding."""
     from abu_calc.features.grinding.study import grinding as study
-    from abu_calc.features.grinding.view import grinding_blocks, grinding_screen
     from abu_calc.inputs.read_machine import read_machine
 
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell)
+    return outcome_of(result)
+
+
+def outcome_of(result: "GrindingResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.grinding.view import grinding_blocks, grinding_screen
+
     return Outcome.of(result, lambda: grinding_blocks(result), lambda: grinding_screen(result))
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +11,9 @@ from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.write import Target, check_target
+
+if TYPE_CHECKING:
+    from abu_calc.features.identification.results import IdentifyResult
 
 
 def identify(
@@ -43,7 +46,6 @@ def identify(
     columns are t_s, vx_mm_per_s (or ax_m_per_s2) and mark, one pulse per revolution.
     """
     from abu_calc.features.identification.study import identify as study
-    from abu_calc.features.identification.view import identify_blocks, identify_screen
     from abu_calc.inputs.scene import read_any
 
     target = None if write is None else Path(write)
@@ -54,12 +56,19 @@ def identify(
             read_any(file, set_ or ()), recordings, without=without, bench=bench, mark_angle_deg=mark_angle,
             run_up_s=run_up, progress=tell,
         )  # fmt: skip
-    outcome = Outcome.of(result, lambda: identify_blocks(result), lambda: identify_screen(result))
+    outcome = outcome_of(result)
     if target is None:
         return outcome
     from abu_calc.features.identification.written import identified_text
 
     return replace(outcome, further=(Target(target, identified_text(file, result)),))
+
+
+def outcome_of(result: "IdentifyResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.identification.view import identify_blocks, identify_screen
+
+    return Outcome.of(result, lambda: identify_blocks(result), lambda: identify_screen(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -12,15 +12,9 @@ import numpy as np
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.bank import WIDE, simulated_track
 from abu_calc.features.identification.estimate import TrackReading
-from abu_calc.features.identification.study import (
-    IdentifiedValue,
-    Measured,
-    estimated,
-    identified_values,
-    known_scene,
-    machine_subject,
-    without_balls,
-)
+from abu_calc.features.identification.fit import Measured, estimated, identified_values, without_balls
+from abu_calc.features.identification.results import IdentifiedValue
+from abu_calc.features.identification.study import known_scene, machine_subject
 from abu_calc.features.identification.tracks import RecordedStart, window_centres
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
@@ -85,7 +79,7 @@ def measure_plan(
     subject = machine_subject(source)
     with subject.located():
         scene = known_scene(subject.scene, run_up_s)
-        point = _point(scene)
+        point = point_of(scene)
     scene = replace(scene, duration=_length(scene))
     centres = window_centres(scene)
     reading = TrackReading(centres, scene.full_speed, abs(without_balls(scene)), to_si(noise_um, "um"), marked=True)
@@ -114,7 +108,7 @@ def measure_plan(
     )  # fmt: skip
 
 
-def _point(scene: Scene) -> np.ndarray:
+def point_of(scene: Scene) -> np.ndarray:
     """The file's drag, lever arm and eccentricity as a point of the box. Raises InputError outside of it."""
     friction, offset = scene.effect("dry_rolling_friction"), scene.effect("race_eccentricity")
     lever = 2e-6 if friction is None else friction.lever_arm  # type: ignore[attr-defined]

@@ -1,6 +1,6 @@
 """`abu measure-plan MACHINE|SCENE`: what to record for `abu identify`, and what it will tell."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -8,6 +8,9 @@ from abu_calc.cli.command import File, Overrides, add_command
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.identification.plan import MeasurePlanResult
 
 
 def measure_plan(
@@ -27,11 +30,17 @@ def measure_plan(
     Starts of this machine are simulated and identified like recordings: the intervals are those to expect.
     """
     from abu_calc.features.identification.plan import measure_plan as study
-    from abu_calc.features.identification.view import plan_blocks
     from abu_calc.inputs.scene import read_any
 
     with progress(how) as tell:
         result = study(read_any(file, set_ or ()), runs=runs, noise_um=noise_um, run_up_s=run_up, progress=tell)
+    return outcome_of(result)
+
+
+def outcome_of(result: "MeasurePlanResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.identification.view import plan_blocks
+
     return Outcome.of(result, lambda: plan_blocks(result))
 
 

@@ -5,7 +5,7 @@ from typing import Final
 
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.features.identification.plan import ExpectedValues, MeasurePlanResult
-from abu_calc.features.identification.study import IdentifiedValue, IdentifyResult
+from abu_calc.features.identification.results import IdentifiedValue, IdentifyResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure

@@ -3,8 +3,9 @@
 import re
 from typing import Final
 
-from abu_calc.features.identification.study import IdentifyResult
+from abu_calc.features.identification.results import IdentifyResult, interval_lines
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.written_units import written_unit
 from abu_calc.inputs.reading.document import open_document
 
 NUMBER: Final = r"[-+]?[\d_.]+(?:[eE][-+]?\d+)?"
@@ -30,6 +31,9 @@ def identified_text(source: str, result: IdentifyResult) -> str:
     for key, value in values.items():
         name = SCENE_KEYS.get(key, key) if scene else key
         text, count = re.subn(rf"(?m)^([^#\n]*\b{name}\s*=\s*){NUMBER}", rf"\g<1>{value:.4g}", text)
+        if not count and (unit := written_unit(name)):  # the value stands there with its unit
+            pattern = rf"(?m)^([^#\n]*\b){unit.stem}\s*=\s*(?:\"[^\"\n]*\"|'[^'\n]*')"
+            text, count = re.subn(pattern, rf"\g<1>{name} = {value:.4g}", text)
         if not count and scene:
             raise InputError(
                 "the scene has no place for a value",
@@ -40,8 +44,16 @@ def identified_text(source: str, result: IdentifyResult) -> str:
             text, count = re.subn(r"(?m)^(\[autobalancer\][^\n]*)$", rf"\g<1>\n{name} = {value:.4g}", text, count=1)
         if not count:
             text = f"{text.rstrip()}\n\n[autobalancer]\n{name} = {value:.4g}\n"
+    if not scene:
+        text = _with_intervals(text, interval_lines(result.starts, {key: getattr(result, key) for key in values}))
     angle = result.race_eccentricity_angle_deg
     if scene and angle is not None:
         pattern = rf"(?m)^(\s*race_eccentricity\s*=\s*\{{[^}}\n]*angle_deg\s*=\s*){NUMBER}"
         text = re.sub(pattern, rf"\g<1>{angle.value:.1f}", text)
     return text
+
+
+def _with_intervals(text: str, lines: list[str]) -> str:
+    """The text with the table [identified] anew, in the place of an earlier one."""
+    kept = re.sub(r"(?ms)^\[identified\][^\n]*\n.*?(?=^\[|\Z)", "", text)
+    return f"{kept.rstrip()}\n\n{chr(10).join(lines)}\n"

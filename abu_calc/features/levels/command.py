@@ -1,6 +1,6 @@
 """`abu levels FILE.csv|.wav`, or MACHINE|SCENE: octave levels, weighted acceleration, daily exposure."""
 
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -8,6 +8,9 @@ from abu_calc.cli.command import Accuracy, Overrides, WhichStart, add_command
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.levels.study import LevelsResult
 
 RECORDING: Final = "Recording"
 """Panel of the options about a recorded signal."""
@@ -97,7 +100,6 @@ def levels(
     Levels are compared with their limits.
     """
     from abu_calc.features.levels.study import levels as study
-    from abu_calc.features.levels.view import levels_blocks, levels_screen
     from abu_calc.foundation.errors import InputError, Place
     from abu_calc.inputs.recording_files import is_recording, read_recording
     from abu_calc.inputs.scene import read_any
@@ -137,7 +139,7 @@ def levels(
                 duration_s=duration_s,
                 progress=tell,
             )
-    return Outcome.of(result, lambda: levels_blocks(result), lambda: levels_screen(result))
+    return outcome_of(result)
 
 
 def _channels(text: str | None) -> tuple[str, ...]:
@@ -160,6 +162,13 @@ def _handles(given: list[str] | None) -> dict[str, tuple[str, ...]] | None:
             )
         handles[name.strip()] = _channels(channels)
     return handles or None
+
+
+def outcome_of(result: "LevelsResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.levels.view import levels_blocks, levels_screen
+
+    return Outcome.of(result, lambda: levels_blocks(result), lambda: levels_screen(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -28,6 +28,7 @@ from abu_calc.features.levels.octaves import SHARE_OF_NYQUIST, Signal, folded_sh
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.rows import Rows
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
@@ -226,6 +227,11 @@ class LevelsResult(Result):
     daily_exposure_m_per_s2: Annotated[float | None, Quantity("daily exposure", "A(8)", 3)]
     places: tuple[PlaceLevel, ...]
     measured_after: MeasuredAfterRecord | None
+
+    @property
+    def levels(self) -> Rows[OctaveLevel]:
+        """The octaves as a table, at the loudest place; those of each place are `places`."""
+        return Rows(self.octaves)
 
 
 @checked

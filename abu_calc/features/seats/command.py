@@ -214,14 +214,13 @@ def check_fit(
 
     given = {key: value for key, value in bearing.items() if value is not None}
     source = _of_options(given, set_ or ()) if machine is None else _of_file(machine, set_ or (), given)
-    result = study(source)
+    return outcome_of(study(source), explain=explain)
+
+
+def outcome_of(result: "CheckFitResult", *, explain: bool = False) -> Outcome:
+    """Outcome of a result: how it is shown and written; `explain`: with every formula."""
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(
-        result,
-        lambda: _blocks(result, explain),
-        short,
-        lambda: _drawings(result),
-    )
+    return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
 
 
 def _screen(result: "CheckFitResult") -> tuple[Block, ...]:

@@ -14,6 +14,8 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.features.simulate.study import SimulateResult
+
     pass
 
 SAMPLES: Final = 1001
@@ -73,7 +75,7 @@ def simulate(
 ) -> Outcome:
     """Simulate one scene: amplitude, level, settling time, ball angles."""
     from abu_calc.features.simulate.study import simulate as study
-    from abu_calc.features.simulate.view import TrajectoryCsv, simulate_blocks, simulate_screen
+    from abu_calc.features.simulate.view import TrajectoryCsv
     from abu_calc.inputs.scene import read_any
     from abu_calc.reporting.write import Target
 
@@ -94,7 +96,7 @@ def simulate(
             samples=(SAMPLES if samples is None else samples) if trajectory else None,
             progress=tell,
         )
-    outcome = Outcome.of(result, lambda: simulate_blocks(result), lambda: simulate_screen(result))
+    outcome = outcome_of(result)
     moved = (Target(trajectory, TrajectoryCsv(result.motion)),) if trajectory and result.motion else ()
     return replace(outcome, further=moved)
 
@@ -112,6 +114,13 @@ def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) ->
         raise InputError("--output and --trajectory name the same file", found=str(trajectory))
     if trajectory.resolve() in {path.resolve() for _, path in how.figures}:
         raise InputError("--figure and --trajectory name the same file", found=str(trajectory))
+
+
+def outcome_of(result: "SimulateResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.simulate.view import simulate_blocks, simulate_screen
+
+    return Outcome.of(result, lambda: simulate_blocks(result), lambda: simulate_screen(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -6,7 +6,7 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from typing import Annotated, ClassVar, Final, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +16,11 @@ from abu_calc.dynamics.integrators.choice import WANTED, refuse_removed
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.scene import Scene
 from abu_calc.foundation.checks import Check, verdict
-from abu_calc.foundation.errors import ChaoticError
+from abu_calc.foundation.errors import ChaoticError, InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, record
+from abu_calc.foundation.rows import Columns
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked, one_of
@@ -38,6 +39,9 @@ from abu_calc.simulation.start_cases import idle_speed
 from abu_calc.simulation.subject import Source, Subject, subject_of
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
 
+if TYPE_CHECKING:
+    from xarray import Dataset
+
 Array = NDArray[np.float64]
 
 
@@ -48,7 +52,7 @@ MOST_NUMBERS: Final = 2**25
 
 
 @dataclass(frozen=True, eq=False)
-class SampledMotion:
+class SampledMotion(Columns):
     """Axis and balls over time; ball angles in the rotor, a row for each ball, not wrapped.
 
     `further`: what else of the scene moves, by names with units: tilts, the axis at the bearings, the arm's angle, the
@@ -75,6 +79,20 @@ class SampledMotion:
         """All of it, by names with units."""
         angles = {f"ball{k}_deg": row for k, row in enumerate(self.ball_angles_deg, 1)}
         return {"t_s": self.t_s, "x_mm": self.x_mm, "y_mm": self.y_mm, **angles, **self.further}
+
+    def to_xarray(self) -> "Dataset":
+        """An xarray.Dataset over `t_s`, ball angles over `ball` as well. Raises OutputError if xarray is missing."""
+        from abu_calc.foundation.arrays import dataset
+
+        balls = np.arange(1, len(self.ball_angles_deg) + 1)
+        further = {
+            name: (("t_s",), values) for name, values in {"x_mm": self.x_mm, "y_mm": self.y_mm, **self.further}.items()
+        }
+        angles = {"ball_angles_deg": (("ball", "t_s"), self.ball_angles_deg)} if len(balls) else {}
+        return dataset({"t_s": self.t_s, "ball": balls}, {**further, **angles}, {"ball_angles_deg": "°"})
+
+    def __repr__(self) -> str:
+        return f"<SampledMotion {len(self.t_s)} × {', '.join(self.columns)}>"
 
 
 def _further(scene: Scene, times: Array, states: Array) -> Iterator[tuple[str, Array]]:
@@ -134,6 +152,14 @@ class SimulateResult(SimulatedScene, Result):
     """The way from start to rest, thinned; of too long a run its beginning."""
     run: Simulation = field(compare=False, repr=False)
     """The run itself, in SI: scene, response, trajectory with all its states."""
+
+    def to_xarray(self) -> "Dataset":
+        """The motion as an xarray.Dataset. Raises InputError if `simulate` was asked for no samples."""
+        if self.motion is None:
+            raise InputError(
+                "no motion was kept", place=Place(key="samples"), remedy="Call simulate with samples=2000, for example."
+            )
+        return self.motion.to_xarray()
 
 
 FOLLOWED: Final = ("idle", "run-up", "swing-arm-idle")

@@ -11,6 +11,8 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.features.stability.study import StabilityResult
+
     pass
 
 SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
@@ -48,7 +50,6 @@ def stability(
     The report gives eigenvalues or Floquet multipliers, the growth rate and the stability boundaries.
     """
     from abu_calc.features.stability.study import stability as study
-    from abu_calc.features.stability.view import stability_blocks, stability_screen
     from abu_calc.inputs.scene import read_any
 
     speeds = None if speeds_rpm is None else _two(speeds_rpm)
@@ -57,7 +58,7 @@ def stability(
             read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings,
             progress=tell,
         )  # fmt: skip
-    return Outcome.of(result, lambda: stability_blocks(result), lambda: stability_screen(result))
+    return outcome_of(result)
 
 
 def _two(text: str) -> tuple[float, float]:
@@ -72,6 +73,13 @@ def _two(text: str) -> tuple[float, float]:
             remedy="Write --speeds 1000:6000.",
         ) from None  # fmt: skip
     return low, high
+
+
+def outcome_of(result: "StabilityResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.stability.view import stability_blocks, stability_screen
+
+    return Outcome.of(result, lambda: stability_blocks(result), lambda: stability_screen(result))
 
 
 def register(app: typer.Typer) -> None:

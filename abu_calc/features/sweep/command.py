@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -17,6 +17,9 @@ from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place, StoppedError
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.sweep.result import SweepResult
 
 SAMPLING: Final = "Sampling"
 COMPUTING: Final = "Computing"
@@ -145,7 +148,6 @@ def sweep(
     from abu_calc.features.sweep.store_faults import checked_path
     from abu_calc.features.sweep.study import WAIT
     from abu_calc.features.sweep.study import sweep as study
-    from abu_calc.features.sweep.view import sweep_blocks, sweep_screen
     from abu_calc.inputs.scene import read_any
 
     WAIT.check(cluster_wait_s)
@@ -176,7 +178,7 @@ def sweep(
             command=_command(),
             progress=tell,
         )
-    return Outcome.of(result, lambda: sweep_blocks(result), lambda: sweep_screen(result))
+    return outcome_of(result)
 
 
 def _command() -> str:
@@ -224,6 +226,13 @@ def cluster_executor(cluster: str | None, patience: float) -> Iterator[Executor 
 
     with executor(cluster, patience) as chosen:
         yield chosen
+
+
+def outcome_of(result: "SweepResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.sweep.view import sweep_blocks, sweep_screen
+
+    return Outcome.of(result, lambda: sweep_blocks(result), lambda: sweep_screen(result))
 
 
 def register(app: typer.Typer) -> None:

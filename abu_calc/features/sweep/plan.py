@@ -4,6 +4,7 @@
 there for every machine: its start-up (`of_starts`), and the drawing's tolerances and use (`of_tolerances`).
 """
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
@@ -16,6 +17,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneDescription, SceneFile
 from abu_calc.inputs.variation import MOST_RUNS, NOT_OF_THE_MACHINE, Sweep, Variants, Variation, path_of, variation
@@ -123,6 +125,9 @@ DRAG, WARMTH = "autobalancer.rolling_drag_per_s", "start.temperature_C"
 WARM: Final = 0.55
 """ln 3 / 2: drags of a third and of three times the one given, oil hot and cold, are two standard deviations off."""
 
+SIDES: Final = 1.96
+"""Standard deviations from the middle of an interval of 95 % to its end."""
+
 GAUGE, BOTTOM = 0.010, 0.05
 """Half the spread [mm] of diameters in which balls are stocked (assumed), and of the race radius on the drawing."""
 ROUGH, WORN, HELD = 0.5, 0.2, 0.2
@@ -141,8 +146,27 @@ def of_starts(tables: MachineFile, varied: frozenset[str]) -> Iterator[tuple[str
     if abu is not None and abu.race_eccentricity_mm == 0 and "autobalancer.race_eccentricity_mm" not in varied:
         del ways["start.eccentricity_deg"]
     if abu is not None and abu.rolling_drag_per_s > 0 and not varied & {DRAG, WARMTH}:
-        ways[DRAG] = f"lognormal({abu.rolling_drag_per_s!r}, {WARM})"
+        if tables.oil is None:
+            known = _identified(tables).get("rolling_drag_per_s", 0.0)
+            ways[DRAG] = f"lognormal({abu.rolling_drag_per_s!r}, {math.hypot(WARM, known) if known else WARM})"
+        elif warmth := _warmth(tables.oil):
+            ways[WARMTH] = warmth
     yield from _scatter_ways({key: way for key, way in ways.items() if key not in varied})
+
+
+def _identified(tables: MachineFile) -> dict[str, float]:
+    """Standard deviation of the logarithm of identified values: their intervals hold 95 %."""
+    known = {} if tables.identified is None else tables.identified.in_force(tables.autobalancer)
+    return {key: max(math.log(high / low) / (2 * SIDES), 1e-6) for key, (low, high) in known.items()}
+
+
+def _warmth(oil: Oil | None) -> str:
+    """Scatter of the temperature of the oil [°C]: that of the file, or the usual one; empty if it has none."""
+    if oil is None:
+        return "triangular(15, 40, 70)"
+    if oil.cold_temperature_C == oil.hot_temperature_C:
+        return ""
+    return f"triangular({oil.cold_temperature_C!r}, {oil.temperature_C!r}, {oil.hot_temperature_C!r})"
 
 
 def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Variation]]:
@@ -156,11 +180,16 @@ def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Vari
         diameter, radius = from_si(autobalancer.ball_diameter, "mm"), from_si(autobalancer.race_radius, "mm")
         ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
         ways["autobalancer.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
-        ways[WARMTH] = "triangular(15, 40, 70)"
+        if warmth := _warmth(tables.oil):
+            ways[WARMTH] = warmth
     if (off := case.autobalancer.race_eccentricity_mm) > 0:
         ways["autobalancer.race_eccentricity_mm"] = f"triangular(0, {off / 3!r}, {off!r})"
     if (arm := case.autobalancer.rolling_friction_mm) > 0:
         ways["autobalancer.rolling_friction_mm"] = f"lognormal({arm!r}, {ROUGH})"
+    for key, spread in _identified(tables).items():
+        value = getattr(case.autobalancer, key)
+        if value > 0 and (building or key != "rolling_drag_per_s"):
+            ways[f"autobalancer.{key}"] = f"lognormal({value!r}, {spread:.6g})"
     if (imbalance := from_si(design.imbalance.value, "g_mm")) > 0:
         ways["wheel.imbalance_g_mm"] = f"lognormal({imbalance:.6g}, {WORN})"
     ways |= _hands(tables)

@@ -4,18 +4,22 @@ import os
 import shutil
 import tempfile
 import weakref
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
 from numpy.typing import NDArray
 
-from abu_calc.features.sweep.columns import SampleColumn
+from abu_calc.features.sweep.columns import MEMBER, SEED, SampleColumn
 from abu_calc.features.sweep.store import Store, connected
 from abu_calc.features.sweep.store_faults import faults_of
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.rows import Columns
 from abu_calc.simulation.result import Result
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 
 @record
@@ -181,8 +185,15 @@ class Varied(Record):
     how: Annotated[str, Quantity("varies")]
 
 
-class Members:
+WHOLE: Final = frozenset({MEMBER.name, SEED.name})
+"""Columns of whole numbers."""
+
+
+class Members(Columns):
     """The members as arrays, read when asked for: `members["level_db"]`; `names` and `units` of all columns.
+
+    They are a table, too: `for member in members` gives dictionaries, `to_pandas()` and `polars.DataFrame(members)`
+    all columns, `to_xarray()` a data set with units. Missing numbers are NaN.
 
     A copy that is pickled carries them if their store is a temporary one; else it reads the store that was named.
     """
@@ -211,8 +222,25 @@ class Members:
             finally:
                 store.close()
 
+    @property
+    def columns(self) -> dict[str, list[Any]]:
+        """Values of each column by its name, as Python's own numbers and texts."""
+        return {
+            name: [int(value) for value in self[name]] if name in WHOLE else self[name].tolist() for name in self.names
+        }
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return iter(self.rows)
+
+    def to_xarray(self) -> "Dataset":
+        """An xarray.Dataset over the dimension `member`. Raises OutputError if xarray is not installed."""
+        from abu_calc.foundation.arrays import dataset
+
+        index, *others = self.names
+        return dataset({index: self[index].astype(int)}, {name: ((index,), self[name]) for name in others}, self.units)
+
     def __repr__(self) -> str:
-        return f"Members({self._runs} of {', '.join(self.names)})"
+        return f"<Members {self._runs} × {', '.join(self.names)}>"
 
 
 class Kept:

@@ -38,6 +38,7 @@ from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import scene_from
 from abu_calc.simulation.start_cases import OPPOSITE, SwitchedOn, scene_switched_on, turned
 from abu_calc.sizing.design import Design, built, with_worst
+from abu_calc.sizing.oil import drag_share
 
 LOT: Final = 0.5e-6
 """Diameters of balls of one lot differ by this much [m] (grade 20 of ISO 3290, by practice)."""
@@ -118,11 +119,20 @@ class Builds(SweepStudy):
     variants: Variants[MachineFile]
     design: Design
 
+    def _drag_at(self, table: MachineFile, temperature: float) -> float:
+        """Drag rate [1/s] with the oil at a temperature [°C]: by the oil of the file, or of an oil VG 46."""
+        assert table.autobalancer is not None
+        oil, given = self.design.case.oil, "rolling_drag_per_s" in table.autobalancer.model_fields_set
+        rate = self.design.case.drag if oil is not None and not given else table.autobalancer.rolling_drag_per_s
+        if oil is None:
+            return rate * drag_ratio(temperature)
+        return rate * drag_share(self.design.case, self.design.autobalancer, temperature)
+
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
         """One start of one machine."""
         table = self.variants.table(self._in_file(values))
         if (warm := values.get("start.temperature_C")) is not None and table.autobalancer is not None:
-            drag = table.autobalancer.rolling_drag_per_s * drag_ratio(warm)
+            drag = self._drag_at(table, warm)
             own = table.autobalancer.model_copy(update={"rolling_drag_per_s": drag})
             table = table.model_copy(update={"autobalancer": own})
         made, start = built(self.design, table), start_of(values)

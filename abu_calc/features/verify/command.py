@@ -13,6 +13,7 @@ from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.features.verify.study import VerifyResult
     from abu_calc.foundation.progress import Progress
     from abu_calc.inputs.reading.document import FileReading
 
@@ -31,7 +32,6 @@ def verify(
     """
     from abu_calc.features.verify.study import expectations
     from abu_calc.features.verify.study import verify as study
-    from abu_calc.features.verify.view import verify_blocks, verify_screen
     from abu_calc.inputs.bearing_file import expected_values
     from abu_calc.inputs.read_machine import read_file
 
@@ -45,7 +45,7 @@ def verify(
         if not asked:
             raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
         result = study(asked, tell)
-    return Outcome.of(result, lambda: verify_blocks(result), lambda: verify_screen(result))
+    return outcome_of(result)
 
 
 def _updated(machines: "list[FileReading]", tell: "Progress") -> Outcome:
@@ -131,6 +131,13 @@ def _may_expect(path: Path) -> bool:
     except InputError:
         return not path.is_dir()
     return "expected" in tables and kind_of(tables).name != "scene" and bool({"machine", "rotor"} & tables.keys())
+
+
+def outcome_of(result: "VerifyResult") -> Outcome:
+    """Outcome of a result: how it is shown and written."""
+    from abu_calc.features.verify.view import verify_blocks, verify_screen
+
+    return Outcome.of(result, lambda: verify_blocks(result), lambda: verify_screen(result))
 
 
 def register(app: typer.Typer) -> None:

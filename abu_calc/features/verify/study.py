@@ -9,6 +9,7 @@ from abu_calc.foundation.checks import Check, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, Stage, silent
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
+from abu_calc.foundation.rows import Rows
 from abu_calc.inputs.bearing_file import BearingFile, HasExpectations, expected_tolerances, expected_values
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.document import FileReading
@@ -103,7 +104,7 @@ def value_at(entries: Mapping[str, object], path: str) -> Any:
     for part in path.split("."):
         if isinstance(value, Record) and part in value.entries():
             value = getattr(value, part)
-        elif isinstance(value, tuple) and part.isdigit() and int(part) < len(value):
+        elif isinstance(value, (tuple, Rows)) and part.isdigit() and int(part) < len(value):
             value = value[int(part)]
         elif isinstance(value, Mapping) and part in value:
             value = value[part]
@@ -122,7 +123,7 @@ def _deviation(expected: Any, actual: Any) -> float | None:
 
 def _rounded(value: Any) -> Any:
     """Six digits: more than any tolerance needs, few enough to read."""
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, Rows)):
         return [_rounded(each) for each in value]
     return float(f"{value:.6g}") if isinstance(value, float) else value
 

@@ -13,17 +13,19 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar, cast
 
 from pydantic import ValidationError
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import bounded
+from abu_calc.inputs.reading.format import KEY, format_of
 from abu_calc.inputs.reading.plain import check_nesting
 from abu_calc.inputs.reading.sources import LARGEST_FILE, bytes_of
 from abu_calc.inputs.reading.table import Table, Usual, usual_of
 from abu_calc.inputs.reading.text import Part, is_number, key_path, unit_suffix, unit_symbol
+from abu_calc.inputs.reading.values_with_units import Conversion, convert
 
 if TYPE_CHECKING:
     from abu_calc.inputs.reading.overrides import Override
@@ -35,12 +37,11 @@ class Source:
 
     text: str
     overrides: "Sequence[Override]" = ()
+    converted: Sequence[Conversion] = ()
 
     @cached_property
     def _lines(self) -> Mapping[str, int]:
-        from abu_calc.inputs.reading.toml_text import key_lines
-
-        return key_lines(self.text)
+        return lines_of(self.text, self.converted)
 
     def of(self, path: tuple[Part, ...]) -> str:
         """Line, or option, in brackets; empty where there is neither."""
@@ -146,23 +147,28 @@ class FileReading:
     defaults_used: tuple[tuple[str, object], ...]
     """Key path and value of each default in force in the tables that are there."""
     warnings: tuple[str, ...]
+    converted: tuple[Conversion, ...]
+    """Values in force that were written with their units."""
 
     @property
     def title(self) -> str:
         """The name of what it is about, as reports print it."""
         return Path(self.file).name
 
+    def __repr__(self) -> str:
+        count = len(self.overrides)
+        changed = f", {count} {'entry' if count == 1 else 'entries'} replaced" if count else ""
+        return f"<{type(self).__name__} {self.title!r} from {self.file or 'text'}{changed}>"
+
     @property
     def lines(self) -> Mapping[str, int]:
         """Key path → line."""
-        from abu_calc.inputs.reading.toml_text import key_lines
-
-        return key_lines(self.text)
+        return lines_of(self.text, self.converted)
 
     @property
     def document(self) -> Document:
         """The file once more, without its overrides."""
-        return Document(self.file, self.text, self.sha256, _parsed(self.text, self.file))
+        return Document(self.file, self.text, self.sha256, parsed(self.text, self.file))
 
     @contextmanager
     def located(self) -> Iterator[None]:
@@ -189,6 +195,30 @@ class FileReading:
         return around[-1] if around else None
 
 
+@contextmanager
+def document_from(source: object) -> Iterator[Document]:
+    """The document of what a script gives: tables as a dictionary, a TOML text, or the name of a file or a preset.
+
+    A text with a line break is TOML. Errors about tables from a dictionary name the key and no line.
+    """
+    if not isinstance(source, Mapping):
+        name = named(source)
+        yield document_of_text(name) if isinstance(source, str) and LINE_BREAK in name else open_document(name)
+        return
+    try:
+        yield document_of_tables(source)
+    except InputError as error:
+        raise _without_line(error) from None
+
+
+def _without_line(error: InputError) -> InputError:
+    from abu_calc.inputs.reading.errors import SpecErrors
+
+    if isinstance(error, SpecErrors):
+        return SpecErrors([_without_line(each) for each in error.errors])
+    return error.at(Place(key=error.place.key))
+
+
 def named(source: object) -> str:
     """The name of a file, or of a preset, that a script gives as text or as a path; raises InputError for all else."""
     if isinstance(source, (str, os.PathLike)) and isinstance(name := os.fspath(source), str):
@@ -199,15 +229,40 @@ def named(source: object) -> str:
         "not the name of a file or a preset",
         place=Place(key="source"),
         found=found_as(source),
-        allowed="text or a path",
+        allowed="a path, the name of a preset, TOML text of several lines, or a dictionary of tables",
     )
 
 
 def open_document(source: str) -> Document:
     """The document of a file, or of a preset by its name. Raises InputError with file, line, key and remedy."""
     raw = bytes_of(source)
-    text = _decoded(raw, source)
-    content = _parsed(text, source)
+    return _opened(raw, _decoded(raw, source), source)
+
+
+LINE_BREAK: Final = "\n"
+"""What a TOML text has and no name of a file."""
+
+
+def document_of_text(text: str) -> Document:
+    """The document of a TOML text; places in errors have its lines and no file."""
+    if len(text) > LARGEST_FILE:
+        raise InputError("the text is too large", allowed=f"at most {LARGEST_FILE} characters")
+    raw = text.encode("utf-8", "surrogatepass")
+    return _opened(raw, _decoded(raw, ""), "")
+
+
+def document_of_tables(tables: Mapping[str, object]) -> Document:
+    """The document of tables that a script gives, as a file would hold them."""
+    import tomli_w
+
+    from abu_calc.inputs.reading.plain import plain_value
+
+    plain = plain_value(tables, "source")
+    return document_of_text(tomli_w.dumps(plain) or LINE_BREAK)
+
+
+def _opened(raw: bytes, text: str, source: str) -> Document:
+    content = parsed(text, source)
     if not content:
         raise InputError(
             "the file holds comments only", place=Place(source), remedy="`abu init FILE` writes a commented one"
@@ -227,23 +282,63 @@ def validate(
     for whatever is wrong; several faults come as SpecErrors.
     """
     content = document.content
+    converted = convert(content, choose(content), _places(document))
+    overrides = _in_key_units(overrides, known)
     options, notes = _overridden(content, overrides, known)
+    converted = _in_force(converted, overrides)
     model = choose(content)
     try:
         table = model.model_validate(content)
     except ValidationError as error:
         from abu_calc.inputs.reading.errors import Origin, input_error
-        from abu_calc.inputs.reading.toml_text import key_lines
 
-        raise input_error(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
+        lines, written = lines_of(document.text, converted), {each.path: each.entry for each in converted}
+        raise input_error(error, Origin(document.file, content, lines, options, model, written)) from None
     defaults = tuple((key_path(path), value) for path, value in table.defaults())
-    notes = [*remarks(table, Source(document.text, overrides)), *notes]
+    notes = [*remarks(table, Source(document.text, overrides, converted)), *notes]
     # A key of the file is not given in vain where an entry that replaces another of its table made it idle.
     changed = {override.path[:-1] for override in overrides}
     replaced = {override.path for override in overrides}
     idle = (path for path in table.given_in_vain() if path[:-1] not in changed or path in replaced)
     notes += [f"{key_path(path)} plays no part beside the other keys." for path in idle]
-    return table, FileReading(document.file, document.text, document.sha256, tuple(overrides), defaults, tuple(notes))
+    return table, FileReading(
+        document.file, document.text, document.sha256, tuple(overrides), defaults, tuple(notes), tuple(converted)
+    )
+
+
+def lines_of(text: str, converted: Sequence[Conversion] = ()) -> dict[str, int]:
+    """Key path → line, of keys of the model that were written without their unit, too."""
+    from abu_calc.inputs.reading.toml_text import key_lines
+
+    lines = key_lines(text)
+    for conversion in converted:
+        if line := lines.get(key_path(conversion.written)):
+            lines.setdefault(conversion.key, line)
+    return lines
+
+
+def _places(document: Document) -> Callable[[tuple[Part, ...]], Place]:
+    def place(path: tuple[Part, ...]) -> Place:
+        from abu_calc.inputs.reading.toml_text import key_lines, line_of
+
+        return Place(document.file, line_of(key_lines(document.text), path), key_path(path))
+
+    return place
+
+
+def _in_key_units(overrides: "Sequence[Override]", known: type[Table]) -> "Sequence[Override]":
+    if not overrides:
+        return overrides
+    from abu_calc.inputs.reading.overrides import in_key_units
+
+    return in_key_units(overrides, known)
+
+
+def _in_force(converted: Sequence[Conversion], overrides: "Sequence[Override]") -> list[Conversion]:
+    """Conversions of the file that no override replaces, then those of the overrides."""
+    kept = [each for each in converted
+            if not any(each.path[: len(override.path)] == override.path for override in overrides)]  # fmt: skip
+    return [*kept, *(each for override in overrides for each in override.converted)]
 
 
 def _overridden(
@@ -267,14 +362,21 @@ def parsed_overrides(overrides: Sequence[str]) -> "tuple[Override, ...]":
     return parse_overrides(overrides)
 
 
-def _parsed(text: str, source: str) -> dict[str, object]:
+def parsed(text: str, source: str) -> dict[str, object]:
+    """The tables of a TOML text, without its format. Raises InputError with line and remedy."""
     check_nesting(text, source)
     try:
-        return tomllib.loads(text)
+        content = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         from abu_calc.inputs.reading.toml_text import reworded
 
         raise reworded(text, source, error) from None
+    if KEY in content:
+        from abu_calc.inputs.reading.toml_text import key_lines
+
+        format_of(content, Place(source, key_lines(text).get(KEY), KEY))
+        del content[KEY]
+    return content
 
 
 def _decoded(raw: bytes, source: str) -> str:

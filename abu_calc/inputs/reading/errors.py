@@ -2,12 +2,14 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import field
 from typing import Any, Final
 
 from pydantic import ValidationError
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading.format import renamed
 from abu_calc.inputs.reading.suggestions import header, meant_key, meant_table, nearest, nearest_numbered
 from abu_calc.inputs.reading.table import RULE, Table, is_array, subtable, table_at, usual_of
 from abu_calc.inputs.reading.text import Part, is_number, key_path, quoted, shown, shown_short, unit_symbol
@@ -50,6 +52,8 @@ class Origin:
     overrides: Mapping[tuple[Part, ...], str]
     """Path → the option that set it."""
     model: type[Table]
+    written: Mapping[tuple[Part, ...], str] = field(default_factory=dict)
+    """Path → what was written for it, of values with units."""
 
     def place(self, path: tuple[Part, ...]) -> Place:
         """The line of a path, or the option that set it."""
@@ -139,6 +143,8 @@ def _table_of(path: tuple[Part, ...], root: type[Table]) -> type[Table]:
 
 
 def _stray(finding: _Finding) -> tuple[str | None, str | None]:
+    if change := renamed(tuple(part for part in finding.path if isinstance(part, str))):
+        return change.name, f"since format {change.format} it is {change.name}: `abu migrate FILE` renames it"
     if len(finding.path) == 1:
         return meant_table(finding.root, finding.key, finding.value)
     return meant_key(finding.root, finding.path[:-1], finding.table, finding.key)
@@ -164,7 +170,11 @@ def _wrong(kind: str, finding: _Finding, origin: Origin) -> InputError:
             facts["message"], place=place, found=facts["found"], allowed=facts["allowed"], remedy=facts["remedy"]
         )
     message, allowed, remedy = _WORDS.get(kind, _other)(finding)
-    return InputError(message, place=place, found=shown_short(finding.value), allowed=allowed, remedy=remedy)
+    found = shown_short(finding.value)
+    keys = [place for place, part in enumerate(finding.path) if isinstance(part, str)]
+    if keys and (entry := origin.written.get(finding.path[: keys[-1] + 1])):
+        found += f" by {entry}"
+    return InputError(message, place=place, found=found, allowed=allowed, remedy=remedy)
 
 
 def _other(finding: _Finding) -> _Words:

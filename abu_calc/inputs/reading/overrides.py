@@ -4,6 +4,7 @@ import copy
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
+from dataclasses import field, replace
 from typing import Final
 
 from abu_calc.foundation.errors import InputError, Place
@@ -11,6 +12,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading.plain import found_as, plain_value
 from abu_calc.inputs.reading.table import Table, table_at
 from abu_calc.inputs.reading.text import Part, key_path
+from abu_calc.inputs.reading.values_with_units import Conversion, convert_entry
 
 _STEP: Final = re.compile(
     r"""\.?(?:([A-Za-z_][A-Za-z0-9_-]*)|\[(\d{1,6})\]|(?<=\.)(\d{1,6})(?![\w-])|"([^"]*)"|'([^']*)')"""
@@ -29,6 +31,8 @@ class Override:
     path: tuple[Part, ...]
     value: object
     given_as: str = "--set {}"
+    converted: tuple[Conversion, ...] = field(default=(), repr=False, compare=False)
+    """Values that were given with their units, and stand in `value` in the units of their keys."""
 
     @property
     def key(self) -> str:
@@ -68,6 +72,7 @@ def overrides_of(values: Mapping[str, object]) -> list[Override]:
 
 def following(earlier: Sequence[Override], later: Sequence[Override], model: type[Table]) -> tuple[Override, ...]:
     """Earlier overrides and later ones, without those earlier ones whose place a later one takes."""
+    later = in_key_units(later, model)
     gone = {override.path for override in later}
     for override in later:
         *parent, key = override.path
@@ -75,6 +80,32 @@ def following(earlier: Sequence[Override], later: Sequence[Override], model: typ
         if table is not None and isinstance(key, str):
             gone |= {(*parent, other) for other in table.displaced_by(key, override.value)}
     return (*(override for override in earlier if override.path not in gone), *later)
+
+
+def in_key_units(overrides: Sequence[Override], model: type[Table]) -> tuple[Override, ...]:
+    """Overrides with values that were given with their units in the units of the keys.
+
+    Raises InputError for a wrong unit, and for two overrides that give one value in both forms.
+    """
+    entries: dict[tuple[Part, ...], Override] = {}
+    taken: list[Override] = []
+    for override in overrides:
+        option = override.given_as
+
+        def where(path: tuple[Part, ...], option: str = option) -> Place:
+            return Place(key=option.format(key_path(path)))
+
+        path, value, converted = convert_entry(override.path, copy.deepcopy(override.value), model, where)
+        if converted:
+            override = replace(override, path=path, value=value, converted=tuple(converted))
+        earlier = entries.setdefault(path, override)
+        if earlier is not override and bool(earlier.converted) != bool(override.converted):
+            raise InputError(
+                "the value is given twice, with its unit and without", place=Place(key=override.option),
+                remedy="keep one of the two",
+            )  # fmt: skip
+        taken.append(override)
+    return tuple(taken)
 
 
 def parse_overrides(texts: Sequence[str]) -> tuple[Override, ...]:

@@ -129,6 +129,7 @@ MISTAKEN: Final[dict[str | None, dict[str, float]]] = {
     "m": {"mm": 1e-3, "cm": 1e-2, "inch": 0.0254},
     "um": {"mm": 1e-3, "m": 1.0},
     "g_mm": {"g·m": 1e-3, "kg·mm": 1e-3, "g·cm": 1e-5, "kg·m": 1.0, "mg·mm": 1e-9},
+    "m_per_s": {"mm/s": 1e-3, "km/h": 1 / 3.6},
     "mm_per_s": {"m/s": 1.0, "µm/s": 1e-6, "inch/s": 0.0254},
     "m_per_s2": {"g": GRAVITY, "mm/s²": 1e-3, "cm/s²": 1e-2},
     "N": {"kN": 1e3, "kgf": GRAVITY},

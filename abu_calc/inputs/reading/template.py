@@ -6,15 +6,18 @@ from typing import Final
 from pydantic.fields import FieldInfo
 
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.reading.format import FORMAT, KEY
 from abu_calc.inputs.reading.table import Table, is_array, subtable
 from abu_calc.inputs.reading.text import key_path, shown
 from abu_calc.inputs.scene import SceneFile
 
 WIDTH: Final = 90
 HEAD: Final = (
-    "A {kind} file of abu-calc. Put in your own numbers; the unit stands in the key. Keys and tables with a # right "
-    "before them are optional: take the # away to use them."
+    "A {kind} file of abu-calc. Put in your own numbers; the unit stands in the key, or behind the number: "
+    'mass_kg = 5.6 or mass = "5.6 kg". Keys and tables with a # right before them are optional: take the # away to use '
+    "them."
 )
+ABOUT_FORMAT: Final = "Format of this file: if keys change in later versions, `abu migrate FILE` renames them."
 FIRST: Final = (
     "Values without a # are those of an example. Replace those of [machine], [suspension] and [wheel], and in "
     "[autobalancer] the room: max_outer_diameter_mm, max_width_mm and bore_diameter_mm. Values called assumed may "
@@ -39,7 +42,10 @@ def scene_template() -> str:
 def template_of(kind: str, model: type[Table]) -> str:
     """Text of a complete file of a kind, made from its model."""
     head = f"{HEAD.format(kind=kind)} {FIRST}" if kind == "machine" else HEAD.format(kind=kind)
-    return "\n".join([*_comment(head), *_tables(model, (), live=True)]) + "\n"
+    return (
+        "\n".join([*_comment(head), "", *_comment(ABOUT_FORMAT), f"{KEY} = {FORMAT}", *_tables(model, (), live=True)])
+        + "\n"
+    )
 
 
 def _tables(model: type[Table], path: tuple[str, ...], *, live: bool) -> list[str]:

@@ -7,7 +7,7 @@ import importlib.util
 import io
 import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
 
@@ -65,8 +65,9 @@ def _draw(axes: "Axes", drawing: Drawing, shape: Any) -> None:
             axes.add_patch(Polygon([at(corner) for corner in corners], facecolor=INK, edgecolor="none"))
         case Region():
             outline = Polygon(
-                [at(point) for point in _outline(shape)], fill=False, joinstyle="miter", **_pen("outline")
-            )
+                [at(point) for point in _outline(shape)], fill=False, joinstyle="miter",
+                **(_pen("outline") if shape.outlined else {"linewidth": 0.0}),
+            )  # fmt: skip
             axes.add_patch(outline)
             _hatch(axes, shape, outline)
         case Text():
@@ -164,6 +165,19 @@ def figure_file(illustration: Figure, suffix: str) -> str | bytes:
         figure.savefig(buffer, format=suffix[1:], metadata=_metadata(illustration, suffix))
     data = buffer.getvalue()
     return data.decode().replace(f"font-family: '{FONT}'", f"font-family: {LIKE_IT}") if suffix == ".svg" else data
+
+
+def drawings_pdf(drawings: Sequence[Drawing]) -> bytes:
+    """Drawings as one PDF, each on a page of its own size; the same bytes for the same drawings."""
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    buffer = io.BytesIO()
+    about = {"Title": escaped(drawings[0].title), "Subject": escaped(drawings[0].description), "CreationDate": None}
+    with styled(), warnings.catch_warnings(), PdfPages(buffer, metadata=about) as pages:
+        warnings.filterwarnings("ignore", message="Glyph .* missing from")
+        for drawing in drawings:
+            pages.savefig(sheet(drawing))
+    return buffer.getvalue()
 
 
 def _metadata(figure: Figure, suffix: str) -> dict[str, Any]:

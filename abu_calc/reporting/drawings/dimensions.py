@@ -7,6 +7,7 @@ and their extent.
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from typing import Final
 
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
@@ -23,6 +24,7 @@ from abu_calc.reporting.drawings.shapes import (
     Shape,
     Solid,
     Text,
+    ToleranceFrame,
     fitted,
     plain,
     text_width,
@@ -40,14 +42,16 @@ ABOVE = 1.0
 def primitives(shapes: Iterable[Shape], scale: float) -> Iterator[Primitive]:
     """Shapes with every dimension as its picture."""
     for shape in shapes:
-        if isinstance(shape, Length | Radius):
+        if isinstance(shape, Length | Radius | ToleranceFrame):
             yield from picture(shape, scale)
         else:
             yield shape
 
 
-def picture(dimension: Length | Radius, scale: float) -> tuple[Primitive, ...]:
-    """Primitives that draw a dimension."""
+def picture(dimension: Length | Radius | ToleranceFrame, scale: float) -> tuple[Primitive, ...]:
+    """Primitives that draw a dimension or a frame."""
+    if isinstance(dimension, ToleranceFrame):
+        return tolerance_frame(dimension.corner, dimension.cells, scale)
     return _length(dimension, scale) if isinstance(dimension, Length) else _radius(dimension, scale)
 
 
@@ -94,7 +98,10 @@ def _place(length: Length, ends: Point, unit: float) -> tuple[tuple[float, Align
     """Place and alignment of a dimension's text, and the ends of its line."""
     (low, high), long = ends, text_width(max(length.text, length.below, key=len), HEIGHT) * unit
     if fits(length.value, max(length.text, length.below, key=len), 1 / unit):
-        return ((low + high) / 2, "centre"), ends
+        # Away from the middle as far as the text stays between the arrows.
+        half = (long + 2 * ARROW * unit) / 2
+        middle = max(low + half, min(low + length.along * (high - low), high - half))
+        return (middle if length.along != 0.5 else (low + high) / 2, "centre"), ends
     gap = ARROW * unit + length.clear
     if length.beyond == "start":
         return (low - gap - long, "left"), (low - gap - long, high)
@@ -137,7 +144,7 @@ def arrow(tip: Point, tail: Point, scale: float) -> tuple[Primitive, ...]:
 
 
 def tolerance_frame(corner: Point, cells: Sequence[str], scale: float) -> tuple[Primitive, ...]:
-    """A frame after ISO 1101; `corner` its upper left one; the first cell is "circularity" or "runout"."""
+    """A frame after ISO 1101; `corner` its upper left one; the first cell names the characteristic (`SIGNS`)."""
     unit, (x, top) = 1 / scale, corner
     low, shapes, left = top - 2 * HEIGHT * unit, list[Primitive](), x
     for index, cell in enumerate(cells):
@@ -153,12 +160,41 @@ def tolerance_frame(corner: Point, cells: Sequence[str], scale: float) -> tuple[
             Line("dimension", (x, low), (left, low)))  # fmt: skip
 
 
+SIGNS: Final = {
+    "circularity": "e", "cylindricity": "g", "flatness": "c", "perpendicularity": "b", "parallelism": "f",
+    "runout": "h", "total runout": "t",
+}  # fmt: skip
+"""Characteristics of ISO 1101, each with its letter in the font of signs that CAD programs have (gdt)."""
+
+
 def _sign(name: str, middle: Point, unit: float) -> tuple[Primitive, ...]:
+    """Sign of a characteristic about a point, as high as a text."""
     x, y = middle
-    if name == "circularity":
-        return (Arc("dimension", middle, HEIGHT / 2 * unit),)
     reach = HEIGHT / 2 * unit
-    return arrow((x + reach, y + reach), (x - reach, y - reach), 1 / unit)
+
+    def line(*ends: float) -> Line:
+        x1, y1, x2, y2 = ends
+        return Line("dimension", (x + x1 * reach, y + y1 * reach), (x + x2 * reach, y + y2 * reach))
+
+    match name:
+        case "circularity":
+            return (Arc("dimension", middle, reach),)
+        case "cylindricity":
+            return Arc("dimension", middle, 0.6 * reach), line(-1.2, -1, -0.4, 1), line(0.4, -1, 1.2, 1)
+        case "flatness":
+            return line(-1.2, -0.6, 0.6, -0.6), line(-0.6, 0.6, 1.2, 0.6), line(-1.2, -0.6, -0.6, 0.6), line(
+                0.6, -0.6, 1.2, 0.6)  # fmt: skip
+        case "perpendicularity":
+            return line(-1, -1, 1, -1), line(0, -1, 0, 1)
+        case "parallelism":
+            return line(-0.9, -1, 0.1, 1), line(-0.1, -1, 0.9, 1)
+        case "total runout":
+            tips = ((x + (0.4 + 1.2 * index) * reach, y + reach) for index in (0, 1))
+            arrows = (arrow(tip, (tip[0] - 1.6 * reach, y - reach), 1 / unit) for tip in tips)
+            return (line(-1.2, -1, 0.2, -1), *(shape for both in arrows for shape in both))
+        case "runout":
+            return arrow((x + reach, y + reach), (x - reach, y - reach), 1 / unit)
+    raise ValueError(f"no characteristic of ISO 1101: {name}")
 
 
 def datum(point: Point, letter: str, scale: float, *, upwards: bool = False) -> tuple[Primitive, ...]:
@@ -229,6 +265,8 @@ def moved(shape: Shape, by: Point) -> Shape:
             return replace(shape, start=to(shape.start), end=to(shape.end), at=shape.at + by[0 if shape.upright else 1])
         case Radius():
             return replace(shape, centre=to(shape.centre), shelf=to(shape.shelf))
+        case ToleranceFrame():
+            return replace(shape, corner=to(shape.corner))
 
 
 def _around(points: Iterable[Point]) -> tuple[Point, Point]:

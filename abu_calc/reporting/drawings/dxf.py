@@ -4,7 +4,7 @@ import io
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from abu_calc.reporting.drawings.dimensions import ABOVE, ARROW, BEYOND, picture
+from abu_calc.reporting.drawings.dimensions import ABOVE, ARROW, BEYOND, SIGNS, picture
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
     PENS,
@@ -18,6 +18,7 @@ from abu_calc.reporting.drawings.shapes import (
     Shape,
     Solid,
     Text,
+    ToleranceFrame,
     plain,
 )
 
@@ -48,6 +49,7 @@ def dxf_text(drawing: Drawing) -> str:
     low, high = drawing.low, drawing.high
     document.header["$EXTMIN"], document.header["$EXTMAX"] = (*low, 0.0), (*high, 0.0)
     document.set_modelspace_vport(1.05 * (high[1] - low[1]), ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2))
+    _paper(document, drawing)
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue()
@@ -78,6 +80,8 @@ def _add(document: "Document", space: "BaseLayout", shape: Shape, scale: float) 
             _dimension(document, space, shape, scale)
         case Region():
             _region(space, shape, scale)
+        case ToleranceFrame():
+            _frame(space, shape, scale)
         case _:
             _draw(space, (shape,), scale)
 
@@ -102,11 +106,32 @@ def _draw(space: "BaseLayout", shapes: Iterable[Primitive], scale: float) -> Non
 
 def _region(space: "BaseLayout", region: Region, scale: float) -> None:
     """A closed outline, and the hatch in it."""
-    outline = space.add_lwpolyline(region.corners, format="xyb", close=True, dxfattribs={"layer": "OUTLINE"})
     hatch = space.add_hatch(dxfattribs={"layer": "HATCH"})
     hatch.set_pattern_fill("ANSI31", angle=region.angle - 45, scale=region.spacing / ANSI31 / scale, color=256)
     path = hatch.paths.add_polyline_path(region.corners, is_closed=True)
-    hatch.associate(path, [outline])
+    if region.outlined:
+        outline = space.add_lwpolyline(region.corners, format="xyb", close=True, dxfattribs={"layer": "OUTLINE"})
+        hatch.associate(path, [outline])
+
+
+def _frame(space: "BaseLayout", frame: ToleranceFrame, scale: float) -> None:
+    """A frame that CAD programs know as such."""
+    name, *cells = frame.cells
+    content = "%%v".join((f"{{\\Fgdt;{SIGNS[name]}}}", *map(written, cells)))
+    # Its insertion point is the middle of its left edge.
+    middle = frame.corner[0], frame.corner[1] - HEIGHT / scale
+    space.new_entity("TOLERANCE", {"layer": "DIMENSION", "dimstyle": STYLE, "insert": middle, "content": content,
+                                   "x_axis_vector": (1, 0, 0)})  # fmt: skip
+
+
+def _paper(document: "Document", drawing: Drawing) -> None:
+    """A layout as large as the sheet, filled by one window on the drawing at its scale."""
+    wide, high = drawing.size
+    layout = document.paperspace()
+    layout.page_setup(size=(wide, high), margins=(0, 0, 0, 0), units="mm", scale=(1, 1))
+    middle = (drawing.low[0] + drawing.high[0]) / 2, (drawing.low[1] + drawing.high[1]) / 2
+    layout.add_viewport(center=(wide / 2, high / 2), size=(wide, high), view_center_point=middle,
+                        view_height=drawing.high[1] - drawing.low[1], status=2)  # fmt: skip
 
 
 def _text(space: "BaseLayout", text: Text, scale: float) -> None:
@@ -130,6 +155,10 @@ def _dimension(document: "Document", space: "BaseLayout", dim: Length | Radius, 
         entity = space.add_linear_dim(
             base, dim.start, dim.end, angle=angle, text=text, dimstyle=STYLE, dxfattribs=attributes
         ).dimension
+    elif dim.full:
+        entity = space.add_diameter_dim(
+            dim.centre, mpoint=dim.touch, text=text, dimstyle=STYLE, dxfattribs=attributes
+        ).dimension
     else:
         entity = space.add_radius_dim(
             dim.centre, mpoint=dim.touch, text=text, dimstyle=STYLE, dxfattribs=attributes
@@ -137,7 +166,7 @@ def _dimension(document: "Document", space: "BaseLayout", dim: Length | Radius, 
     block = document.blocks.new_anonymous_block(type_char="D")
     _draw(block, drawn, scale)
     entity.dxf.geometry = block.name
-    entity.dxf.actual_measurement = dim.value
+    entity.dxf.actual_measurement = 2 * dim.value if isinstance(dim, Radius) and dim.full else dim.value
     entity.dxf.text_midpoint = next(shape.at for shape in drawn if isinstance(shape, Text))
 
 

@@ -66,12 +66,16 @@ class Arc:
 
 @dataclass(frozen=True)
 class Region:
-    """A part that is cut: its closed outline, hatched at an angle [degrees] in lines so far apart on paper [mm]."""
+    """A part that is cut: its closed outline, hatched at an angle [degrees] in lines so far apart on paper [mm].
+
+    `outlined` False: hatch alone, whose edges are drawn by themselves.
+    """
 
     corners: tuple[Corner, ...]
     name: str
     angle: float = 45.0
     spacing: float = 2.5
+    outlined: bool = True
 
 
 @dataclass(frozen=True)
@@ -106,7 +110,7 @@ class Length:
     """A dimension along x or y between two points, its line at `at` on the other axis; `text` holds its value.
 
     `beyond`: where the text stands if it has no room between the arrows, `clear` how much farther off than others;
-    `below`: what stands below the line.
+    `below`: what stands below the line; `along`: share of the line at which the text's middle stands.
     """
 
     start: Point
@@ -117,6 +121,7 @@ class Length:
     beyond: Literal["start", "end"] = "end"
     below: str = ""
     clear: float = 0.0
+    along: float = 0.5
 
     @property
     def value(self) -> float:
@@ -128,13 +133,14 @@ class Length:
 @dataclass(frozen=True)
 class Radius:
     """A dimension of a circle's radius: its arrow touches at an angle [degrees] from outside, its text stands on a
-    shelf at `shelf`."""
+    shelf at `shelf`. `full`: a full circle, whose text and measure are its diameter."""
 
     centre: Point
     value: float
     angle: float
     shelf: Point
     text: str
+    full: bool = False
 
     @property
     def touch(self) -> Point:
@@ -143,8 +149,16 @@ class Radius:
         return self.centre[0] + self.value * math.cos(turn), self.centre[1] + self.value * math.sin(turn)
 
 
+@dataclass(frozen=True)
+class ToleranceFrame:
+    """A frame of geometrical tolerance: its upper left corner, the characteristic, its value, letters of datums."""
+
+    corner: Point
+    cells: tuple[str, ...]
+
+
 Primitive = Line | Arc | Region | Solid | Text
-Shape = Primitive | Length | Radius
+Shape = Primitive | Length | Radius | ToleranceFrame
 
 
 @dataclass(frozen=True)

@@ -97,7 +97,8 @@ def _drawn(shape: Primitive, drawing: Drawing, name: str) -> str:
         case Region():
             kind, fill = shape.name.replace(" ", "-"), _pattern(name, shape.angle, shape.spacing)
             path = _outline(shape, scale, at)
-            return f'<path class="{kind}" d="{path}" fill="url(#{fill})" {_stroke("outline")}/>'
+            edge = f" {_stroke('outline')}" if shape.outlined else ""
+            return f'<path class="{kind}" d="{path}" fill="url(#{fill})"{edge}/>'
         case Text():
             return _written(shape, at(shape.at))
 

@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from abu_calc.features.design.section import Vertex, volume_of_revolution
 from abu_calc.features.design.section_drawing import flattened
 from abu_calc.sizing.housing import Design, groove_radius, housing
 from tests.reporting.drawings.samples import MACHINES, result
@@ -83,11 +82,3 @@ def test_the_housing_is_the_sum_of_slices(
     found = housing(design, race, ball, bore, wall, grooved)
     assert found.mass == pytest.approx(cavity + lid + base + rest, rel=1e-5)
     assert found.outer_diameter == pytest.approx(2 * (outer + body_wall))
-
-
-def test_a_sphere_and_a_torus_by_their_outlines() -> None:
-    """4/3·π·r³; 2π²·R·r²."""
-    half = (Vertex(0, 0), Vertex(2, 0, 1.0))
-    assert volume_of_revolution(half) == pytest.approx(4 / 3 * math.pi)
-    ring = (Vertex(-1, 5, 1.0), Vertex(1, 5, 1.0))
-    assert volume_of_revolution(ring) == pytest.approx(2 * math.pi**2 * 5)

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.design.sheet import ratio, section_sheet, size_sheets, verdict
+from abu_calc.features.design.sheet import section_sheet, size_sheets
+from abu_calc.features.design.sheets.part_sheet import ratio, verdict
 from abu_calc.foundation.checks import Check, Grade
 from abu_calc.reporting.drawings.shapes import SCALES, Text
 from tests.reporting.drawings.samples import result
@@ -49,4 +50,5 @@ def test_the_list_names_every_part_and_the_balls(name: str) -> None:
         assert part.name in shown and part.material in shown
     assert str(sized.provenance.sha256) in shown and sized.provenance.date in shown
     assert any(text.startswith(f"{sized.autobalancer.ball_count} × ") for text in shown)
-    assert [sheet.name for sheet in size_sheets(sized)] == ["section"]  # no arm, no bearings
+    names = [sheet.name for sheet in size_sheets(sized)]  # no arm, no bearings
+    assert names == ["section", *(part.name.replace(" ", "-") for part in sized.section.parts)]

@@ -45,11 +45,20 @@ def scene_file(folder: Path, duration: float = 2.0) -> Path:
 
 def record(
     path: Path, file: Path, drag: float, lever: float, offset: complex, seed: int, *, mark: bool = True,
-    imbalance: float = 1.0, run_up: float = 1.0, background: complex = 0.0, balls: bool = True,
+    imbalance: float = 1.0, run_up: float = 1.0, background: complex = 0.0, balls: bool = True, stiffness: float = 1.0,
+    angles: tuple[float, ...] | None = None, engine: tuple[str, float] = ("compiled", 1e-6),
 ) -> str:  # fmt: skip
-    """Write one start: drag [1/s], lever arm and offset [m] as they are; shares by which the machine differs."""
-    known = read_any(str(path))
-    scene = scene_from(known.scene)  # type: ignore[union-attr]
+    """Write one start: drag [1/s], lever arm and offset [m] as they are; shares by which the machine differs.
+
+    `angles`: of the balls [rad], instead of the file's; `stiffness`: with the damping ratio kept; `engine`: integrator
+    and tolerance.
+    """
+    known = read_any(str(path)).scene  # type: ignore[union-attr]
+    stiffer = {
+        "stiffness_N_per_m": tuple(value * stiffness for value in known.stiffness_N_per_m or ()),
+        "damping_N_s_per_m": tuple(value * math.sqrt(stiffness) for value in known.damping_N_s_per_m or ()),
+    }
+    scene = scene_from(known.model_copy(update=stiffer))
     rng = np.random.default_rng(seed)
     turned = float(rng.uniform(0, 2 * math.pi))
     effects = []
@@ -61,15 +70,16 @@ def record(
         elif effect.name == "run_up":
             effect = replace(effect, up=scene.full_speed * run_up)  # type: ignore[call-arg]
         effects.append(effect)
-    races = (replace(scene.races[0], drag=drag),) if balls else ()
+    race = replace(scene.races[0], drag=drag, start_angles=angles or scene.races[0].start_angles)
+    races = (race,) if balls else ()
     kept = [each for each in effects if balls or each.name in ("gravity", "run_up")]
     moved: Scene = replace(
         scene, races=races, effects=tuple(kept), imbalance_angle=turned, imbalance=scene.imbalance * imbalance
     )
     times = np.arange(0, scene.duration - 1e-9, 5e-4)
     equations = assemble(moved)
-    choice = choose(equations, "compiled" if balls else "auto", 1e-6)
-    run = choice.integrate(equations, 1e-6, times, 60_000_000)
+    choice = choose(equations, engine[0] if balls else "auto", engine[1])
+    run = choice.integrate(equations, engine[1], times, 600_000_000)
     up = moved.full_speed
     angle = np.where(times < up, moved.speed * times**2 / 2 / up, moved.speed * (times - up / 2)) + turned
     velocity = moved.axis_velocity(run.y)[0] + 1e-3 * rng.normal(size=len(times))

@@ -11,12 +11,13 @@ class Value:
     """An identified value."""
 
     def __init__(self, value: float) -> None:
-        self.value = value
+        self.value, self.low, self.high = value, 0.9 * value, 1.1 * value
 
 
 class Known:
     """A result with every value."""
 
+    starts = 8
     rolling_drag_per_s = Value(12.34)
     rolling_friction_mm = Value(0.00131)
     race_eccentricity_mm = Value(0.0121)
@@ -39,7 +40,13 @@ def test_values_are_written_into_scene_and_machine(tmp_path: Path) -> None:
     assert "rolling_drag_per_s = 12.34" in text and "lever_arm_mm = 0.00131" in text
     assert "magnitude_mm = 0.0121, angle_deg = 69.7" in text
     machine = identified_text("avtovaz-707-222", Known())  # type: ignore[arg-type]
-    assert machine.count("rolling_drag_per_s") == 1 and "race_eccentricity_mm = 0.0121" in machine
+    assert machine.count("rolling_drag_per_s = 12.34") == 1 and "race_eccentricity_mm = 0.0121" in machine
+    assert "[identified]\nstarts = 8\nrolling_drag_per_s = [11.09, 13.6]" in machine
     copy = tmp_path / "machine.toml"
     copy.write_text(machine, encoding="utf-8")
     assert abu("validate", str(copy)).status == 0
+    again = identified_text(str(copy), Known())  # type: ignore[arg-type]
+    assert again == machine  # no second table
+    copy.write_text(machine.replace("rolling_drag_per_s = 12.34", "rolling_drag_per_s = 20.0"), encoding="utf-8")
+    seen = abu("validate", str(copy))
+    assert seen.status == 0 and "does not hold autobalancer.rolling_drag_per_s = 20" in " ".join(seen.out.split())

@@ -9,7 +9,7 @@ import pytest
 import abu_calc
 from abu_calc.features.identification.bank import WIDE
 from abu_calc.features.identification.estimate import Best
-from abu_calc.features.identification.study import Estimate
+from abu_calc.features.identification.fit import Estimate
 from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.scene import read_any
@@ -106,14 +106,28 @@ def test_a_background_is_separated_by_a_run_without_balls(tmp_path: Path, monkey
 
 
 @pytest.mark.hard
-@pytest.mark.parametrize("wrong", [{"imbalance": 1.25}, {"run_up": 2.0}], ids=str)
+@pytest.mark.parametrize("wrong", [{"imbalance": 1.25}, {"run_up": 2.0}, {"stiffness": 4.8**2}], ids=str)
 def test_wrong_assumptions_are_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, wrong: dict[str, float]
 ) -> None:
+    """The springs are those of 12 Hz, and the file tells 2.5 Hz."""
     monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
     path, files = starts(tmp_path, 8, **wrong)
     result = abu_calc.identify(read_any(str(path)), files)
     assert {check.status for check in result.checks} & {"warn", "not-done"}
+
+
+@pytest.mark.hard
+def test_oil_that_warms_from_start_to_start_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The drag rate falls from 24 to 8 1/s over eight starts."""
+    monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
+    path = scene_file(tmp_path)
+    files = [
+        record(path, tmp_path / f"start{k}.csv", float(drag), LEVER, complex(OFFSET), k)
+        for k, drag in enumerate(np.geomspace(24.0, 8.0, 8))
+    ]
+    result = abu_calc.identify(read_any(str(path)), files)
+    assert next(check for check in result.checks if check.code == "ABU1104").status == "warn"
 
 
 @pytest.mark.hard

@@ -23,7 +23,7 @@ DRAFT4 = {
     "definitions", "properties", "patternProperties", "additionalProperties", "required", "minProperties",
     "maxProperties", "items", "additionalItems", "minItems", "maxItems", "uniqueItems", "minimum", "maximum",
     "exclusiveMinimum", "exclusiveMaximum", "multipleOf", "minLength", "maxLength", "pattern", "format",
-    "x-usual",
+    "id", "x-usual", "x-canonical-key",
 }  # fmt: skip
 """The words of Draft 4, and our own, which editors pass over."""
 

@@ -21,6 +21,9 @@ from tests.inputs.samples import BASIC, read, refused
 
 FREE = {
     "Start.angles_deg",  # wherever they lie
+    "Oil.cold_temperature_C",  # above and below zero
+    "Identified.rolling_drag_per_s", "Identified.rolling_friction_mm",  # as measured
+    "Identified.race_eccentricity_mm",
     "Wheel.runout_angle_deg", "Wheel.measured_axes", "MeasuredAfter.measured_axes",
     "Grinding.rotation_sense", "Tilting.ball_tilt_inertia",
     "Sweep.least_share", "Sweep.runs", "Sweep.seed", "Optimise.seed", "Optimise.share", "Sweep.time_limit_s",

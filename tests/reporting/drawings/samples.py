@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 
-from abu_calc.features.design.records import AutobalancerRecord, DrawingLine, Section
+from abu_calc.features.design.records import AutobalancerRecord, DrawingLine, Eccentricity, Section
 from abu_calc.features.design.study import SizeResult
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size as size_design
@@ -36,7 +36,8 @@ MACHINES: dict[str, tuple[str, ...]] = {
                "autobalancer.ball_diameter_mm=2", "autobalancer.ball_count=7", "autobalancer.design=light"),
     "small scale": ("autobalancer.max_outer_diameter_mm=378.8", "autobalancer.bore_diameter_mm=296.2",
                     "autobalancer.ball_diameter_mm=20", "autobalancer.ball_count=9",
-                    "autobalancer.design=bearing-ring"),
+                    "autobalancer.design=light"),
+    "screwed": ("autobalancer.closure=screwed",),
     "hostile name": (f"machine.name='{HOSTILE}'",),
 }  # fmt: skip
 
@@ -61,6 +62,8 @@ def result(name: str) -> SizeResult:
         title=machine.tables.machine.name,
         autobalancer=AutobalancerRecord.of(table, one, design.track),
         section=Section.of(design),
+        parts=design.construction.parts,
+        eccentricity=Eccentricity.of(design.eccentricity),
         drawing=tuple(
             DrawingLine(feature=each.feature, requirement=each.requirement, cost_db=each.cost_db)
             for each in design.drawing

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from abu_calc.features.design.sheet import section_sheet
+from abu_calc.features.design.sheet import section_sheet, size_sheets
 from abu_calc.features.design.study import SizeResult
 from tests.cli.runner import abu
 from tests.reporting.drawings.samples import MACHINES, result
@@ -36,10 +36,8 @@ def _expected(one: SizeResult) -> dict[str, float]:
     sizes = {
         "outer": made["outer_diameter_mm"], "bore": section["bore_diameter_mm"], "width": made["width_mm"],
         "inner": section["inner_width_mm"], "web": section["web_mm"], "cover": section["web_mm"],
-        "race": made["race_radius_mm"], "pitch": made["pitch_radius_mm"], "hub": section["hub_diameter_mm"] / 2,
+        "race": 2 * made["race_radius_mm"], "pitch": 2 * made["pitch_radius_mm"], "hub": section["hub_diameter_mm"],
     }  # fmt: skip
-    if made["groove_radius_mm"] is not None:
-        sizes["groove"] = made["groove_radius_mm"]
     if len(section["parts"]) > 2:
         sizes["ring"] = section["ring_diameter_mm"]
     return sizes
@@ -69,17 +67,27 @@ def test_every_dimension_is_the_result_s(name: str) -> None:
 
 @pytest.mark.parametrize("name", MACHINES)
 def test_tolerances_are_the_result_s(name: str) -> None:
+    """On the sheet of the part that has the race, and the bore's on the assembly's, too."""
+    from abu_calc.reporting.drawings.dxf import dxf_text
+
     one = result(name).to_dict()
-    section, texts = one["section"], [each.dxf.text for each in document(name).modelspace().query("DIMENSION")]
-    assert f"R{one['autobalancer']['race_radius_mm']:.3f}".rstrip("0").rstrip(".") + " ±0.05" in texts
-    assert section["race_tolerance_mm"] == 0.05
-    assert section["groove_tolerance_mm"] == 0.2
+    section, race = one["section"], result(name).parts.race_part.name.replace(" ", "-")
+    sheet = next(each for each in size_sheets(result(name)) if each.name == race)
+    space = ezdxf.read(io.StringIO(dxf_text(sheet))).modelspace()
+    texts = [each.dxf.text for each in (*space.query("DIMENSION"), *space.query("TEXT"))]
+    if name == "bearing-ring":  # its ring is bought: a sphere without a tolerance of ours
+        assert any(text.startswith("SØ") for text in texts)
+        return
+    race_text = f"Ø{2 * one['autobalancer']['race_radius_mm']:.3f}".rstrip("0").rstrip(".") + " ±0.1"
+    assert any(text.startswith(race_text) for text in texts)
+    assert section["race_tolerance_mm"] == 0.05 and section["groove_tolerance_mm"] == 0.2
     assert any(text.endswith("±0.2") for text in texts) == (one["autobalancer"]["groove_radius_mm"] is not None)
-    every = " ".join([*texts, *(each.dxf.text for each in document(name).modelspace().query("TEXT"))])
-    assert any(text.startswith("Ø") and " H6" in text for text in texts)
     if section["bore_limits_um"] is not None:
+        every = " ".join(each.dxf.text for each in document(name).modelspace().query("DIMENSION TEXT"))
         low, high = section["bore_limits_um"]
-        assert f"(+{high / 1000:g} / {low:g})" in every
+        assert f"(+{high / 1000:g} / {low:g})" in every and section["bore_class"] in every
+    frames = [each.dxf.content for each in space.query("TOLERANCE")]
+    assert f"{{\\Fgdt;e}}%%v{section['circularity_um'] / 1000:g}" in frames
 
 
 @pytest.mark.parametrize("name", MACHINES)

@@ -1,0 +1,205 @@
+"""The fit: recorded starts in the frame of the imbalance, banks about the likeliest point, intervals, values."""
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.features.identification.bank import WIDE, Box, bank_of, simulated_track
+from abu_calc.features.identification.estimate import (
+    Best,
+    Features,
+    Regression,
+    TrackReading,
+    end_of,
+    inside,
+    narrowed,
+)
+from abu_calc.features.identification.results import IdentifiedValue
+from abu_calc.features.identification.tracks import (
+    RecordedStart,
+    Track,
+)
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.progress import Progress, within
+from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+
+MANY, FEW = 2048, 1024
+"""Starts of the first bank, and of each narrower one."""
+LEVERS: Final = (0.3, 1.4, 6.5, 30.0)
+"""Lever arms [µm] between ranges that are tried each for itself."""
+ROUNDS: Final = 5
+"""Narrower banks, at most."""
+SETS: Final = 40
+"""Sets of starts that are simulated at the estimate, for intervals and goodness of fit."""
+COVERED: Final = 0.95
+LEAST_DROP, MOST_DROP = 1.92, 12.0
+"""Drops of the logarithmic likelihood at the ends of an interval: χ² of one freedom, and where a calibration stops."""
+SURE_UM: Final = 0.3
+"""Half of the narrowest interval of the eccentricity [µm]: with a mark, machines of known values came out 0.16 µm off
+in the median, more than their starts scatter."""
+UNSURE_UM: Final = 8.0
+"""Half of the interval of a component of the eccentricity [µm] above which none is given."""
+NAMES: Final = ("drag rate", "lever arm", "eccentricity", "eccentricity")
+"""Names of the unknowns."""
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """All recorded starts in the frame of the imbalance, without the background."""
+
+    starts: tuple[RecordedStart, ...]
+    tracks: tuple[Track, ...]
+    reading: TrackReading
+    background: complex | None
+
+    @property
+    def features(self) -> Features:
+        """Features of every start."""
+        return np.array([self.reading.features(track) for track in self.tracks])
+
+    @property
+    def end_error(self) -> float:
+        """Standard error of a component of the mean end [µm]."""
+        ends = np.array([end_of(track) for track in self.tracks]) * 1e6
+        return float(np.sqrt(np.mean(np.abs(ends - ends.mean()) ** 2) / 2)) / math.sqrt(max(len(ends) - 1, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """The likeliest point, ends of its intervals, and the share of simulated sets that fit worse."""
+
+    best: Best
+    box: Box
+    intervals: tuple[tuple[float, float], ...]
+    end_error: float
+    fits_worse: float
+    amplitude_off: float
+    """Difference of the amplitudes at the start from those simulated, in standard errors."""
+    amplitude_ratio: float
+    simulated: int
+
+    @property
+    def offset_error(self) -> float:
+        """Half of the widest interval of a component of the eccentricity [µm]; infinite without a mark.
+
+        The interval is no narrower than two standard errors of the mean end: a likelihood may trust its prior.
+        """
+        halves = [(high - low) / 2 for low, high in self.intervals[2:]]
+        return max(SURE_UM, 2 * self.end_error, *halves) if halves else math.inf
+
+    @property
+    def offset_allowed(self) -> float:
+        """Largest `offset_error` [µm] with which an eccentricity is given: one that may be none has no direction."""
+        return min(UNSURE_UM, math.hypot(*self.best.point[2:]))
+
+    def at_the_edge(self, *, marked: bool) -> tuple[str, ...]:
+        """Names of the values at the edge of what was simulated."""
+        wide, narrow = WIDE.place(self.best.point), self.box.place(self.best.point)
+        places = zip(NAMES if marked else NAMES[:2], wide, narrow, strict=False)
+        return tuple(dict.fromkeys(name for name, *both in places if not all(0.01 < place < 0.99 for place in both)))
+
+
+def without_balls(scene: Scene) -> complex:
+    """Place of the axis in the rotor's frame [m] without balls, as a sensor along x tells it."""
+    moved = scene.support.small_motion(scene.speed).receptance(scene.speed)
+    return complex(moved[0, 0] * scene.imbalance * scene.speed**2)
+
+
+def horizontal(scene: Scene) -> bool:
+    """True if the spindle is horizontal: gravity acts in the plane of the race."""
+    return scene.effect("gravity") is not None
+
+
+def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
+    """The likeliest values, their intervals, and how well simulated sets fit."""
+    features, centres, box = measured.features, measured.reading.centres, WIDE
+    regression = Regression(bank_of(scene, box, MANY, centres, within(progress, "wide")), measured.reading)
+    best, simulated = _begun(scene, measured, regression, progress), MANY + (len(LEVERS) - 1) * FEW // 2
+    parts = (0, 1, 2, 3) if measured.reading.marked else (0, 1)
+    for _ in range(ROUNDS):
+        box = narrowed(best, measured.end_error)
+        regression = Regression(bank_of(scene, box, FEW, centres, within(progress, "narrow")), measured.reading)
+        best, simulated = regression.best(features), simulated + FEW
+        if inside(best, box, parts):
+            break
+    progress("intervals")
+    sets = list(_sets(scene, measured, best))
+    fits = [regression.best(each, begin=best.point) for each in sets]
+    drops = [_drop(regression, each, fit, best, parts) for each, fit in zip(sets, fits, strict=True)]
+    intervals = [
+        regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), LEAST_DROP, MOST_DROP)))
+        for part, column in zip(parts, np.array(drops).T, strict=True)
+    ]
+    means, deviations = regression.distribution(best.point)
+    amplitudes = (features[:, -1] - means[0, -1]) / deviations[0, -1]
+    return Estimate(
+        best,
+        box,
+        tuple(intervals),
+        measured.end_error,
+        float(np.mean([fit.value < best.value for fit in fits])),
+        float(np.mean(amplitudes)) * math.sqrt(len(features)),
+        float(np.mean(features[:, -1]) / means[0, -1]),
+        simulated + SETS * len(features),
+    )
+
+
+def _begun(scene: Scene, measured: Measured, wide: Regression, progress: Progress) -> Best:
+    """The best of several ranges of the lever arm, each judged by a bank of its own: the wide regression is rough."""
+    features, ends = measured.features, list[Best]()
+    for number, (low, high) in enumerate(pairwise(LEVERS)):
+        part = Box(WIDE.low.copy(), WIDE.high.copy())
+        part.low[1], part.high[1] = math.log(low), math.log(high)
+        box = narrowed(wide.best(features, part=part), measured.end_error)
+        share = within(progress, f"range {number + 1} of {len(LEVERS) - 1}")
+        regression = Regression(bank_of(scene, box, FEW // 2, measured.reading.centres, share), measured.reading)
+        ends.append(regression.best(features))
+    return max(ends, key=lambda best: best.value)
+
+
+def _sets(scene: Scene, measured: Measured, best: Best) -> Iterator[Features]:
+    """Features of whole sets of starts, simulated at the estimate."""
+    count, reading = len(measured.tracks), measured.reading
+    for number in range(SETS):
+        seeds = range(10_000 + number * count, 10_000 + (number + 1) * count)
+        tracks = [simulated_track(scene, best.point, reading.centres, seed) for seed in seeds]
+        kept = np.array([track for track in tracks if track is not None])
+        if len(kept) == count:
+            yield np.array([reading.features(track) for track in reading.noisy(kept, number)])
+
+
+def _drop(regression: Regression, features: Features, fit: Best, truth: Best, parts: Sequence[int]) -> list[float]:
+    """Fall of the profile from its best to the truth, for each unknown."""
+    return [fit.value - regression.best(features, (part, float(truth.point[part])), fit.point).value for part in parts]
+
+
+Values = tuple[IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None]
+"""Drag rate [1/s], lever arm [mm], eccentricity [mm] and its angle [deg]."""
+
+
+def identified_values(measured: Measured, estimate: Estimate, mark_angle: float) -> Values:
+    """The values that are known."""
+    marked = measured.reading.marked
+    edge = estimate.at_the_edge(marked=marked)
+    ends = [np.exp(interval) for interval in estimate.intervals[:2]]
+    drag, friction = (
+        IdentifiedValue(value=float(value) * unit, low=float(low) * unit, high=float(high) * unit)
+        for value, (low, high), unit in zip(np.exp(estimate.best.point[:2]), ends, (1.0, 1e-3), strict=True)
+    )
+    known = marked and NAMES[2] not in edge and estimate.offset_error <= estimate.offset_allowed
+    eccentricity, angle = _offset(estimate, measured.reading.phase_error, mark_angle) if known else (None, None)
+    return None if NAMES[0] in edge else drag, None if NAMES[1] in edge else friction, eccentricity, angle
+
+
+def _offset(estimate: Estimate, phase_error: float, mark_angle: float) -> tuple[IdentifiedValue, IdentifiedValue]:
+    """Magnitude [mm] and angle from the mark [deg], with intervals from those of the components and of the mark."""
+    x, y = (float(value) for value in estimate.best.point[2:])
+    size, half = math.hypot(x, y), estimate.offset_error
+    spread = from_si(math.asin(min(1.0, half / size)) + phase_error, "deg")
+    length = IdentifiedValue(value=size * 1e-3, low=(size - half) * 1e-3, high=(size + half) * 1e-3)
+    angle = wrapped_deg(math.atan2(y, x) - to_si(mark_angle, "deg"))
+    return length, IdentifiedValue(value=angle, low=angle - spread, high=angle + spread)

@@ -1,0 +1,1 @@
+"""Solids of revolution and their assembly, and the STEP file that CAD programs read them from."""

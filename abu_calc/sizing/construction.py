@@ -1,0 +1,98 @@
+"""Step 11: the construction: parts to make, closure, fastening, seat of the race ring, with their checks."""
+
+from abu_calc.foundation.checks import Action, Check
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
+from abu_calc.foundation.units import from_si
+from abu_calc.sizing import trials
+from abu_calc.sizing.actions import followed, pins, set_action
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.bearing_ring import ring_check
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.closure import (
+    BURST_RATIO,
+    PROOF_SHARE,
+    burst_check,
+    burst_ratio,
+    containment_check,
+    filling_check,
+    filling_gap_of,
+    overspeed_check,
+    overspeed_stress,
+)
+from abu_calc.sizing.cover import Cover, choose_cover, cover_check
+from abu_calc.sizing.eccentricity import EccentricitySplit
+from abu_calc.sizing.fastening import torque_check
+from abu_calc.sizing.housing import LEAST_FILLING
+from abu_calc.sizing.parts.demands import with_surfaces
+from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
+from abu_calc.sizing.race_quality import RaceQuality, race_quality
+from abu_calc.sizing.ring_seat import RingSeat, ring_seat, seat_check
+from abu_calc.sizing.trials import TriedRequirement
+
+
+@dataclass(frozen=True)
+class Construction:
+    """Parts with the demands on their surfaces, hold of the cover, seat of the race ring, checks."""
+
+    parts: HousingParts
+    quality: RaceQuality
+    cover: Cover
+    seat: RingSeat | None
+    checks: tuple[Check, ...]
+
+
+def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Construction:
+    """The construction of a candidate at the highest speed."""
+    parts, top = housing_parts(case, candidate), case.speed_range[1]
+    force, quality = candidate.strength.ball_force, race_quality(case, candidate)
+    closed, seat = choose_cover(case, parts, force, top), ring_seat(case, parts, force, top)
+
+    def roomier() -> Action:
+        required = TriedRequirement("the gap beside a ball", "mm", _gap_mm, lambda *_: from_si(LEAST_FILLING, "mm"),
+                                    lambda _, other: other.fillable)  # fmt: skip
+        return trials.remedy(case, candidate, trials.more_room(case), required)
+
+    def stronger() -> Action:
+        ratio = TriedRequirement("the burst ratio", "", _burst, lambda *_: BURST_RATIO, _strong)
+        return trials.remedy(case, candidate, trials.stronger(case), ratio)
+
+    checks = (
+        filling_check(parts, roomier),
+        overspeed_check(parts, force, top, stronger),
+        cover_check(parts, closed, lambda: _screwed(case, candidate, closed)),
+        torque_check(case, parts, split.fit),
+        burst_check(parts, force, top, stronger),
+        containment_check(case, parts, top),
+        *seat_check(case, parts, seat),
+        *ring_check(case, candidate.race_radius),
+    )
+    return Construction(with_surfaces(parts, split, quality, closed, seat), quality, closed, seat, checks)
+
+
+def _gap_mm(case: Case, candidate: Candidate) -> float:
+    return from_si(filling_gap_of(housing_parts(case, candidate)), "mm")
+
+
+def _burst(case: Case, candidate: Candidate) -> float:
+    return burst_ratio(housing_parts(case, candidate), candidate.strength.ball_force, case.speed_range[1])
+
+
+def _strong(case: Case, candidate: Candidate) -> bool:
+    """True if stress at overspeed and burst speed both hold."""
+    parts, force, top = housing_parts(case, candidate), candidate.strength.ball_force, case.speed_range[1]
+    _, stress, material = overspeed_stress(parts, force, top)
+    return stress <= PROOF_SHARE * material.strength and _burst(case, candidate) >= BURST_RATIO
+
+
+def _screwed(case: Case, candidate: Candidate, hold: Cover) -> Action:
+    """A screwed cover, if it holds with the same balls and the residual displacement stays permitted."""
+    changed = {"autobalancer.closure": "screwed"}
+    after = followed(case, {**changed, **pins(candidate)}) if case.autobalancer.closure == "pressed" else None
+    if after is not None and after.candidate.budget.within:
+        force, top = after.candidate.strength.ball_force, after.case.speed_range[1]
+        other = choose_cover(after.case, housing_parts(after.case, after.candidate), force, top)
+        if other.holds:
+            moved = Moved("the axial force that the cover holds", hold.held, other.held, "N", other.needed)
+            return set_action(changed, after.candidate, moved)
+    return Action("Narrow autobalancer.temperature_range_C, or specify another design.")

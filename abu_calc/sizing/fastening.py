@@ -1,0 +1,170 @@
+"""Fastening of the housing on the spindle: the torque that it carries before it slips, and the one it needs."""
+
+import math
+from typing import Final
+
+from abu_calc.formulas.press_fit import (
+    ASSEMBLY_TEMPERATURE,
+    FRICTION,
+    MATERIALS,
+    STEEL_RING,
+    Ring,
+    contact_pressure,
+    fit_torque,
+    interference_left,
+    outer_hoop,
+    spin_growth,
+)
+from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.moved import Moved
+from abu_calc.foundation.units import from_si
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.closure import OVERSPEED, PROOF_SHARE
+from abu_calc.sizing.housing import RULES, HousingDimensions
+from abu_calc.sizing.parts.housing_parts import HousingParts
+from abu_calc.sizing.spindle_fit import Fit
+
+SLIP_FACTOR: Final = 2.0
+"""Least slip torque over the torque that is needed (assumed)."""
+RUN_UP: Final = 1.0
+"""Time to full speed if the file has no [run_up] [s], its default."""
+
+
+def bore_growth(case: Case, size: HousingDimensions) -> float:
+    """What the bore outgrows the spindle by in diameter [m]: at the highest temperature and overspeed, at least 0."""
+    body = MATERIALS[RULES[case.autobalancer.design].body_density]
+    warmer = case.autobalancer.temperature_range_C[1] - ASSEMBLY_TEMPERATURE
+    thermal = (body.expansion - STEEL_RING.expansion) * 2 * size.bore_radius * warmer
+    disc = Ring(size.bore_radius, size.outer_radius, body)
+    return max(0.0, thermal) + 2 * spin_growth(disc, case.speed_range[1], False)
+
+
+@formula(
+    "Torque that the fastening must carry",
+    "T_n = J_a·Ω/t_u; flanges also J_w·Ω/t_u + P_m/Ω",
+    "N m",
+    signs="J_a J_w t_u P_m Ω",
+    where=(
+        "J_a is the polar inertia of housing and balls, J_w that of the wheel as a disc, t_u the time of the run-up "
+        "and P_m the power of the motor, at the rated speed."
+    ),
+    assumed="a steady run-up; jamming of the wheel is not covered but by the factor of 2",
+    source="derived",
+)
+def needed_torque(case: Case, inertia: float) -> float:
+    run_up = case.table.run_up.time_s if case.table.run_up is not None else RUN_UP
+    torque = inertia * case.speed_range[1] / run_up
+    if case.autobalancer.fastening == "flange":
+        wheel = case.table.wheel.mass_kg * case.wheel_radius**2 / 2
+        torque += wheel * case.speed_range[1] / run_up + (case.table.machine.power_W or 0.0) / case.speed
+    return torque
+
+
+@formula(
+    "Slip torque of a housing that a nut clamps",
+    "2·μ_f·F_n·r_e, r_e = (2/3)·(R_h³ − R_b³)/(R_h² − R_b²)",
+    "N m",
+    signs="F_n r_e R_h R_b",
+    where="Both faces of the hub drive; R_b and R_h are the radii of bore and hub.",
+    assumed="even pressure on the hub's faces, friction 0.12",
+    source="textbook (plate clutch)",
+)
+def clamped_torque(clamp_force: float, bore_radius: float, hub_radius: float) -> float:
+    """
+    >>> round(clamped_torque(8000.0, 10e-3, 12.5e-3), 2)
+    21.69
+    """
+    mean = 2 / 3 * (hub_radius**3 - bore_radius**3) / (hub_radius**2 - bore_radius**2)
+    return 2 * FRICTION * clamp_force * mean
+
+
+def shrunk_torque(case: Case, size: HousingDimensions, fit: Fit) -> float:
+    """Least slip torque [N m] of a fit, over the temperatures, at rest and at overspeed; the hub alone holds."""
+    hub, spindle = _hub(case, size), Ring(0.0, size.bore_radius, STEEL_RING)
+    disc = Ring(size.bore_radius, size.outer_radius, hub.material)
+    left = min(
+        interference_left(fit.loosest, spindle, disc, temperature, speed)
+        for temperature in case.autobalancer.temperature_range_C
+        for speed in (0.0, OVERSPEED * case.speed_range[1])
+    )
+    return fit_torque(contact_pressure(left, spindle, hub), size.bore_radius, size.width)
+
+
+def shrunk_stress(case: Case, size: HousingDimensions, fit: Fit) -> float:
+    """Largest hoop stress [Pa] of the hub by the largest interference, over the temperatures, at rest."""
+    hub, spindle = _hub(case, size), Ring(0.0, size.bore_radius, STEEL_RING)
+    most = max(
+        interference_left(fit.tightest, spindle, hub, temperature, 0.0)
+        for temperature in (*case.autobalancer.temperature_range_C, ASSEMBLY_TEMPERATURE)
+    )
+    return outer_hoop(contact_pressure(most, spindle, hub), hub)
+
+
+def _hub(case: Case, size: HousingDimensions) -> Ring:
+    return Ring(size.bore_radius, size.hub_radius, MATERIALS[RULES[case.autobalancer.design].body_density])
+
+
+def whole_inertia(parts: HousingParts) -> float:
+    """Polar inertia of housing and balls [kg m²]."""
+    balls = parts.balls
+    return sum(part.inertia for part in parts.turned) + balls.count * balls.mass * balls.pitch_radius**2
+
+
+def torque_check(case: Case, parts: HousingParts, fit: Fit | None) -> Check:
+    """Check of the slip torque; not evaluated where clamp force, power or fit are missing."""
+    needed = SLIP_FACTOR * needed_torque(case, whole_inertia(parts))
+    size, fastening = parts.dimensions, case.autobalancer.fastening
+    if fastening == "shrunk":
+        return _shrunk_check(case, size, fit, needed)
+    if fastening == "flange" and case.table.machine.power_W is None:
+        return _missing("machine.power_W is not given, whose torque the flange must carry", None)
+    force = case.autobalancer.clamp_force_N
+    what = "flange" if fastening == "flange" else "housing"
+    if force is None:
+        least = needed / clamped_torque(1.0, size.bore_radius, size.hub_radius)
+        return _missing(f"autobalancer.clamp_force_N is not given. The nut must clamp the {what} with {least:.3g} N "
+                        "for twice the torque of the run-up", needed)  # fmt: skip
+    held = clamped_torque(force, size.bore_radius, size.hub_radius)
+    pressure = force / (math.pi * (size.hub_radius**2 - size.bore_radius**2))
+    permitted = PROOF_SHARE * _hub(case, size).material.strength
+    message = f"Slip torque of the clamped {what}, against twice the torque of the run-up"
+    if pressure > permitted:
+        message += (f". The nut crushes the hub: {from_si(pressure, 'MPa'):.3g} MPa, permitted "
+                    f"{from_si(permitted, 'MPa'):.3g} MPa")  # fmt: skip
+    passed = held >= needed and pressure <= permitted
+    action = None if passed else _other_force(held, needed, force, permitted / pressure)
+    return coded("ABU308", verdict(passed), message, held, needed, "N·m", action, "least")
+
+
+def _other_force(held: float, needed: float, force: float, room: float) -> Action:
+    """The force of two digits that carries the torque and does not crush the hub, if there is one."""
+    least = force * needed / held
+    digits = 1 - math.floor(math.log10(least))
+    wanted = math.ceil(least * 10.0**digits) / 10.0**digits
+    if wanted > force * room:
+        return Action("Enlarge the hub: reduce the torque, or specify a larger bore.")
+    moved = Moved("the slip torque", held, held * wanted / force, "N·m", needed)
+    return Action(f"Set clamp_force_N = {wanted:g}: {moved.text} (calculated).",
+                  (f"autobalancer.clamp_force_N={wanted:g}",))  # fmt: skip
+
+
+def _missing(reason: str, needed: float | None) -> Check:
+    remedy = "Specify autobalancer.clamp_force_N." if "clamp_force" in reason else "Specify machine.power_W."
+    return coded("ABU308", "not-done", reason, None, needed, "N·m", remedy, "least", requested=False)
+
+
+def _shrunk_check(case: Case, size: HousingDimensions, fit: Fit | None, needed: float) -> Check:
+    if fit is None:
+        return coded("ABU308", "not-done", "No interference fit of ISO 286 is tabulated for this bore", None, needed,
+                     "N·m", 'Specify autobalancer.fastening = "clamped".', "least")  # fmt: skip
+    held, stress = shrunk_torque(case, size, fit), shrunk_stress(case, size, fit)
+    permitted = PROOF_SHARE * _hub(case, size).material.strength
+    passed = held >= needed and stress <= permitted
+    message = (
+        f"Slip torque of the shrunk housing ({fit.named}), least over the temperatures at 1.2 × the highest speed, "
+        f"against twice the torque of the run-up. Hub: {from_si(stress, 'MPa'):.3g} MPa, permitted "
+        f"{from_si(permitted, 'MPa'):.3g} MPa"
+    )
+    return coded("ABU308", verdict(passed), message, held, needed, "N·m",
+                 None if passed else 'Specify autobalancer.fastening = "clamped".', "least")  # fmt: skip

@@ -1,0 +1,63 @@
+"""Boundaries of solids of revolution: closed, oriented, each face on the surface that its edge sweeps."""
+
+import re
+from collections import Counter
+
+import pytest
+from hypothesis import given, settings
+
+from abu_calc.reporting.solids.assembly import RevolvedSolid, ball_profile
+from abu_calc.reporting.solids.boundary import solid_entity
+from abu_calc.reporting.solids.entities import EntityFile
+from tests.reporting.solids.profiles import turned_solids
+
+
+def written(part: RevolvedSolid) -> list[str]:
+    file = EntityFile()
+    solid_entity(file, part)
+    return list(file.lines())
+
+
+def surfaces(part: RevolvedSolid) -> Counter[str]:
+    """Kinds of surface under the faces."""
+    lines = dict(re.fullmatch(r"(#\d+)=(.*);", line).groups() for line in written(part))  # type: ignore[union-attr]
+    faces = [text for text in lines.values() if text.startswith("ADVANCED_FACE")]
+    under = (lines[re.search(r"\),(#\d+),\.[TF]\.\)$", face)[1]] for face in faces)  # type: ignore[index]
+    return Counter(text.partition("(")[0] for text in under)
+
+
+@settings(deadline=None)
+@given(turned_solids())
+def test_each_edge_is_used_twice_in_opposite_senses(part: RevolvedSolid) -> None:
+    """So the shell is closed and oriented; with its vertices and faces it is a sphere, or a torus with a bore."""
+    lines = written(part)
+    oriented = re.compile(r"ORIENTED_EDGE\('',\*,\*,(#\d+),(\.[TF]\.)")
+    uses = Counter(match.groups() for line in lines if (match := oriented.search(line)))
+    edges = [line.partition("=")[0] for line in lines if "=EDGE_CURVE(" in line]
+    assert set(uses.values()) == {1} and set(uses) == {(edge, sense) for edge in edges for sense in (".T.", ".F.")}
+    vertices = sum("=VERTEX_POINT(" in line for line in lines)
+    faces, loops = sum("=ADVANCED_FACE(" in line for line in lines), sum("=EDGE_LOOP(" in line for line in lines)
+    holes = 0 if any(r == 0 for _, r, _ in part.profile) else 1
+    assert vertices - len(edges) + faces - (loops - faces) == 2 * (1 - holes)
+
+
+@pytest.mark.parametrize(
+    ("profile", "kinds"),
+    [
+        (ball_profile(8.0), {"SPHERICAL_SURFACE": 2}),
+        (((0, 2, 0), (5, 2, 0), (5, 4, 0), (0, 4, 0)), {"CYLINDRICAL_SURFACE": 4, "PLANE": 2}),
+        (((0, 0, 0), (6, 0, 0), (0, 4, 0)), {"CONICAL_SURFACE": 2, "PLANE": 1}),
+        (((-1, 5, 1.0), (1, 5, 1.0)), {"TOROIDAL_SURFACE": 4}),
+        # A groove in a ring whose radius is larger than the distance of its centre from the axis.
+        (((0, 11, -0.1), (4, 11, 0), (4, 14, 0), (0, 14, 0)), {"DEGENERATE_TOROIDAL_SURFACE": 2, "PLANE": 2,
+                                                           "CYLINDRICAL_SURFACE": 2}),
+    ],
+)  # fmt: skip
+def test_edges_sweep_their_surfaces(profile: tuple[tuple[float, float, float], ...], kinds: dict[str, int]) -> None:
+    assert surfaces(RevolvedSolid("part", profile, "steel", 7800.0)) == kinds
+
+
+def test_an_arc_about_a_centre_below_the_axis_is_refused() -> None:
+    lens = RevolvedSolid("lens", ((0, 2, 0), (8, 2, 0.1)), "steel", 7800.0)
+    with pytest.raises(ValueError, match="lens: an arc has its centre below the axis"):
+        written(lens)
