@@ -20,10 +20,10 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.housing import RULES, HousingDimensions
+from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
+from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.housing_parts import HousingParts
-from abu_calc.sizing.spindle_fit import Fit
 
 SLIP_FACTOR: Final = 2.0
 """Least slip torque over the torque that is needed (assumed)."""

@@ -8,8 +8,8 @@ from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import candidates
-from abu_calc.sizing.closure import burst_ratio
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.manufacture.closure import burst_ratio
 
 
 def sized(*overrides: str) -> Design:
