@@ -116,6 +116,16 @@ STEPS: Final[Mapping[str, Step]] = {
             "features.sweep.columns:drag_ratio",
         ),
     ),
+    "oil": Step(
+        "Drag of oil in the race",
+        (
+            "formulas.oil:viscosity_index",
+            "formulas.oil:oil_viscosity",
+            "formulas.oil:oil_depth",
+            "formulas.oil:rolling_drag_coefficient",
+            "formulas.oil:oil_drag_rate",
+        ),
+    ),
     "construction": Step(
         "Construction: parts, closure, fastening, ring",
         (
