@@ -38,9 +38,9 @@ IMBALANCE_SHARE: Final = 0.05
     "m",
     shown="um",
     where=(
-        "Δ_r is half the run-out of the race to the bore, Δ_f half the largest clearance of bore and spindle, Δ_s half "
-        "the run-out of the spindle's seat, and Δ_h the imbalance of the housing without balls per effective mass. The "
-        "rule is autobalancer.eccentricity_sum."
+        "Half the run-out of the race to the bore is Δ_r. Half the largest clearance of bore and spindle is Δ_f. Half "
+        "the run-out of the spindle's seat is Δ_s. The imbalance of the housing without balls per effective mass is "
+        "Δ_h. The rule is autobalancer.eccentricity_sum."
     ),
     assumed="worst case: all parts at their limit in one direction; rss: independent parts in random directions",
     source="derived",
