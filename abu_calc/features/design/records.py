@@ -18,14 +18,14 @@ from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
 from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import WHEEL_PLANE
-from abu_calc.sizing.cover import seat_name
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import hardness_text
-from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.manufacture.bearing_ring import ring_of
+from abu_calc.sizing.manufacture.cover import seat_name
+from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, get_args
 
 from abu_calc.features.optimise.costs import (
     COUNT,
@@ -11,12 +11,14 @@ from abu_calc.features.optimise.costs import (
     DRAG,
     ECCENTRICITY,
     FRICTION,
+    GRADE,
     HARDNESS,
     RADIUS,
     cost_of,
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si
+from abu_calc.inputs.oil import Grade
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.variation import NOT_OF_THE_MACHINE, Variation, path_of, variation
 from abu_calc.sizing.balls import Candidate, candidates, sound
@@ -31,11 +33,13 @@ SHARED: Final = {
     "balls": (DIAMETER,),
     "race": (RADIUS, ECCENTRICITY, FRICTION, HARDNESS),
     "housing": (DESIGN, RADIUS, DIAMETER),
-    "oil": (DRAG,),
+    "oil": (DRAG, GRADE),
 }
 """Keys that are equal in machines which share a part."""
 SIZED: Final = (COUNT, DIAMETER, RADIUS)
 """Keys that `abu size` fills in where nobody chooses them."""
+
+VISCOSITY_GRADES: Final[tuple[str, ...]] = get_args(Grade)
 
 Assignment = Mapping[str, Any]
 
@@ -151,7 +155,12 @@ def _usual_scatter(machine: Machine, grades: Sequence[float]) -> Iterator[Option
         yield _scaled(ECCENTRICITY, eccentricity, (0.5, 1.0, 2.0, 3.0), 10.0)
     if (friction := own.rolling_friction_mm) > 0:
         yield _scaled(FRICTION, friction, (0.5, 1.0, 2.0), 1.0)
-    if (drag := own.rolling_drag_per_s) > 0:
+    oil = machine.whole("optimise").oil
+    if oil is not None:
+        if oil.grade is not None and "rolling_drag_per_s" not in own.model_fields_set:
+            place = VISCOSITY_GRADES.index(oil.grade)
+            yield Option(GRADE, tuple({GRADE: grade} for grade in VISCOSITY_GRADES[max(place - 1, 0) : place + 3]))
+    elif (drag := own.rolling_drag_per_s) > 0:
         yield _scaled(DRAG, drag, grades, 1e5)
 
 

@@ -16,6 +16,7 @@ ABU: Final = "autobalancer."
 COUNT, DIAMETER, RADIUS = f"{ABU}ball_count", f"{ABU}ball_diameter_mm", f"{ABU}race_radius_mm"
 ECCENTRICITY, FRICTION, DRAG = f"{ABU}race_eccentricity_mm", f"{ABU}rolling_friction_mm", f"{ABU}rolling_drag_per_s"
 DESIGN, HARDNESS, RUN_UP = f"{ABU}design", f"{ABU}race_hardness_HRC", "run_up.time_s"
+GRADE = "oil.grade"
 
 Values = Mapping[str, Any]
 
@@ -50,6 +51,7 @@ DEFAULTS: Final[dict[str, DefaultCost]] = {
         "form: Chase and Greenwood 1988; factor assumed",
     ),
     DRAG: DefaultCost("0", lambda _: 0.0, "assumed: oils of all grades cost the same"),
+    GRADE: DefaultCost("0", lambda _: 0.0, "assumed: oils of all grades cost the same"),
     DESIGN: DefaultCost(
         "one-piece 0, bearing-ring −0.1, light +0.2",
         lambda v: {"one-piece": 0.0, "bearing-ring": -0.1, "light": 0.2}.get(str(v[DESIGN]), 0.0),

@@ -6,7 +6,7 @@ change that does not raise the share is not given.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, get_args
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from abu_calc.features.sweep.tolerance_costs import Compute, Trials
 from abu_calc.foundation.errors import AbuError, Place
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.oil import Grade
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.variation import Variation, variation
 from abu_calc.simulation.start_cases import RUN_UP
@@ -172,6 +173,13 @@ def _changes(design: Design, ask: SweepRequest, study: SweepStudy, failed: Seque
             elif value > 0:
                 goal = float(f"{min(factor * value, most):.3g}")
                 yield Change(f"{key} {value:g} → {goal:g}", {key: goal, **pins}, {})
+    oil = design.case.table.oil
+    if oil is not None and oil.grade is not None:
+        grades: tuple[str, ...] = get_args(Grade)
+        place = grades.index(oil.grade)
+        for other in (place - 2, place + 2):
+            if 0 <= other < len(grades):
+                yield Change(f"oil.grade {oil.grade} → {grades[other]}", {"oil.grade": grades[other], **pins}, {})
     yield from _other_balls(design)
     if (run_up := _run_up(design)) is not None:
         for factor in (0.5, 2.0):

@@ -141,3 +141,20 @@ def test_a_family_shares_balls_and_race(monkeypatch: pytest.MonkeyPatch) -> None
     for key in ("autobalancer.ball_diameter_mm", "autobalancer.race_radius_mm"):
         assert first[key] == second[key]
     assert result.share_parts == ("balls", "race")
+
+
+def test_a_file_with_oil_chooses_among_grades() -> None:
+    from abu_calc.features.optimise.choices import options_of
+    from abu_calc.foundation.errors import Place
+
+    oiled = abu_calc.read(PRESET)
+    content = dict(oiled.document.content)
+    content["autobalancer"] = {
+        key: value for key, value in content["autobalancer"].items() if key != "rolling_drag_per_s"
+    }
+    content["oil"] = {"grade": "VG 46", "fill_ml": 2.0}
+    machine = abu_calc.read(content)
+    options = options_of(machine, None, Place())
+    names = {option.name: [next(iter(value.values())) for value in option.values] for option in options}
+    assert names["oil.grade"] == ["VG 32", "VG 46", "VG 68", "VG 100"]
+    assert DRAG not in names

@@ -20,10 +20,10 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.housing import RULES, HousingDimensions
+from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
+from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.housing_parts import HousingParts
-from abu_calc.sizing.spindle_fit import Fit
 
 SLIP_FACTOR: Final = 2.0
 """Least slip torque over the torque that is needed (assumed)."""
@@ -46,8 +46,8 @@ def bore_growth(case: Case, size: HousingDimensions) -> float:
     "N m",
     signs="J_a J_w t_u P_m Ω",
     where=(
-        "J_a is the polar inertia of housing and balls, J_w that of the wheel as a disc, t_u the time of the run-up "
-        "and P_m the power of the motor, at the rated speed."
+        "J_a is the polar inertia of housing and balls, J_w that of the wheel as a disc. The run-up takes t_u. P_m is "
+        "the power of the motor at the rated speed."
     ),
     assumed="a steady run-up; jamming of the wheel is not covered but by the factor of 2",
     source="derived",

@@ -89,10 +89,9 @@ def overspeed_check(parts: HousingParts, force: float, top: float, action: Calla
     signs="σ_m A_p ρ Ω I_p n F",
     where=(
         "Each half of the housing pulls on the cut through the axis. A_p is the area of a part's half section, "
-        "I_p its second moment about the axis, σ_m its strength; all n balls lie on one side."
+        "I_p its second moment about the axis, σ_m its strength. All n balls lie on one side."
     ),
-    assumed="the section yields as a whole before it bursts (Robinson), at the yield strength; the ring of a housing "
-    "counts as a hard ring at the same strength",
+    assumed="the section yields as a whole before it bursts; a hard ring counts at the same strength",
     source="Robinson 1944 (mean hoop stress)",
 )
 def burst_ratio(parts: HousingParts, ball_force: float, speed: float) -> float:
