@@ -245,7 +245,7 @@ def balancing_resultants(races: Pair, imbalances: Sequence[PlacedImbalance]) -> 
     ),
     checked=("z₁ ≠ z₂",),
     assumed="a rigid rotor on bearings alike along x and y",
-    source="derived: r + z_i·Θ = −Δ_i",
+    source="derived: each race whirls about its own centre",
 )
 def eccentricity_resultants(rotor: TiltingRotor, races: Pair, eccentricities: ComplexPair, speed: float) -> ComplexPair:
     """
@@ -294,10 +294,8 @@ def worst_resultants(
 
 @formula(
     "Resultant that a share p of the phases between two imbalances stays below",
-    "V_p = √(A_V + |B_V|·cos(π·(1 − p)))",
+    "V_p = √(s_i1²·U_1² + s_i2²·U_2² + 2·|s_i1·s_i2|·U_1·U_2·cos(π·(1 − p)))",
     "kg m",
-    where="A_V = s_i1²·U_1² + s_i2²·U_2², B_V = 2·s_i1·s_i2·U_1·U_2 of race i.",
-    signs="s_ij U_j",
     checked=("share of phases",),
     assumed="the phase between both imbalances is uniform; no eccentricity",
     source="derived: law of cosines",
@@ -319,7 +317,7 @@ def resultant_quantile(sizes: Pair, share: float) -> float:
     "m",
     where="K_Σ and K_Θ: stiffness of translation and tilt. A race farther out drives the tilt.",
     assumed="bearings that do not couple translation and tilt; light damping",
-    source="derived: Re h_rr < 0",
+    source="derived: the receptance of the race is negative",
 )
 def one_race_limit(rotor: TiltingRotor, speed: float) -> float | None:
     """The limit to |z_r| [m]; None if the speed is not between a passed translation and a tilt ahead.

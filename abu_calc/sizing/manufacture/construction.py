@@ -61,9 +61,9 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
         filling_check(parts, roomier),
         overspeed_check(parts, force, top, stronger),
         cover_check(parts, closed, lambda: _screwed(case, candidate, closed)),
-        torque_check(case, parts, split.fit),
+        *torque_check(case, parts, split.fit),
         burst_check(parts, force, top, stronger),
-        containment_check(case, parts, top),
+        *containment_check(case, parts, top),
         *seat_check(case, parts, seat),
         *ring_check(case, candidate.race_radius),
     )

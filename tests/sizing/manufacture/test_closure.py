@@ -76,8 +76,7 @@ def test_the_pressed_cover_holds_less_cold_in_aluminium_and_a_thread_holds_more(
 
 def test_slip_torque_of_a_clamp_and_what_is_missing() -> None:
     """2·0.12·8000·(2/3)(12.5³ − 10³)/(12.5² − 10²) mm = 21.7 N·m."""
-    missing = check(sized(), "ABU308")
-    assert missing.status == "not-done" and not missing.requested
+    assert "ABU308" not in {each.code for each in sized().checks}
     assert check(sized("clamp_force_N=8000"), "ABU308").value == pytest.approx(21.69, abs=0.01)
     weak = check(sized("clamp_force_N=5"), "ABU308")
     assert (
@@ -94,7 +93,7 @@ def test_a_shrunk_steel_housing_carries_its_torque_and_an_aluminium_one_slips_wh
 
 
 def test_the_guard_is_judged_if_it_is_given() -> None:
-    assert check(sized(), "ABU310").status == "not-done"
+    assert "ABU310" not in {each.code for each in sized().checks}
     assert check(sized("guard_thickness_mm=2"), "ABU310").status == "pass"
     assert check(sized("guard_thickness_mm=0.01"), "ABU310").status == "fail"
 
