@@ -52,7 +52,7 @@ class Ring:
 def spin_stress(ring: Ring, speed: float) -> float:
     """
     >>> round(1e-6 * spin_stress(Ring(10e-3, 33.5e-3, STEEL_RING), 607.4), 2)
-    2.72
+    2.71
     """
     nu = ring.material.poisson
     return ring.material.density * speed**2 / 4 * ((3 + nu) * ring.outer**2 + (1 - nu) * ring.inner**2)

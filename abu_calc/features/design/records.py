@@ -358,6 +358,8 @@ class Eccentricity(Record):
     race_um: Annotated[float, Quantity("race to bore", "Δ_r", 3)]
     clearance_um: Annotated[float, Quantity("clearance of bore and spindle", "Δ_f", 3)]
     spindle_um: Annotated[float, Quantity("spindle", "Δ_s", 3)]
+    race_tir_um: Annotated[float, Quantity("run-out of the race as a gauge shows it", "TIR", 3)]
+    spindle_tir_um: Annotated[float, Quantity("run-out of the spindle as a gauge shows it", "TIR", 3)]
     housing_um: Annotated[float, Quantity("imbalance of the housing", "Δ_h", 3)]
     least_um: Annotated[float, Quantity("least attainable sum", "", 3)]
     bore_class: Annotated[str | None, Quantity("tolerance class of the bore")]
@@ -376,6 +378,8 @@ class Eccentricity(Record):
             race_um=_micrometres(split.race),
             clearance_um=_micrometres(split.clearance),
             spindle_um=_micrometres(split.spindle),
+            race_tir_um=_micrometres(2 * split.race),
+            spindle_tir_um=_micrometres(2 * split.spindle),
             housing_um=_micrometres(split.housing),
             least_um=_micrometres(split.least),
             bore_class=None if fit is None else fit.bore_class,
