@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from abu_calc.features.stability.study import StabilityResult, stability
     from abu_calc.features.sweep.result import SweepResult
     from abu_calc.features.sweep.study import sweep
+    from abu_calc.features.two_races.records import TwoRaceSizeResult
     from abu_calc.features.verify.study import VerifyResult, verify
     from abu_calc.foundation.checks import Check
     from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
@@ -123,6 +124,7 @@ _ROOMS: Final = {
     ),
     "features.sweep.result": ("SweepResult",),
     "features.sweep.study": ("sweep",),
+    "features.two_races.records": ("TwoRaceSizeResult",),
     "features.verify.study": (
         "VerifyResult",
         "verify",
@@ -179,6 +181,7 @@ __all__ = [
     "SizeResult",
     "StabilityResult",
     "SweepResult",
+    "TwoRaceSizeResult",
     "VerifyResult",
     "__version__",
     "accuracy",

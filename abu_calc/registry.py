@@ -70,7 +70,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "size",
         "design.command",
-        ("design.study:SizeResult",),
+        ("design.study:SizeResult", "two_races.records:TwoRaceSizeResult"),
         "design.figures:size_extras",
         figures=(
             Known("section", "", True),
@@ -343,14 +343,14 @@ def outcome_of(result: "Result") -> "Outcome":
 
 def save(result: "Result", path: "Path", *, force: bool) -> None:
     """Write a result as --output does; the suffix chooses the format. Raises OutputError, naming file and remedy."""
-    from abu_calc.reporting.files import DRAWN, FORMATS, as_file, check_extra
+    from abu_calc.reporting.files import DRAWN, FORMATS, as_file, check_extra, further_sheets
     from abu_calc.reporting.write import Target, check_target, write
 
     outcome, suffix = outcome_of(result), path.suffix.lower()
     try:
         check_target(path, force=force, suffixes=(*FORMATS, *(DRAWN if outcome.drawings else ())))
         check_extra(suffix)
-        write((Target(path, as_file(outcome, suffix)),), force=force)
+        write((Target(path, as_file(outcome, suffix)), *further_sheets(outcome, path)), force=force)
     except OutputError as error:
         error.remedy = error.remedy and error.remedy.replace("--force", "force=True")
         raise

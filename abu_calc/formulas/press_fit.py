@@ -52,7 +52,7 @@ class Ring:
 def spin_stress(ring: Ring, speed: float) -> float:
     """
     >>> round(1e-6 * spin_stress(Ring(10e-3, 33.5e-3, STEEL_RING), 607.4), 2)
-    2.72
+    2.71
     """
     nu = ring.material.poisson
     return ring.material.density * speed**2 / 4 * ((3 + nu) * ring.outer**2 + (1 - nu) * ring.inner**2)
@@ -73,8 +73,8 @@ def spin_growth(ring: Ring, speed: float, at_outside: bool) -> float:
     "m",
     shown="um",
     where=(
-        "I_0 is the interference of the sizes at 20 °C and I_z what is lost by smoothing of the surfaces. ΔT_f is the "
-        "temperature above 20 °C; u_o and u_i are the radial growths of both rings by their own rotation."
+        "I_0 is the interference of the sizes at 20 °C. I_z is lost by smoothing of the surfaces. The temperature is "
+        "ΔT_f above 20 °C. Both rings grow by their own rotation, by u_o and u_i in radius."
     ),
     assumed="both rings at one temperature",
     source="thermal expansion; Timoshenko; DIN 7190-1 (smoothing)",

@@ -27,7 +27,9 @@ SI_NAMES: Final = {
 """SI unit of quantities that files give in another unit."""
 IN_FILES: Final = {"m": "mm", "kg m": "g_mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m/s": "mm_per_s"}
 """The inverse: unit of numbers in results."""
-FUNCTIONS: Final = "sin cos tan arcsin arccos arctan lg ln exp Re Im arg min max det e^ dε ds_w dx_s π Σ ᵀ °C MPa mm"
+FUNCTIONS: Final = (
+    "sin cos tan arcsin arccos arctan lg ln exp Re Im arg min max det e^ dε ds_w dx_s dz_o π Σ ᵀ °C MPa mm"
+)
 SHORT: Final = "at of by to so in an or and i j k"
 """Short words, the imaginary unit, indices."""
 WORDS: Final = frozenset(f"{FUNCTIONS} {SHORT}".split())

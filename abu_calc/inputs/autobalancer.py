@@ -95,9 +95,9 @@ class Autobalancer(Table):
     )
     eccentricity_sum: Literal["worst-case", "rss"] = Field(
         default="worst-case",
-        description="Rule by which the drawing's parts of the eccentricity (race run-out, fit, spindle run-out, "
-        "housing imbalance) add up to race_eccentricity_mm: worst-case or rss (root of the sum of squares). Default: "
-        "{default}.",
+        description="Rule by which the drawing's parts of the eccentricity add up to race_eccentricity_mm: worst-case "
+        "or rss (root of the sum of squares). The parts are race run-out, fit, spindle run-out, housing imbalance. "
+        "Default: {default}.",
     )
     closure: Literal["pressed", "screwed"] = Field(
         default="pressed",

@@ -25,6 +25,7 @@ from abu_calc.inputs.reading.overrides import Override
 
 if TYPE_CHECKING:
     from abu_calc.inputs.machine import MachineFile
+    from abu_calc.inputs.two_races import TwoRaceFile
 
 
 def read_file(source: str, overrides: Sequence[str] = ()) -> FileReading:
@@ -50,7 +51,7 @@ class Machine(FileReading):
 
     __repr__ = FileReading.__repr__
 
-    tables: "MachineFile | BearingFile"
+    tables: "MachineFile | BearingFile | TwoRaceFile"
 
     @property
     def title(self) -> str:
@@ -65,6 +66,11 @@ class Machine(FileReading):
         from abu_calc.inputs.reading.overrides import following, overrides_of
 
         return machine_from(self.document, following(self.overrides, overrides_of(values), _whole()))
+
+    @property
+    def two_races(self) -> "TwoRaceFile | None":
+        """The tables of a machine with two races; None for any other file."""
+        return self.tables if getattr(self.tables, "autobalancer", None).__class__ is tuple else None  # type: ignore[return-value]
 
     def to_toml(self) -> str:
         """The machine as TOML text: the file as it was read, or, with entries replaced, all entries that are in force.
@@ -83,9 +89,15 @@ class Machine(FileReading):
         return tomli_w.dumps({KEY: FORMAT, **content})
 
     def whole(self, command: str | None = None) -> "MachineFile":
-        """The tables of a whole machine; raises InputError, naming the command, for a file of bearings alone."""
+        """The tables of a machine with one race; raises InputError, naming the command, for any other file."""
+        if self.two_races is not None:
+            raise InputError(
+                "this file has two races, and this command knows one",
+                place=Place(self.file, key="autobalancer"),
+                remedy="`abu size`, `abu simulate`, `abu stability` and `abu compare` take it.",
+            )
         if not isinstance(self.tables, BearingFile):
-            return self.tables
+            return self.tables  # type: ignore[return-value]
         needs = "and this command needs a whole machine" if command else "not a whole machine"
         raise InputError(
             f"this file holds bearings only, {needs}",
@@ -130,8 +142,19 @@ def variant_of(machine: Machine, text: str) -> Machine:
     return machine_from(machine.document, following(machine.overrides, parse_variant(text), _whole()))
 
 
-def _model(content: Mapping[str, object]) -> "type[MachineFile] | type[BearingFile]":
-    return BearingFile if _bearings_alone(content) else _whole()
+def _model(content: Mapping[str, object]) -> "type[MachineFile] | type[BearingFile] | type[TwoRaceFile]":
+    if _bearings_alone(content):
+        return BearingFile
+    if _has_lists(content):
+        from abu_calc.inputs.two_races import TwoRaceFile
+
+        return TwoRaceFile
+    return _whole()
+
+
+def _has_lists(content: Mapping[str, object]) -> bool:
+    """True if wheels or autobalancers are lists of several."""
+    return any(isinstance(each := content.get(key), list) and len(each) > 1 for key in ("wheel", "autobalancer"))
 
 
 def _whole() -> "type[MachineFile]":

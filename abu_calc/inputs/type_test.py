@@ -42,7 +42,11 @@ class TypeTest(Table):
         Annotated[
             tuple[Angle, ...],
             Field(strict=False, min_length=1, max_length=360),
-            BeforeValidator(_even, json_schema_input_type=int | tuple[Angle, ...]),
+            BeforeValidator(
+                _even,
+                json_schema_input_type=Annotated[int, Field(ge=1, le=360)]
+                | Annotated[tuple[Angle, ...], Field(min_length=1, max_length=360)],
+            ),
         ]
         | None
     ) = Field(

@@ -134,7 +134,8 @@ class Result(Record):
         """Write the result as --output does, whole or not at all, and return the path; the ending is the format.
 
         .html page with figures · .json, .toml, .csv all numbers · .txt the whole report · of results with a drawing
-        also .svg and .dxf. `force`: over a file that is there. Raises OutputError, with the remedy, for an unknown
+        also .svg, .pdf and .dxf (further sheets beside it), of those with solids .step. `force`: over files that are
+        there. Raises OutputError, with the remedy, for an unknown
         ending, a file that exists, a folder that does not, and a package that is not installed.
         """
         target = Path(path)

@@ -11,12 +11,12 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.sizing.construction import construct
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
-from abu_calc.sizing.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.handles import body_bands, handle_checks
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
+from abu_calc.sizing.manufacture.construction import construct
+from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.oil import value_sources, with_oil
 from abu_calc.sizing.operating_speed import frequency_region, region_check
 from abu_calc.sizing.track import track, track_checks

@@ -12,7 +12,6 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.sizing.bearing_ring import fitting_rings, nearest_ring, pinned_ring, ring_of, sphere_band
 from abu_calc.sizing.budget import (
     CandidateBalls,
     ResidualBudget,
@@ -32,6 +31,7 @@ from abu_calc.sizing.housing import (
     least_race_radius,
     width,
 )
+from abu_calc.sizing.manufacture.bearing_ring import fitting_rings, nearest_ring, pinned_ring, ring_of, sphere_band
 from abu_calc.sizing.strength import Roundness, Strength, roundness, strength
 from abu_calc.standards.balls import material, stock_diameter, stock_diameters
 

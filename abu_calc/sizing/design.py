@@ -12,11 +12,11 @@ from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.sizing.construction import Construction
 from abu_calc.sizing.drawing_requirements import DrawingRequirement
-from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
+from abu_calc.sizing.manufacture.construction import Construction
+from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
 from abu_calc.sizing.oil import with_oil
 from abu_calc.sizing.operating_speed import FrequencyRegion, frequency_region
 from abu_calc.sizing.places import VibrationLevels

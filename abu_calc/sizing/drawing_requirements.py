@@ -10,13 +10,13 @@ from abu_calc.inputs.oil import oil_name
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.closure import filling_gap_of
-from abu_calc.sizing.construction import Construction
-from abu_calc.sizing.cover import seat_name
-from abu_calc.sizing.eccentricity import EccentricitySplit
+from abu_calc.sizing.manufacture.closure import filling_gap_of
+from abu_calc.sizing.manufacture.construction import Construction
+from abu_calc.sizing.manufacture.cover import seat_name
+from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
+from abu_calc.sizing.manufacture.race_quality import RaceQuality
+from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
-from abu_calc.sizing.race_quality import RaceQuality
-from abu_calc.sizing.spindle_fit import Fit
 from abu_calc.sizing.track import Track
 
 SOFT_ARM = to_si(10, "um")

@@ -9,9 +9,9 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.foundation.validity import Range
-from abu_calc.sizing.bearing_ring import race_groove, ring_of
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, GROOVE_CLEARANCE, RULES, STEEL
+from abu_calc.sizing.manufacture.bearing_ring import race_groove, ring_of
 from abu_calc.standards.balls import vickers
 
 STEEL_MODULUS = 208e9

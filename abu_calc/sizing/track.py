@@ -11,9 +11,9 @@ from abu_calc.foundation.units import GRAVITY, from_si
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import followed, pins, set_action, speeds_from
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.bearing_ring import race_groove
 from abu_calc.sizing.budget import ovality_residual, permitted_displacement
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.manufacture.bearing_ring import race_groove
 from abu_calc.sizing.trials import TriedRequirement
 
 LEAST_HARDNESS_HRC, GROUND_HARDNESS_HRC = 58.0, 60.0

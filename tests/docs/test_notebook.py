@@ -40,4 +40,4 @@ def test_every_cell_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
         if cell["cell_type"] == "code":
             exec(compile("".join(cell["source"]), cell["id"], "exec"), names)
     assert names["result"].status == "pass" and len(names["sweep"].members) == 60
-    assert {path.name for path in tmp_path.iterdir()} == {"design.html", "section.dxf", "section.svg"}
+    assert {path.name for path in tmp_path.iterdir()} >= {"design.html", "section.dxf", "section.svg"}

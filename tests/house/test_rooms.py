@@ -29,6 +29,7 @@ FEATURES = (
     "stability",
     "grinding",
     "design",
+    "two_races",
     "effects",
     "simulate",
     "levels",

@@ -86,9 +86,9 @@ def test_standstill_settles_later_than_bunched() -> None:
 
 
 def test_hands_are_not_chaotic() -> None:
-    """All starts balance in time; of the level only the closed worst arrangement of friction warns."""
+    """All starts balance in time; gravity leaves little of the friction, so that the level passes, too."""
     found = judged("hands-called-chaotic")
-    assert found == {"ABU401": "warn", "ABU701": "pass", "ABU702": "pass", "ABU704": "pass"}
+    assert found == {"ABU401": "pass", "ABU701": "pass", "ABU702": "pass", "ABU704": "pass"}
 
 
 def test_workers_change_nothing() -> None:

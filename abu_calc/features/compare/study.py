@@ -213,7 +213,7 @@ def _entries(result: SizeResult | CheckFitResult) -> Mapping[str, Any]:
 def _file(letter: str, machine: Machine, result: Result) -> ComparedFile:
     return ComparedFile(
         letter=letter,
-        file=machine.file,
+        file=machine.file or "text",
         title=machine.title,
         sha256=machine.sha256,
         overrides=as_plain({override.key: override.value for override in machine.overrides}),

@@ -8,6 +8,7 @@ import typer
 from abu_calc.cli.command import Machine, Overrides, add_command
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
+from abu_calc.registry import imported
 from abu_calc.reporting.blocks import Block
 from abu_calc.reporting.outcome import Outcome
 
@@ -32,13 +33,17 @@ def size(
     from abu_calc.features.design.study import size as study
     from abu_calc.inputs.read_machine import read_machine
 
+    source = read_machine(machine, set_ or ())
     with progress(how) as tell:
-        result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
+        result = study(source, accuracy, tell, os.cpu_count() or 1)
     return outcome_of(result, explain=explain)
 
 
 def outcome_of(result: "SizeResult", *, explain: bool = False) -> Outcome:
     """Outcome of a result: how it is shown and written; `explain`: with every formula."""
+    if hasattr(result, "autobalancers"):
+        outcome: Outcome = imported("two_races.view:two_race_outcome")(result)
+        return outcome
     short = None if explain else lambda: _screen(result)
     return Outcome.of(
         result, lambda: _blocks(result, explain), short, lambda: _drawings(result), lambda: _solids(result)

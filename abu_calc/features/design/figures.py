@@ -13,6 +13,7 @@ from abu_calc.features.design.summary import size_summary
 from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si
+from abu_calc.registry import imported
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
 from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, caught, level, settling
@@ -29,7 +30,13 @@ SUMS: Final = ("residual_um", "worst_um")
 
 
 def size_extras(result: SizeResult) -> Extras:
-    """Figures, calculation note and summary of a page; warnings stand in the summary if it has room for all."""
+    """Figures, calculation note and summary of a page; warnings stand in the summary if it has room for all.
+
+    A machine with two races has figures of its own.
+    """
+    if not isinstance(result, SizeResult):
+        two: Extras = imported("two_races.figures:two_race_extras")(result)
+        return two
     figures = (
         *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),
         *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),

@@ -49,11 +49,10 @@ class OilRecord(Record):
     fill_ml: Annotated[float, Quantity("fill", "V_o", 3)]
     depth_mm: Annotated[float, Quantity("depth of the ring of oil", "δ_o", 3)]
     wetted_share: Annotated[float, Quantity("depth over the diameter of a ball", "", 2, percent=True)]
-    slip_m_per_s: Annotated[float, Quantity("slip for which the rate is taken", "u_b", 3)]
+    slip_m_per_s: Annotated[float, Quantity("slip for which the rate is taken", "", 3)]
     uncertainty_factor: Annotated[float, Quantity("factor by which the rate is uncertain", "", 2)]
     overridden: Annotated[bool, Quantity("the file gives rolling_drag_per_s, which overrides the oil")]
-    source: str
-    """Where the drag rate comes from, in a sentence."""
+    source: Annotated[str, Quantity("source of the drag rate")]
     temperatures: tuple[OilAtTemperature, ...]
     fills: tuple[OilFill, ...]
 

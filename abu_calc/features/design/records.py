@@ -18,14 +18,14 @@ from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
 from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import WHEEL_PLANE
-from abu_calc.sizing.cover import seat_name
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import hardness_text
-from abu_calc.sizing.eccentricity import EccentricitySplit
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.manufacture.bearing_ring import ring_of
+from abu_calc.sizing.manufacture.cover import seat_name
+from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
@@ -358,6 +358,8 @@ class Eccentricity(Record):
     race_um: Annotated[float, Quantity("race to bore", "Δ_r", 3)]
     clearance_um: Annotated[float, Quantity("clearance of bore and spindle", "Δ_f", 3)]
     spindle_um: Annotated[float, Quantity("spindle", "Δ_s", 3)]
+    race_tir_um: Annotated[float, Quantity("run-out of the race as a gauge shows it", "TIR", 3)]
+    spindle_tir_um: Annotated[float, Quantity("run-out of the spindle as a gauge shows it", "TIR", 3)]
     housing_um: Annotated[float, Quantity("imbalance of the housing", "Δ_h", 3)]
     least_um: Annotated[float, Quantity("least attainable sum", "", 3)]
     bore_class: Annotated[str | None, Quantity("tolerance class of the bore")]
@@ -376,6 +378,8 @@ class Eccentricity(Record):
             race_um=_micrometres(split.race),
             clearance_um=_micrometres(split.clearance),
             spindle_um=_micrometres(split.spindle),
+            race_tir_um=_micrometres(2 * split.race),
+            spindle_tir_um=_micrometres(2 * split.spindle),
             housing_um=_micrometres(split.housing),
             least_um=_micrometres(split.least),
             bore_class=None if fit is None else fit.bore_class,

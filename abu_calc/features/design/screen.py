@@ -124,8 +124,8 @@ def _eccentricity(result: SizeResult) -> str:
     split = result.eccentricity
     fit = "no standard fit" if split.bore_class is None else f"{split.bore_class}/{split.spindle_class}"
     return (
-        f"{number(split.total_um, 3)} µm at most: race TIR {number(2 * split.race_um, 3)} µm, {fit}, spindle TIR "
-        f"{number(2 * split.spindle_um, 3)} µm"
+        f"{number(split.total_um, 3)} µm at most: race TIR {number(split.race_tir_um, 3)} µm, {fit}, spindle TIR "
+        f"{number(split.spindle_tir_um, 3)} µm"
     )
 
 

@@ -34,7 +34,7 @@ from abu_calc.features.grinding.work import Work, loaded_levels, work_of
 from abu_calc.features.seats.records import SeatResult, seat_results
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
 from abu_calc.foundation.checks import Check
-from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
@@ -43,6 +43,7 @@ from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
 from abu_calc.simulation.ensemble_checks import FULL, STARTS, ensemble_checks, level_check, not_simulated, unproven
@@ -223,7 +224,7 @@ def size(
     """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
 
     `workers`: how many starts run side by side, in threads; the result does not depend on it. None: one for each
-    processor.
+    processor. A machine with two races gets a `TwoRaceSizeResult`, whose `autobalancers` are both.
     `starts`: "full" simulates all start cases; "one", the first of them, and "none" are for loops over many machines:
     the design is the lightest one, and the checks that need the start cases fail or are not-done, but never pass.
     Raises InputError with file, line, key and remedy for what is wrong in the file.
@@ -231,6 +232,13 @@ def size(
     ACCURACY.check(accuracy)
     one_of("starts", starts, STARTS)
     WORKERS.check(1 if workers is None else workers)
+    if machine.two_races is not None:
+        if starts != FULL:
+            raise InputError(
+                "with two races all start cases are simulated", place=Place(key="starts"), found=starts, allowed=FULL
+            )
+        two: SizeResult = imported("two_races.study:size_two_races")(machine, accuracy, progress, workers)
+        return two
     tables = machine.whole("size")
     with machine.located():
         seats = _seats(tables)

@@ -27,6 +27,10 @@ RACE: Final = "Samples"
 """Panel of the options about samples."""
 
 
+SELDOM: Final = ("--accuracy", "--seed", "--runs", "--cluster", "--cluster-wait", "--force", "--quiet", "--no-color")
+"""Options that `--help` lists by name alone."""
+
+
 def optimise(
     how: Delivery,
     machines: Annotated[
@@ -148,4 +152,4 @@ def _naming() -> Iterator[None]:
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "optimise", optimise, simulates=True)
+    add_command(app, "optimise", optimise, simulates=True, seldom=SELDOM)

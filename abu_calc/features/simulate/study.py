@@ -23,6 +23,8 @@ from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.rows import Columns
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.effect_selection import EffectAudit
 from abu_calc.simulation.effect_selection import audit as with_all_effects
@@ -196,7 +198,11 @@ def simulate(
     EVALUATIONS.check(1 if most_evaluations is None else most_evaluations)
     refuse_removed(integrator)
     one_of("integrator", integrator, WANTED)
-    subject = subject_of(source, scene, start, race_centre_deg=race_centre_deg).lasting(duration_s)
+    if isinstance(source, Machine) and source.two_races is not None:
+        two: Subject = imported("two_races.subject:two_race_subject")(source, scene, start, race_centre_deg)
+        subject = two.lasting(duration_s)
+    else:
+        subject = subject_of(source, scene, start, race_centre_deg=race_centre_deg).lasting(duration_s)
     times = equally_spaced(subject.scene, samples)
     ledger = subject.ledger(accuracy, with_effects, without_effects)
     try:

@@ -21,6 +21,8 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.records import SceneModel, StabilityBoundary, finite, stability_boundaries
 from abu_calc.simulation.result import Result
@@ -192,10 +194,8 @@ def stability(
     one_of("scene", scene, SCENES)
     one_of("arrangement", arrangement, ARRANGEMENTS)
     _check_speeds(speeds_rpm)
-    subject, way = (
-        subject_of(source, scene, command="stability"),
-        next(name for name in ARRANGEMENTS if name == arrangement),
-    )
+    way = next(name for name in ARRANGEMENTS if name == arrangement)
+    subject = _subject(source, scene)
     if crossings and speeds_rpm is None:
         rated = from_si(subject.scene.speed, "rpm")
         speeds_rpm = SLOWEST * rated, min(FASTEST * rated, FASTEST_RPM)
@@ -346,6 +346,14 @@ def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
 
 BALANCED_TO_FIRST_ORDER: Final = frozenset({"gravity"})
 """Effects that leave the balanced state as it is, to the first order."""
+
+
+def _subject(source: Source, scene: str | None) -> Subject:
+    """Subject of a source; of a machine with two races, its balls evenly spread."""
+    if isinstance(source, Machine) and source.two_races is not None:
+        subject: Subject = imported("two_races.subject:two_race_subject")(source, scene, "spread")
+        return subject
+    return subject_of(source, scene, command="stability")
 
 
 def stability_warnings(judgement: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:

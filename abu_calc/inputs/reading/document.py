@@ -125,6 +125,10 @@ __all__ = ["LARGEST_FILE", "Document", "FileReading", "named", "open_document", 
 Model = TypeVar("Model", bound=Table)
 
 
+REPEATED: Final = ("wheel", "autobalancer")
+"""Tables of a machine that may be lists."""
+
+
 class Document(NamedTuple):
     """A file whose TOML is right; its tables are not looked at yet."""
 
@@ -376,6 +380,14 @@ def parsed(text: str, source: str) -> dict[str, object]:
 
         format_of(content, Place(source, key_lines(text).get(KEY), KEY))
         del content[KEY]
+    return _one_of_each(content)
+
+
+def _one_of_each(content: dict[str, object]) -> dict[str, object]:
+    """A machine's [[wheel]] and [[autobalancer]], one of each at most, as the single tables [wheel], [autobalancer]."""
+    lists = {key: each for key in REPEATED if isinstance(each := content.get(key), list)}
+    if "machine" in content and all(len(each) == 1 and isinstance(each[0], dict) for each in lists.values()):
+        content |= {key: each[0] for key, each in lists.items()}
     return content
 
 

@@ -11,6 +11,7 @@ from abu_calc.inputs.reading.format import FORMAT, KEY
 from abu_calc.inputs.reading.table import Table, all_tables
 from abu_calc.inputs.reading.values_with_units import canonical_keys
 from abu_calc.inputs.scene import SceneFile
+from abu_calc.inputs.two_races import TwoRaceFile
 
 HOME: Final = "https://json.schemastore.org/"
 """Where the public schema store serves schemas; its names are those of the files of the bundle."""
@@ -23,9 +24,9 @@ _DROPPED: Final = ("title", "examples", "$defs")
 
 
 def machine_schema() -> dict[str, Any]:
-    """The schema of machine files: a machine whole, or bearings alone."""
-    kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, BearingFile.__name__)]
-    return schema_of("machine", MachineFile, BearingFile) | {"anyOf": kinds}
+    """The schema of machine files: a whole machine with one race or two, or bearings alone."""
+    kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, TwoRaceFile.__name__, BearingFile.__name__)]
+    return schema_of("machine", MachineFile, TwoRaceFile, BearingFile) | {"anyOf": kinds}
 
 
 def scene_schema() -> dict[str, Any]:

@@ -81,9 +81,10 @@ def key_lines(text: str) -> dict[str, int]:
 
 
 def line_of(lines: Mapping[str, int], path: Sequence[Part]) -> int | None:
-    """The line of a path, or of the nearest table or array around it."""
-    around = (lines.get(key_path(path[:length])) for length in range(min(len(path), DEEPEST), 0, -1))
-    return next((line for line in around if line is not None), None)
+    """The line of a path, or of the nearest table or array around it; an array of one table is read as that table."""
+    lengths = range(min(len(path), DEEPEST), 0, -1)
+    around = (key_path(way) for length in lengths for way in (path[:length], (path[0], 0, *path[1:length])))
+    return next((lines[way] for way in around if way in lines), None)
 
 
 def _parts(dotted: str) -> list[str]:

@@ -9,10 +9,10 @@ from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Kind, Surface
 from abu_calc.standards.tolerance_classes import grade_tolerance
 
 if TYPE_CHECKING:
-    from abu_calc.sizing.cover import Cover
-    from abu_calc.sizing.eccentricity import EccentricitySplit
-    from abu_calc.sizing.race_quality import RaceQuality
-    from abu_calc.sizing.ring_seat import RingSeat
+    from abu_calc.sizing.manufacture.cover import Cover
+    from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
+    from abu_calc.sizing.manufacture.race_quality import RaceQuality
+    from abu_calc.sizing.manufacture.ring_seat import RingSeat
 
 RACE_TOLERANCE: Final = to_si(0.05, "mm")
 """Tolerance of the race's radius, either way [m]."""

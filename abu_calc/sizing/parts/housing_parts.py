@@ -5,9 +5,9 @@ from typing import Final
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, RULES, STEEL, HousingDimensions, dimensions
+from abu_calc.sizing.manufacture.bearing_ring import ring_of
 from abu_calc.sizing.parts.profile import Corner, Profile, closed, moments, polar_moment, volume
 from abu_calc.sizing.parts.surfaces import Surface
 

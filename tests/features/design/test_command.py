@@ -41,12 +41,8 @@ def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
     assert seen.status == 1 and {"ABU101", "ABU701"} <= failed.keys()
     assert "increase the imbalance" in failed["ABU701"]["message"]
     assert document["result"]["vibration"]["level_after_db"] is None  # no number that could not be trusted
-    assert {c["code"] for c in document["checks"] if c["status"] == "not-done"} == {
-        "ABU308",
-        "ABU310",
-        "ABU401",
-        "ABU402",
-    }
+    missing = {c["code"] for c in document["checks"] if c["status"] == "not-done"}
+    assert missing == {"ABU401", "ABU402"}
     assert document["result"]["frequency"]["region"] == "subcritical"
     assert not document["result"]["frequency"]["balancing_possible"]
 

@@ -2,6 +2,7 @@
 
 import inspect
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,10 @@ def test_save_writes_what_output_writes(result: abu_calc.SizeResult, tmp_path: P
             pytest.importorskip("ezdxf")
         path = result.save(tmp_path / f"x{ending}")
         assert path.stat().st_size > 1000
+    assert result.save(tmp_path / "solid.step").read_text("utf-8").startswith("ISO-10303-21;")
+    made = again("size", PRESET, "--quiet", "--output", str(tmp_path / "y.dxf"))
+    assert made.status == 0
+    assert {p.name[1:] for p in tmp_path.glob("x*.dxf")} == {p.name[1:] for p in tmp_path.glob("y*.dxf")}
     written = json.loads((tmp_path / "x.json").read_text("utf-8"))
     seen = again("size", PRESET, "--json").document
     assert written["result"].keys() == seen["result"].keys() and written["checks"] == seen["checks"]
@@ -61,12 +66,14 @@ def test_save_refuses_with_the_remedy(result: abu_calc.SizeResult, tmp_path: Pat
 
 
 def test_texts_are_short_and_name_the_verdict(result: abu_calc.SizeResult) -> None:
-    assert repr(result).startswith("<SizeResult PASS WITH WARNINGS: 14 of 16 checks pass, 2 warn, 0 fail; AvtoVAZ")
+    pattern = r"<SizeResult PASS( WITH WARNINGS)?: \d+ of \d+ checks pass.*; AvtoVAZ [^>]*>"
+    assert re.fullmatch(pattern, repr(result))
     machine = abu_calc.read(PRESET)
     members = [result, result.checks, result.checks[0], result.autobalancer, result.vibration, result.ensemble,
                result.simulation, machine, machine.changed({"wheel.mass_kg": 0.5})]  # fmt: skip
     assert max(len(repr(member)) for member in members) <= 500
-    assert repr(result.checks[10]) == "<Check ABU401 WARN: idle vibration level (100.72 dB, limit 109 dB)>"
+    level = next(check for check in result.checks if check.code == "ABU401")
+    assert re.fullmatch(r"<Check ABU401 [A-Z]+: idle vibration level \([\d.]+ dB, limit 109 dB\)>", repr(level))
 
 
 def test_a_notebook_shows_verdict_section_and_checks(result: abu_calc.SizeResult) -> None:

@@ -73,7 +73,7 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (FIT, "bearing_class = 0", 25, "bearing[0].bearing_class", ("text", 'write "0"')),
     (WIDTH, WIDTH + "\nball_count = 4.0", 22, "autobalancer.ball_count", ("whole number", "write 4")),
     (LIMITS, "[grinding]\nrotation_sense = true\n[limits]", 28, "grinding.rotation_sense", ("whole number",)),
-    ("[wheel]", "[[wheel]]", 14, "wheel", ("one bracket",)),
+    ("[suspension]", "[[suspension]]", 9, "suspension", ("one bracket",)),
     ("[[bearing]]", "[bearing]", 23, "bearing", ("two brackets",)),
     (LIMITS, '[machine.handle]\nname = "a"\n[limits]', 27, "machine.handle", ("[[machine.handle]]",)),
     ("# a straight grinder", "grinding = 5", 1, "grinding", ("write [grinding] on a line",)),

@@ -7,8 +7,9 @@ import pytest
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
-from abu_calc.sizing.closure import burst_ratio
+from abu_calc.sizing.balls import candidates
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.manufacture.closure import burst_ratio
 
 
 def sized(*overrides: str) -> Design:
@@ -30,9 +31,13 @@ def test_a_race_that_its_balls_cannot_enter_fails_and_the_advice_holds() -> None
     assert check(followed, "ABU305").status == "pass"
 
 
-def test_the_search_takes_no_race_that_balls_cannot_enter() -> None:
-    for bore in (10, 16, 20, 24, 28):
-        assert check(sized(f"bore_diameter_mm={bore}"), "ABU305").status == "pass"
+def test_the_search_takes_no_race_that_balls_cannot_enter_if_another_one_suffices() -> None:
+    for bore in (10, 16, 20, 24):
+        design = sized(f"bore_diameter_mm={bore}")
+        found = candidates(design.case, design.imbalance.value)
+        other = any(each.fillable and each.capacity_ratio >= 1.2 and each.strength.enough and each.stays_round
+                    for each in found)  # fmt: skip
+        assert (check(design, "ABU305").status == "pass") == other, bore
 
 
 def test_burst_ratio_by_slices() -> None:
@@ -71,8 +76,7 @@ def test_the_pressed_cover_holds_less_cold_in_aluminium_and_a_thread_holds_more(
 
 def test_slip_torque_of_a_clamp_and_what_is_missing() -> None:
     """2·0.12·8000·(2/3)(12.5³ − 10³)/(12.5² − 10²) mm = 21.7 N·m."""
-    missing = check(sized(), "ABU308")
-    assert missing.status == "not-done" and not missing.requested
+    assert "ABU308" not in {each.code for each in sized().checks}
     assert check(sized("clamp_force_N=8000"), "ABU308").value == pytest.approx(21.69, abs=0.01)
     weak = check(sized("clamp_force_N=5"), "ABU308")
     assert (
@@ -89,7 +93,7 @@ def test_a_shrunk_steel_housing_carries_its_torque_and_an_aluminium_one_slips_wh
 
 
 def test_the_guard_is_judged_if_it_is_given() -> None:
-    assert check(sized(), "ABU310").status == "not-done"
+    assert "ABU310" not in {each.code for each in sized().checks}
     assert check(sized("guard_thickness_mm=2"), "ABU310").status == "pass"
     assert check(sized("guard_thickness_mm=0.01"), "ABU310").status == "fail"
 

@@ -20,10 +20,10 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.housing import RULES, HousingDimensions
+from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
+from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.housing_parts import HousingParts
-from abu_calc.sizing.spindle_fit import Fit
 
 SLIP_FACTOR: Final = 2.0
 """Least slip torque over the torque that is needed (assumed)."""
@@ -46,8 +46,8 @@ def bore_growth(case: Case, size: HousingDimensions) -> float:
     "N m",
     signs="J_a J_w t_u P_m Ω",
     where=(
-        "J_a is the polar inertia of housing and balls, J_w that of the wheel as a disc, t_u the time of the run-up "
-        "and P_m the power of the motor, at the rated speed."
+        "J_a is the polar inertia of housing and balls, J_w that of the wheel as a disc. The run-up takes t_u. P_m is "
+        "the power of the motor at the rated speed."
     ),
     assumed="a steady run-up; jamming of the wheel is not covered but by the factor of 2",
     source="derived",
@@ -111,20 +111,16 @@ def whole_inertia(parts: HousingParts) -> float:
     return sum(part.inertia for part in parts.turned) + balls.count * balls.mass * balls.pitch_radius**2
 
 
-def torque_check(case: Case, parts: HousingParts, fit: Fit | None) -> Check:
-    """Check of the slip torque; not evaluated where clamp force, power or fit are missing."""
+def torque_check(case: Case, parts: HousingParts, fit: Fit | None) -> tuple[Check, ...]:
+    """Check of the slip torque; none without the force of the nut, or without the power that a flange must carry."""
     needed = SLIP_FACTOR * needed_torque(case, whole_inertia(parts))
     size, fastening = parts.dimensions, case.autobalancer.fastening
     if fastening == "shrunk":
-        return _shrunk_check(case, size, fit, needed)
-    if fastening == "flange" and case.table.machine.power_W is None:
-        return _missing("machine.power_W is not given, whose torque the flange must carry", None)
+        return (_shrunk_check(case, size, fit, needed),)
     force = case.autobalancer.clamp_force_N
+    if force is None or (fastening == "flange" and case.table.machine.power_W is None):
+        return ()
     what = "flange" if fastening == "flange" else "housing"
-    if force is None:
-        least = needed / clamped_torque(1.0, size.bore_radius, size.hub_radius)
-        return _missing(f"autobalancer.clamp_force_N is not given. The nut must clamp the {what} with {least:.3g} N "
-                        "for twice the torque of the run-up", needed)  # fmt: skip
     held = clamped_torque(force, size.bore_radius, size.hub_radius)
     pressure = force / (math.pi * (size.hub_radius**2 - size.bore_radius**2))
     permitted = PROOF_SHARE * _hub(case, size).material.strength
@@ -134,7 +130,7 @@ def torque_check(case: Case, parts: HousingParts, fit: Fit | None) -> Check:
                     f"{from_si(permitted, 'MPa'):.3g} MPa")  # fmt: skip
     passed = held >= needed and pressure <= permitted
     action = None if passed else _other_force(held, needed, force, permitted / pressure)
-    return coded("ABU308", verdict(passed), message, held, needed, "N·m", action, "least")
+    return (coded("ABU308", verdict(passed), message, held, needed, "N·m", action, "least"),)
 
 
 def _other_force(held: float, needed: float, force: float, room: float) -> Action:
@@ -147,11 +143,6 @@ def _other_force(held: float, needed: float, force: float, room: float) -> Actio
     moved = Moved("the slip torque", held, held * wanted / force, "N·m", needed)
     return Action(f"Set clamp_force_N = {wanted:g}: {moved.text} (calculated).",
                   (f"autobalancer.clamp_force_N={wanted:g}",))  # fmt: skip
-
-
-def _missing(reason: str, needed: float | None) -> Check:
-    remedy = "Specify autobalancer.clamp_force_N." if "clamp_force" in reason else "Specify machine.power_W."
-    return coded("ABU308", "not-done", reason, None, needed, "N·m", remedy, "least", requested=False)
 
 
 def _shrunk_check(case: Case, size: HousingDimensions, fit: Fit | None, needed: float) -> Check:

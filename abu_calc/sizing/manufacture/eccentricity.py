@@ -14,11 +14,11 @@ from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.bearing_ring import ring_of
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.fastening import SLIP_FACTOR, bore_growth, needed_torque, shrunk_torque, whole_inertia
+from abu_calc.sizing.manufacture.bearing_ring import ring_of
+from abu_calc.sizing.manufacture.fastening import SLIP_FACTOR, bore_growth, needed_torque, shrunk_torque, whole_inertia
+from abu_calc.sizing.manufacture.spindle_fit import Fit, standard_fits
 from abu_calc.sizing.parts.housing_parts import candidate_dimensions, housing_parts
-from abu_calc.sizing.spindle_fit import Fit, standard_fits
 from abu_calc.standards.self_aligning import RUNOUT_CLASSES, outer_run_out
 from abu_calc.standards.tolerance_classes import grade_tolerance
 from abu_calc.standards.vibration import permissible_imbalance
@@ -38,9 +38,9 @@ IMBALANCE_SHARE: Final = 0.05
     "m",
     shown="um",
     where=(
-        "Δ_r is half the run-out of the race to the bore, Δ_f half the largest clearance of bore and spindle, Δ_s half "
-        "the run-out of the spindle's seat, and Δ_h the imbalance of the housing without balls per effective mass. The "
-        "rule is autobalancer.eccentricity_sum."
+        "Half the run-out of the race to the bore is Δ_r. Half the largest clearance of bore and spindle is Δ_f. Half "
+        "the run-out of the spindle's seat is Δ_s. The imbalance of the housing without balls per effective mass is "
+        "Δ_h. The rule is autobalancer.eccentricity_sum."
     ),
     assumed="worst case: all parts at their limit in one direction; rss: independent parts in random directions",
     source="derived",

@@ -18,7 +18,7 @@ from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.closure import OVERSPEED, PROOF_SHARE
+from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.parts.housing_parts import HousingParts
 from abu_calc.standards.tolerance_classes import DeviationLimits, grade_tolerance, part_limits, ring_limits
 

@@ -20,10 +20,10 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import GRAVITY, from_si, to_si
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.housing import GROOVE_CLEARANCE
+from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
+from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.housing_parts import HousingParts
-from abu_calc.sizing.spindle_fit import Fit
 from abu_calc.standards.tolerance_classes import DeviationLimits, grade_tolerance, part_limits
 
 SHOCK: Final = 50 * GRAVITY

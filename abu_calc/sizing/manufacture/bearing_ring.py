@@ -32,7 +32,7 @@ RIM_BAND: Final = 0.04
     "m",
     signs="D_1 B D_o d_B",
     where=(
-        "The sphere is centred on the axis, in the middle of the width B, and runs out to the faces, where the ring's "
+        "The sphere is centred on the axis, in the middle of the width B. It runs out to the faces, where the ring's "
         "opening is D_1. No standard gives D_1: its share 0.25 of the section has a band of ± 0.04, which moves the "
         "radius by about 2 %. Measure the ring before the drawing is released."
     ),

@@ -6,7 +6,7 @@ import pytest
 
 from abu_calc.foundation.errors import InputError
 from abu_calc.sizing import size
-from abu_calc.sizing.bearing_ring import bearing_rings, sphere_band
+from abu_calc.sizing.manufacture.bearing_ring import bearing_rings, sphere_band
 from tests.sizing.machines import machine
 
 ROOM = {"autobalancer__design": "bearing-ring", "autobalancer__max_outer_diameter_mm": 90.0,

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.eccentricity import eccentricity_check, split_eccentricity
-from abu_calc.sizing.spindle_fit import standard_fits
+from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
+from abu_calc.sizing.manufacture.spindle_fit import standard_fits
 from abu_calc.standards.tolerance_classes import part_limits
 from tests.sizing.machines import machine
 

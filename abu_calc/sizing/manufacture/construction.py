@@ -7,9 +7,10 @@ from abu_calc.foundation.units import from_si
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.bearing_ring import ring_check
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.closure import (
+from abu_calc.sizing.housing import LEAST_FILLING
+from abu_calc.sizing.manufacture.bearing_ring import ring_check
+from abu_calc.sizing.manufacture.closure import (
     BURST_RATIO,
     PROOF_SHARE,
     burst_check,
@@ -20,14 +21,13 @@ from abu_calc.sizing.closure import (
     overspeed_check,
     overspeed_stress,
 )
-from abu_calc.sizing.cover import Cover, choose_cover, cover_check
-from abu_calc.sizing.eccentricity import EccentricitySplit
-from abu_calc.sizing.fastening import torque_check
-from abu_calc.sizing.housing import LEAST_FILLING
+from abu_calc.sizing.manufacture.cover import Cover, choose_cover, cover_check
+from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
+from abu_calc.sizing.manufacture.fastening import torque_check
+from abu_calc.sizing.manufacture.race_quality import RaceQuality, race_quality
+from abu_calc.sizing.manufacture.ring_seat import RingSeat, ring_seat, seat_check
 from abu_calc.sizing.parts.demands import with_surfaces
 from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
-from abu_calc.sizing.race_quality import RaceQuality, race_quality
-from abu_calc.sizing.ring_seat import RingSeat, ring_seat, seat_check
 from abu_calc.sizing.trials import TriedRequirement
 
 
@@ -61,9 +61,9 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
         filling_check(parts, roomier),
         overspeed_check(parts, force, top, stronger),
         cover_check(parts, closed, lambda: _screwed(case, candidate, closed)),
-        torque_check(case, parts, split.fit),
+        *torque_check(case, parts, split.fit),
         burst_check(parts, force, top, stronger),
-        containment_check(case, parts, top),
+        *containment_check(case, parts, top),
         *seat_check(case, parts, seat),
         *ring_check(case, candidate.race_radius),
     )

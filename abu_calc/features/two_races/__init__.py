@@ -1,0 +1,1 @@
+"""`abu size` of a machine with two races on one spindle."""

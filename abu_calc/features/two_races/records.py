@@ -1,0 +1,136 @@
+"""Result of `abu size` for a machine with two races: fields of the JSON document."""
+
+from typing import Annotated, ClassVar, Self
+
+from abu_calc.features.design.records import AutobalancerRecord
+from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.result import Result
+
+
+@record
+class TwoRaceAutobalancer(AutobalancerRecord):
+    """One of the two autobalancers. Capacity ratio and need are those of the worst phase of the imbalances."""
+
+    schema_title: ClassVar[str] = "TwoRaceAutobalancer"
+
+    plane_mm: Annotated[float, Quantity("place along the spindle", "z_i")]
+    resultant_worst_g_mm: Annotated[float, Quantity("required capacity, worst phase", "V_i")]
+    resultant_typical_g_mm: Annotated[float, Quantity("required capacity, rms over all phases", "V_i")]
+    imbalance_shares: Annotated[tuple[float, ...], Quantity("shares of the imbalances", "s_ij", 4)]
+    drag_per_s: Annotated[float, Quantity("viscous drag rate", "h₀")]
+
+    @classmethod
+    def of_race(cls, design: TwoRaceDesign, index: int) -> Self:
+        """Record of a race."""
+        race: SizedRace = design.races[index]
+        table = design.case.table
+        one = AutobalancerRecord.of(table.autobalancer[index], race.design.autobalancer, race.track)
+        given = {name: getattr(one, name) for name in one.entries() if hasattr(one, name)}
+        given |= {
+            "capacity_ratio": None if not race.need else race.capacity_ratio,
+            "mass_fraction": race.design.autobalancer.mass / table.machine.mass_kg,
+        }
+        return cls(
+            **given,
+            plane_mm=from_si(race.place, "mm"),
+            resultant_worst_g_mm=from_si(race.need, "g_mm"),
+            resultant_typical_g_mm=from_si(race.typical, "g_mm"),
+            imbalance_shares=race.shares,
+            drag_per_s=design.case.drags[index],
+        )
+
+
+@record
+class TwoRaceFrequency(Record):
+    """Region of the working speeds: two races balance above both critical speeds."""
+
+    speed_hz: Annotated[float, Quantity("rated speed", "Ω/2π")]
+    critical_speeds_rpm: Annotated[tuple[float, ...], Quantity("critical speeds", "", 6)]
+    region: Annotated[str, Quantity("region")]
+    balancing_possible: Annotated[bool, Quantity("balancing possible")]
+    stable: Annotated[bool | None, Quantity("stable over the speed range")]
+    growth_rate_per_s: Annotated[
+        float | None, Quantity("growth rate of a disturbance", "max Re λ", 4, "null: the sufficient rule holds")
+    ]
+
+
+@record
+class PlaceOnSpindleLevel(Record):
+    """Level at a place of the spindle axis, worst phase without autobalancers, start cases with them."""
+
+    name: Annotated[str, Quantity("place")]
+    level_before_db: Annotated[float, Quantity("level without autobalancers", "L")]
+    level_after_db: Annotated[float | None, Quantity("level with them, median of the start cases", "L")]
+    level_after_worst_db: Annotated[float | None, Quantity("loudest start case, any oil", "L")]
+
+
+@record
+class TwoRaceVibration(Record):
+    """Levels of the loudest place, and of each."""
+
+    level_before_db: Annotated[float, Quantity("level without autobalancers", "L")]
+    level_after_db: Annotated[float | None, Quantity("level with them, median of the start cases", "L")]
+    level_after_worst_db: Annotated[float | None, Quantity("loudest start case, any oil", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL")]
+    handles: tuple[PlaceOnSpindleLevel, ...]
+
+
+@record
+class TwoRaceSpread(Record):
+    """Median and worst over start cases."""
+
+    typical: Annotated[float | None, Quantity("median")]
+    worst: Annotated[float | None, Quantity("worst")]
+
+
+@record
+class TwoRaceEnsemble(Record):
+    """The machine switched on in many ways: phases of the imbalances, starts, run-ups, oil."""
+
+    members: Annotated[int, Quantity("start cases")]
+    balanced: Annotated[int, Quantity("that balance")]
+    hanging: Annotated[int, Quantity("with stalled balls")]
+    lost: Annotated[int, Quantity("without an answer")]
+    settling_time_s: Annotated[TwoRaceSpread, Quantity("settling time", "t_s")]
+    slowest: Annotated[str | None, Quantity("slowest start case")]
+
+
+@record
+class OneRace(Record):
+    """What a single race could reach: the place that leaves the least, over all unknown phases."""
+
+    plane_mm: Annotated[float, Quantity("place of the single race", "z_r")]
+    level_db: Annotated[float, Quantity("level of the loudest place, worst phase", "L")]
+    limit_to_place_mm: Annotated[
+        float | None, Quantity("limit to its place between the critical speeds", "z_r", 4, "null: no such limit")
+    ]
+    enough: Annotated[bool, Quantity("one race is enough")]
+
+
+@record
+class TwoRaceResponse(Record):
+    """Largest displacement of any place at a speed, worst phase of the imbalances."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    without_um: Annotated[float, Quantity("displacement without autobalancers", "w")]
+    balanced_um: Annotated[float | None, Quantity("displacement with both races still", "w", 4, "null: no balance")]
+
+
+@record
+class TwoRaceSizeResult(Result):
+    """A design of two autobalancers on one spindle, its checks, and simulated start cases."""
+
+    command: ClassVar[str] = "size"
+
+    system_mass_kg: Annotated[float, Quantity("mass with wheels and autobalancers", "M")]
+    frequency: TwoRaceFrequency
+    imbalances_g_mm: Annotated[tuple[float, ...], Quantity("imbalances", "U_j")]
+    required_capacity_g_mm: Annotated[float, Quantity("required capacity of the first race", "V_1")]
+    autobalancer: TwoRaceAutobalancer
+    autobalancers: tuple[TwoRaceAutobalancer, ...]
+    one_race: OneRace | None
+    vibration: TwoRaceVibration
+    ensemble: TwoRaceEnsemble | None
+    response: tuple[TwoRaceResponse, ...]

@@ -1,0 +1,275 @@
+"""Start cases of a machine with two races: phases of the imbalances, places of the balls, oil, run-up; one run each."""
+
+import cmath
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.effects.run_up import RunUpEffect
+from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
+from abu_calc.dynamics.supports.tilting import tilting
+from abu_calc.dynamics.trajectory import Samples
+from abu_calc.features.two_races.choice import TwoRaceDesign
+from abu_calc.formulas.balls import half_angle
+from abu_calc.formulas.motion import HARDLY, SETTLED
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import level_from_velocity
+from abu_calc.simulation.response import amplitude_window
+from abu_calc.simulation.scene_of_file import in_order
+from abu_calc.simulation.simulate import simulate
+
+Start = Literal["bunched", "spread", "standstill", "run-up"]
+STARTS: Final[tuple[Start, ...]] = ("bunched", "spread", "standstill", "run-up")
+AHEAD: Final = math.radians(20)
+"""Middle of bunched balls, ahead of what the race has to balance."""
+DRAGS: Final = (1.0, 1 / 3, 3.0)
+"""Factors on the viscous drag rate: oil as given, hot, cold."""
+PHASES: Final = (0.0, math.pi / 2, math.pi, 3 * math.pi / 2)
+"""Phases of an imbalance of unknown phase against the first one."""
+RUN_UP: Final = 1.0
+"""Run-up [s] of a file that gives none."""
+RESTITUTION: Final = 0.5
+LIMITS: Final = 4.0
+"""A scene lasts as many settling times permitted, from full speed."""
+STILL: Final = 0.05
+"""Share of the rotor's speed: balls stall if their mean speed against the race stays above it."""
+SMALLEST: Final = 1e-12
+"""Displacement [m] that counts as none."""
+PER_TURN: Final = 16
+"""Samples of a revolution."""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StartCase:
+    """One start: where the balls are, factor on the drag, phases of the imbalances of unknown phase [rad]."""
+
+    start: Start
+    drag_factor: float = 1.0
+    phases: tuple[float, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Start case in words."""
+        phase = f", phase {', '.join(f'{math.degrees(each):.0f}°' for each in self.phases)}" if self.phases else ""
+        return f"{self.start}{phase}"
+
+
+@dataclass(frozen=True)
+class TwoRaceRun:
+    """Outcome of one start case [SI]: displacement 0–peak of each race and place, settling, slip of the balls.
+
+    `balances`: every race rests below half its displacement without balls, or what eccentricity and friction may
+    leave, with all balls at rest. `settling_time` None: not within 95 % of the run.
+    """
+
+    case: StartCase
+    race_displacements: tuple[float, float]
+    displacements: tuple[float, ...]
+    displacements_without: tuple[float, ...]
+    settling_time: float | None
+    slip: float
+    balances: bool
+
+
+@dataclass(frozen=True)
+class LostRun:
+    """A start case without an answer, and why."""
+
+    case: StartCase
+    reason: str
+
+
+def start_cases(design: TwoRaceDesign) -> Iterator[StartCase]:
+    """All start cases: at the drag given over all phases, at hot and cold oil where imbalances are in and out of phase.
+
+    Several imbalances of unknown phase turn together: each by the phase times its number.
+    """
+    unknown = design.case.unknown_phases
+    turned = [tuple(phase * k for k in range(1, unknown + 1)) for phase in PHASES] if unknown else [()]
+    for factor in DRAGS:
+        for phases in turned if factor == 1 else turned[:: max(1, len(turned) // 2)]:
+            yield from (StartCase(start, factor, phases) for start in STARTS)
+
+
+def scene_of(design: TwoRaceDesign, start: StartCase) -> Scene:
+    """The scene of a start case, with gravity (horizontal spindle), friction, ball contact and race eccentricity.
+
+    The race centres are off toward the resultant of the imbalances, which asks the balls of both races for more.
+    """
+    case = design.case
+    wheels = case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    static = sum((wheel.imbalance for wheel in wheels), 0j)
+    couple = sum((wheel.place * wheel.imbalance for wheel in wheels), 0j)
+    bearings = case.rotor.bearings
+    support = tilting(
+        case.rotor.mass, case.rotor.transverse_inertia, case.rotor.polar_inertia,
+        [bearing.place for bearing in bearings], [(bearing.stiffness, bearing.stiffness) for bearing in bearings],
+        [(bearing.damping, bearing.damping) for bearing in bearings],
+    )  # fmt: skip
+    run_up = _run_up(design) if start.start == "run-up" else 0.0
+    freedoms = (0.0,) * len(support.names)
+    scene = Scene(
+        name="idle",
+        support=support,
+        speed=case.speed,
+        imbalance=abs(static),
+        imbalance_angle=cmath.phase(static) if static else 0.0,
+        races=tuple(_race(design, k, start, wheels_share(design, k, start)) for k in (0, 1)),
+        duration=run_up + LIMITS * case.table.limits.settling_time_s,
+        start_position=freedoms,
+        start_velocity=freedoms,
+        couple=abs(couple),
+        couple_angle=cmath.phase(couple) if couple else 0.0,
+        effects=in_order(_effects(design, run_up, cmath.phase(static) if static else 0.0)),
+    )
+    return with_parted_balls(scene)[0]
+
+
+def _first_is_unknown(design: TwoRaceDesign) -> bool:
+    return all(angle is None for angle in design.case.angles)
+
+
+def wheels_share(design: TwoRaceDesign, race: int, start: StartCase) -> complex:
+    """Imbalance [kg m] that a race has to balance in this start case."""
+    wheels = design.case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    shares = design.races[race].shares
+    return sum((share * wheel.imbalance for share, wheel in zip(shares, wheels, strict=True)), 0j)
+
+
+def _run_up(design: TwoRaceDesign) -> float:
+    given = design.case.table.run_up
+    return given.time_s if given else RUN_UP
+
+
+def _effects(design: TwoRaceDesign, run_up: float, toward: float) -> Iterator[Effect]:
+    case, radius = design.case, design.races[0].design.autobalancer.ball_diameter / 2
+    if case.horizontal:
+        yield GravityEffect()
+    if case.friction_arm:
+        yield DryRollingFrictionEffect(case.friction_arm, radius)
+    yield BallContactEffect(radius, RESTITUTION)
+    if case.eccentricity:
+        yield RaceEccentricityEffect(case.eccentricity, toward)
+    if run_up:
+        yield RunUpEffect(run_up)
+
+
+def _race(design: TwoRaceDesign, race: int, start: StartCase, imbalance: complex) -> Race:
+    sized = design.races[race]
+    abu = sized.design.autobalancer
+    count, heavy = abu.ball_count, cmath.phase(imbalance) if imbalance else 0.0
+    beta = half_angle(abu.ball_diameter / 2, abu.pitch_radius) * (1 + 1e-9)
+    if start.start == "spread":
+        angles = [heavy + 2 * math.pi * k / count for k in range(count)]
+    else:
+        # A run-up of a horizontal spindle begins with the balls at the bottom of the race.
+        middle = -math.pi / 2 if start.start == "run-up" and design.case.horizontal else heavy + AHEAD
+        angles = [middle + beta * (2 * k - count + 1) for k in range(count)]
+    standing = start.start == "standstill"
+    return Race(
+        pitch_radius=abu.pitch_radius,
+        ball_masses=(abu.ball_mass,) * count,
+        drag=design.case.drags[race] * start.drag_factor,
+        inertia_factor=design.case.inertia_factor,
+        start_angles=tuple(angles),
+        start_speeds=(-design.case.speed if standing else 0.0,) * count,
+        plane_offset=sized.place,
+        ball_radius=abu.ball_diameter / 2,
+    )
+
+
+def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceRun | LostRun:
+    """One start case simulated to an accuracy, and what came of both races."""
+    scene = scene_of(design, start)
+    times = revolution_times(scene)
+    try:
+        run = simulate(scene, accuracy, times)
+    except NotTrustworthyError as error:
+        return LostRun(start, str(error).splitlines()[0])
+    case = design.case
+    wheels = case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    bare = [abs(case.rotor.whirl(place, wheels, case.speed)) for place in case.races]
+    window = amplitude_window(scene).times
+    ends = [_amplitude(scene, run.trajectory, window, place) for place in case.races]
+    speeds = run.response.final.ball_speeds
+    slip = max(map(abs, speeds), default=0.0) / case.speed
+    return TwoRaceRun(
+        case=start,
+        race_displacements=(ends[0], ends[1]),
+        displacements=tuple(_amplitude(scene, run.trajectory, window, held.place) for held in case.places),
+        displacements_without=tuple(abs(case.rotor.whirl(held.place, wheels, case.speed)) for held in case.places),
+        settling_time=settling_time(
+            scene, run.trajectory.at(times), (wheels_share(design, 0, start), wheels_share(design, 1, start))
+        ),
+        slip=slip,
+        balances=slip <= STILL and all(
+            end <= max(without / 2, allowed_displacement(design, k))
+            for k, (end, without) in enumerate(zip(ends, bare, strict=True))
+        ),
+    )  # fmt: skip
+
+
+def allowed_displacement(design: TwoRaceDesign, race: int) -> float:
+    """Displacement [m] that eccentricity and friction may leave at a race whose balls balance."""
+    budget = design.races[race].design.autobalancer.budget
+    return budget.race_eccentricity + budget.rolling_friction
+
+
+def level_of(displacement: float, speed: float) -> float:
+    """Velocity level [dB] of a circle of this radius [m] at a speed [rad/s]; no less than that of SMALLEST."""
+    return level_from_velocity(max(displacement, SMALLEST) * speed / math.sqrt(2))
+
+
+def _amplitude(scene: Scene, run: Samples, times: Array, place: float) -> float:
+    at = scene.axis_place(run.at(times), place)
+    mean = at.mean(axis=1, keepdims=True)
+    return float(np.sqrt(((at - mean) ** 2).sum(axis=0)).max())
+
+
+def revolution_times(scene: Scene) -> Array:
+    """Times [s] of all whole revolutions at full speed, PER_TURN for each."""
+    turns = int((scene.duration - scene.full_speed) / scene.revolution)
+    return np.asarray(scene.full_speed + scene.revolution / PER_TURN * np.arange(turns * PER_TURN), dtype=float)
+
+
+def settling_time(scene: Scene, states: Array, needs: tuple[complex, complex]) -> float | None:
+    """Settling time [s] from full speed of the slower race: residual imbalance of each race as of one race alone.
+
+    That is |S_i + Σ m·R_p·e^{iθ}|, S_i what the race has to balance [kg m]. The race has settled when it stays below
+    its mean over the last twentieth plus a tenth of S_i, or of a hundredth of what its balls could carry.
+    """
+    first, last = 2 * len(scene.support.names), 0
+    for race, need in zip(scene.races, needs, strict=True):
+        count = len(race.ball_masses)
+        moments = np.array(race.ball_masses) * race.pitch_radius
+        residual = np.abs(need + moments @ np.exp(1j * states[first : first + count]))
+        first += count
+        end = residual[-max(1, len(residual) // 20) :].mean()
+        limit = end + SETTLED * max(abs(need), HARDLY * race.static_moment)
+        above = np.flatnonzero(residual > limit)
+        last = max(last, int(above[-1]) + 1 if len(above) else 0)
+    time = last * scene.revolution / PER_TURN
+    return time if time <= 0.95 * (scene.duration - scene.full_speed) else None
+
+
+def every_run(design: TwoRaceDesign, accuracy: float) -> Iterator[TwoRaceRun | LostRun]:
+    """All start cases, one after another."""
+    for start in start_cases(design):
+        yield run_of(design, start, accuracy)
+
+
+def stability_scene(design: TwoRaceDesign, phases: tuple[float, ...]) -> Scene:
+    """The scene of small motions about the balanced state: no effects, imbalances at these phases."""
+    return replace(scene_of(design, StartCase("spread", 1.0, phases)), effects=())

@@ -1,0 +1,301 @@
+"""Study behind `abu size` of a machine with two races: sizing, stability, start cases, checks."""
+
+import statistics
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final
+
+from abu_calc.dynamics.stability.verdict import stability
+from abu_calc.features.two_races.advice import tried_change
+from abu_calc.features.two_races.case import TwoRaceCase, read_case
+from abu_calc.features.two_races.checks import (
+    SpeedStability,
+    capacity_checks,
+    level_checks,
+    mass_checks,
+    race_checks,
+    region_check,
+    slowest,
+    stability_check,
+    start_checks,
+)
+from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.two_races.records import (
+    OneRace,
+    PlaceOnSpindleLevel,
+    TwoRaceAutobalancer,
+    TwoRaceEnsemble,
+    TwoRaceFrequency,
+    TwoRaceResponse,
+    TwoRaceSizeResult,
+    TwoRaceSpread,
+    TwoRaceVibration,
+)
+from abu_calc.features.two_races.start_cases import (
+    PHASES,
+    STILL,
+    LostRun,
+    TwoRaceRun,
+    level_of,
+    run_of,
+    stability_scene,
+    start_cases,
+)
+from abu_calc.formulas.balls import half_angle
+from abu_calc.formulas.two_races import (
+    PlacedImbalance,
+    mode_margin,
+    one_race_limit,
+    one_race_resultant,
+    two_races_balance,
+)
+from abu_calc.foundation import patience
+from abu_calc.foundation.checks import Action
+from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.parallel import processors, side_by_side
+from abu_calc.foundation.progress import Progress, counted, silent
+from abu_calc.foundation.units import from_si
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.result import Provenance
+
+ONE_RACE_PLACES: Final = 9
+"""Places of a single race that are tried between both races."""
+RESPONSE_TO: Final = 1.1
+RESPONSE_STEPS: Final = 200
+"""Top of the speeds of the response over the highest working speed, and their number."""
+ACCURACY: Final = 0.05
+"""Accuracy of a start case: many of them are simulated."""
+
+
+def size_two_races(
+    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: int | None = None
+) -> TwoRaceSizeResult:
+    """Size both autobalancers, judge stability, and simulate start cases over the unknown phases.
+
+    `accuracy` of the simulations, ACCURACY at best; `workers`: start cases side by side, None: one for each processor.
+
+    Raises InputError with file, line and key for what cannot be made, and if the file has one race.
+    """
+    table = machine.two_races
+    if table is None:
+        raise InputError("this file has one race", remedy="Use `abu size FILE`.")
+    with machine.located():
+        design = choose_both(read_case(table))
+    speeds = dict.fromkeys((*design.case.speed_range, design.case.speed))
+    above = all(two_races_balance(design.case.rotor, speed) for speed in speeds)
+    judged = tuple(_stability(design, speed) for speed in speeds) if above else ()
+    accuracy, threads = max(accuracy, ACCURACY), processors() if workers is None else workers
+    runs = tuple(_runs(design, accuracy, progress, threads)) if above else ()
+    one = _one_race(design)
+    known = [run for run in runs if isinstance(run, TwoRaceRun)]
+    vibration = _vibration(design.case, known)
+    return TwoRaceSizeResult(
+        title=table.machine.name,
+        checks=(
+            region_check(design, one),
+            *stability_check(design, judged),
+            *capacity_checks(design),
+            *race_checks(design),
+            *mass_checks(design),
+            *level_checks(design, vibration, known),
+            *start_checks(design, runs, _advice(design, known, accuracy, progress, threads)),
+        ),
+        warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
+        provenance=Provenance.of(machine),
+        system_mass_kg=design.system_mass,
+        frequency=_frequency(design, judged, above),
+        imbalances_g_mm=tuple(from_si(abs(wheel.imbalance), "g_mm") for wheel in design.case.wheels),
+        required_capacity_g_mm=from_si(design.races[0].need, "g_mm"),
+        autobalancer=TwoRaceAutobalancer.of_race(design, 0),
+        autobalancers=tuple(TwoRaceAutobalancer.of_race(design, index) for index in (0, 1)),
+        one_race=one,
+        vibration=vibration,
+        ensemble=_ensemble(runs),
+        response=tuple(_response(design.case)),
+    )
+
+
+def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
+    """Displacements over the speeds of a run-up, by closed forms."""
+    top = RESPONSE_TO * max(case.speed_range)
+    for step in range(1, RESPONSE_STEPS + 1):
+        speed = top * step / RESPONSE_STEPS
+        without = max(
+            sum(abs(case.rotor.whirl(held.place, [wheel], speed)) for wheel in case.wheels) for held in case.places
+        )
+        still = two_races_balance(case.rotor, speed)
+        yield TwoRaceResponse(
+            speed_rpm=from_si(speed, "rpm"),
+            without_um=from_si(without, "um"),
+            balanced_um=from_si(_off(case), "um") if still else None,
+        )
+
+
+def _off(case: TwoRaceCase) -> float:
+    """Displacement [m] of the place that moves most while both races rotate about their eccentric centres."""
+    first, second = case.races
+    arms = ((abs(held.place - second) + abs(held.place - first)) / abs(first - second) for held in case.places)
+    return case.eccentricity * max(arms)
+
+
+def _advice(
+    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int
+) -> Action | None:
+    """A drag rate that was tried, if a start case is late or does not balance."""
+    limit = design.case.table.limits.settling_time_s
+    late = [run for run in runs if not run.balances or run.settling_time is None or run.settling_time > limit]
+    if not late or patience.over():
+        return None
+    slow = slowest(runs)
+    first = slow[1] if slow is not None else next((run for run in late if run.settling_time is None), late[0])
+    return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers)
+
+
+def _runs(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int) -> Iterator[TwoRaceRun | LostRun]:
+    tasks = [(design, start, accuracy) for start in start_cases(design)]
+    for index, run in enumerate(side_by_side(run_of, tasks, workers, counted(progress, "{} of {} starts", len(tasks)))):
+        yield LostRun(tasks[index][1], "the time of --patience was over") if patience.over() else run
+
+
+def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
+    """The sufficient rule for every forward whirl; where it does not hold, eigenvalues at phases of the imbalances."""
+    case = design.case
+    balls = [PlacedImbalance(place, mass) for place, mass in zip(case.races, design.ball_masses, strict=True)]
+    modes = case.rotor.forward_modes(speed)
+    slower = [mode for mode in modes if mode.frequency < speed]
+    margins = [mode_margin(mode, balls, speed, drag, case.inertia_factor) for mode in slower for drag in case.drags]
+    if margins and len(slower) == len(modes) and all(margin.holds for margin in margins):
+        return SpeedStability(speed, True, None)
+    growths: list[float] = []
+    for phase in PHASES if case.unknown_phases else (0.0,):
+        phases = tuple(phase * k for k in range(1, case.unknown_phases + 1))
+        scene = replace(stability_scene(design, phases), speed=speed)
+        abu = design.races[0].design.autobalancer
+        try:
+            found = stability(scene, half_angle(abu.ball_diameter / 2, abu.pitch_radius))
+        except NotTrustworthyError as error:
+            return SpeedStability(speed, None, None, str(error).splitlines()[0])
+        if found.growth_rate is None:
+            return SpeedStability(speed, found.stable, None, found.reason or "")
+        growths.append(found.growth_rate)
+    return SpeedStability(speed, max(growths) < 0, max(growths))
+
+
+def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibration:
+    """Levels at every place: without autobalancers at the worst of the phases, with them over the start cases."""
+    given = [run for run in runs if run.case.drag_factor == 1 and run.balances]
+    rows = []
+    for index, held in enumerate(case.places):
+        without = sum(abs(case.rotor.whirl(held.place, [wheel], case.speed)) for wheel in case.wheels)
+        if not case.unknown_phases:
+            without = abs(case.rotor.whirl(held.place, case.turned(()), case.speed))
+        medians = [run.displacements[index] for run in given]
+        rows.append(
+            PlaceOnSpindleLevel(
+                name=held.name,
+                level_before_db=level_of(without, case.speed),
+                level_after_db=level_of(statistics.median(medians), case.speed) if medians else None,
+                level_after_worst_db=level_of(max(run.displacements[index] for run in runs), case.speed)
+                if runs
+                else None,
+            )
+        )
+    before = max(row.level_before_db for row in rows)
+    after = _largest([row.level_after_db for row in rows])
+    return TwoRaceVibration(
+        level_before_db=before,
+        level_after_db=after,
+        level_after_worst_db=_largest([row.level_after_worst_db for row in rows]),
+        reduction_db=None if after is None else before - after,
+        handles=tuple(rows),
+    )
+
+
+def _largest(values: Sequence[float | None]) -> float | None:
+    return max((value for value in values if value is not None), default=None)
+
+
+def _ensemble(runs: Sequence[TwoRaceRun | LostRun]) -> TwoRaceEnsemble | None:
+    known = [run for run in runs if isinstance(run, TwoRaceRun)]
+    if not known:
+        return None
+    times = [run.settling_time for run in known]
+    settled = [time for time in times if time is not None]
+    slow = slowest(known)
+    return TwoRaceEnsemble(
+        members=len(runs),
+        balanced=sum(run.balances for run in known),
+        hanging=sum(run.slip > STILL for run in known),
+        lost=len(runs) - len(known),
+        settling_time_s=TwoRaceSpread(
+            typical=statistics.median(settled) if len(settled) == len(times) else None,
+            worst=None if slow is None else slow[0],
+        ),
+        slowest=None if slow is None else slow[1].case.name,
+    )
+
+
+def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability], above: bool) -> TwoRaceFrequency:
+    case = design.case
+    critical = case.rotor.critical_speeds()
+    below = [speed for speed in critical if speed < min(case.speed_range)]
+    region = "supercritical" if above else "between" if below else "subcritical"
+    growths = [each.growth for each in judged if each.growth is not None]
+    states = [each.stable for each in judged]
+    return TwoRaceFrequency(
+        speed_hz=from_si(case.speed, "hz"),
+        critical_speeds_rpm=tuple(from_si(speed, "rpm") for speed in critical),
+        region=region,
+        balancing_possible=above,
+        stable=None if not states or None in states else all(states),
+        growth_rate_per_s=max(growths) if growths else None,
+    )
+
+
+def _one_race(design: TwoRaceDesign) -> OneRace | None:
+    """The single race between both races that leaves the least at the loudest place; None if none balances."""
+    case = design.bare
+    # The autobalancer's own mass h at its place z_r adds h to M and h·z_r² to J': together 2·h in the limit to z_r.
+    own = max(race.design.autobalancer.mass for race in design.races)
+    limit = one_race_limit(replace(case.rotor, mass=case.rotor.mass + 2 * own), case.speed)
+    turns = [tuple(phase * k for k in range(1, case.unknown_phases + 1)) for phase in PHASES]
+    tried: list[tuple[float, float]] = []
+    first, second = case.races
+    for step in range(ONE_RACE_PLACES):
+        place = first + (second - first) * step / (ONE_RACE_PLACES - 1)
+        if not case.rotor.receptance(place, place, case.speed).real < 0 or (limit and abs(place) > limit):
+            continue
+        loudest = 0.0
+        for phases in turns:
+            wheels = case.turned((0.0, *phases) if all(angle is None for angle in case.angles) else phases)
+            whole = [*wheels, PlacedImbalance(place, one_race_resultant(case.rotor, place, wheels, case.speed))]
+            loudest = max([loudest, *(abs(case.rotor.whirl(held.place, whole, case.speed)) for held in case.places)])
+        tried.append((loudest, place))
+    if not tried:
+        return None
+    rest, place = min(tried)
+    level = level_of(rest + case.eccentricity, case.speed)
+    return OneRace(
+        plane_mm=from_si(place, "mm"),
+        level_db=level,
+        limit_to_place_mm=None if limit is None else from_si(limit, "mm"),
+        enough=level <= case.table.limits.vibration_level_db,
+    )
+
+
+def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
+    limit = design.case.table.limits.vibration_level_db
+    if one is not None and one.enough:
+        yield (
+            f"One race at {one.plane_mm:.4g} mm leaves {one.level_db:.1f} dB at the worst phase (calculated, limit "
+            f"{limit:g} dB): the second race may not be needed"
+        )
+    for number, race in enumerate(design.races, 1):
+        outside = [share for share in race.shares if not -1e-9 <= share <= 1 + 1e-9]
+        if outside:
+            yield (
+                f"Race {number} carries {max(outside, key=abs):.2f} times the imbalance of a wheel that lies outside "
+                "both races: move the races apart"
+            )
+    yield "Housings of both autobalancers are taken to leave the centre of mass in its place"
+    yield "Grinding, hands, and levels off the spindle axis are not modelled with two races"

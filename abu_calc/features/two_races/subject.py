@@ -1,0 +1,57 @@
+"""A machine with two races as the subject of `abu simulate` and `abu stability`: one of its start cases."""
+
+from typing import Final
+
+from abu_calc.features.two_races.case import read_case
+from abu_calc.features.two_races.choice import choose_both
+from abu_calc.features.two_races.start_cases import STARTS, StartCase, scene_of
+from abu_calc.formulas.balls import half_angle
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.subject import Subject
+
+SCENE: Final = "idle"
+IN_WORDS: Final = {
+    "bunched": "balls at rest in both races, neighbours touching, their middle 20° ahead of what the race balances",
+    "spread": "balls at rest in both races, evenly round them, the first at what the race balances",
+    "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of what the race balances",
+    "run-up": "rotor and balls at standstill; the rotor runs up",
+}
+
+
+def two_race_subject(
+    machine: Machine, scene: str | None = None, start: str | None = None, race_centre_deg: float | None = None
+) -> Subject:
+    """Subject of a machine with two races: its idle scene in a start case, by default with bunched balls.
+
+    Imbalances of unknown phase take the phase 0. The race centres are off toward the resultant of the imbalances.
+    Raises InputError for another scene or start, and for what cannot be sized.
+    """
+    table = machine.two_races
+    if table is None:
+        raise InputError("this file has one race")
+    for key, given, allowed in (("scene", scene, (SCENE,)), ("start", start, STARTS)):
+        if given is not None and given not in allowed:
+            raise InputError(
+                f"a machine with two races has no such {key}", place=Place(machine.file, key=key), found=given,
+                allowed=", ".join(allowed),
+            )  # fmt: skip
+    if race_centre_deg is not None:
+        raise InputError(
+            "for machines with one race only", place=Place(key="race_centre_deg"), found=f"{race_centre_deg:g}",
+            remedy="Leave it out: with two races both centres are off toward the resultant of the imbalances.",
+        )  # fmt: skip
+    with machine.located():
+        design = choose_both(read_case(table))
+    unknown = design.case.unknown_phases
+    chosen = StartCase(next(each for each in STARTS if each == (start or "bunched")), 1.0, (0.0,) * unknown)
+    sized = [race.design.autobalancer for race in design.races]
+    notes = ("Imbalances of unknown phase are taken in phase; `abu size` simulates four phases",) if unknown else ()
+    return Subject(
+        title=table.machine.name,
+        reading=machine,
+        scene=scene_of(design, chosen),
+        start=IN_WORDS[chosen.start],
+        half_angle=max(half_angle(abu.ball_diameter / 2, abu.pitch_radius) for abu in sized),
+        warnings=(*machine.warnings, *notes),
+    )

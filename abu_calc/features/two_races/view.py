@@ -1,0 +1,105 @@
+"""The screen and the whole report of `abu size` for a machine with two races."""
+
+from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.parts import (
+    check_blocks,
+    default_blocks,
+    facts,
+    limit_in_file,
+    provenance_blocks,
+    warning_blocks,
+)
+from abu_calc.reporting.screen import one_screen, verdict_line
+
+
+def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
+    """Outcome of the command: screen and whole report."""
+    return Outcome.of(result, lambda: two_race_blocks(result), lambda: two_race_screen(result))
+
+
+def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+    """The one screen: verdict, what to make, levels, settling, then checks that did not pass."""
+    return one_screen(result, (Heading(result.title), verdict_line(result)), (*_make(result), *_numbers(result)))
+
+
+def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (
+        Heading(result.title),
+        verdict_line(result),
+        Heading("Make", "make"),
+        *_make(result),
+        Heading("Vibration and settling", "vibration"),
+        *_numbers(result),
+        *(block for index, race in enumerate(result.autobalancers, 1) for block in _race(index, race)),
+        Heading("Speeds", "frequency"),
+        facts(result.frequency, *result.frequency.entries()),
+        *_single(result),
+        *check_blocks(result.checks),
+        *warning_blocks(result.warnings),
+        *default_blocks(result.provenance.defaults),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def _make(result: TwoRaceSizeResult) -> list[Block]:
+    rows = (
+        ("Place, mm", lambda race: number(race.plane_mm, 4)),
+        ("Balls", lambda race: f"{race.ball_count} × Ø{number(race.ball_diameter_mm, 5)} mm"),
+        ("Race R, groove R, mm", _radii),
+        ("Housing", lambda race: f"Ø{number(race.outer_diameter_mm, 4)} × {number(race.width_mm, 3)} mm"),
+        ("Capacity, g·mm", lambda race: number(race.capacity_g_mm, 5)),
+        ("  required, worst phase", lambda race: number(race.resultant_worst_g_mm, 5)),
+        ("  required, rms of all phases", lambda race: number(race.resultant_typical_g_mm, 5)),
+        ("Mass with balls, g", lambda race: number(race.mass_g, 4)),
+    )
+    cells = tuple((label, *(show(race) for race in result.autobalancers)) for label, show in rows)
+    return [Grid(("Make", "race 1", "race 2"), cells, frozenset({1, 2}))]
+
+
+def _radii(race: TwoRaceAutobalancer) -> str:
+    groove = "" if race.groove_radius_mm is None else f", {number(race.groove_radius_mm, 4)}"
+    return f"{number(race.race_radius_mm, 4)}{groove}"
+
+
+def _numbers(result: TwoRaceSizeResult) -> list[Block]:
+    vibration, ensemble = result.vibration, result.ensemble
+    cells = tuple(
+        (
+            place.name, number(place.level_before_db, 4), _or_dash(place.level_after_db),
+            _or_dash(place.level_after_worst_db),
+        )
+        for place in vibration.handles
+    )  # fmt: skip
+    heading = "Vibration, dB re 5e-8 m/s", "without", "median", "loudest"
+    blocks: list[Block] = [Paragraph(""), Grid(heading, cells, frozenset({1, 2, 3}))]
+    limit = limit_in_file(next((check for check in result.checks if check.code == "ABU401"), None))
+    meant = "Without autobalancers: worst phase. With them: median and loudest start case, any oil."
+    blocks.append(Paragraph(f"{meant} Limit: {limit}." if limit else meant))
+    if ensemble is not None:
+        spread = ensemble.settling_time_s
+        blocks += [
+            Paragraph(""),
+            Paragraph(
+                f"{ensemble.balanced} of {ensemble.members} start cases balance, over all phases of the imbalances, in "
+                f"hot and cold oil. Settling time: median {_or_dash(spread.typical, 2)} s, slowest "
+                f"{_or_dash(spread.worst, 3)} s{f' ({ensemble.slowest})' if ensemble.slowest else ''}."
+            ),
+        ]
+    return blocks
+
+
+def _or_dash(value: float | None, digits: int = 4) -> str:
+    return "–" if value is None else number(value, digits)
+
+
+def _race(index: int, race: TwoRaceAutobalancer) -> list[Block]:
+    return [Heading(f"Race {index}", f"race-{index}"), facts(race, *race.entries())]
+
+
+def _single(result: TwoRaceSizeResult) -> list[Block]:
+    if result.one_race is None:
+        return [Heading("One race instead", "one-race"), Paragraph("A single race balances nowhere between the two.")]
+    return [Heading("One race instead", "one-race"), facts(result.one_race, *result.one_race.entries())]

@@ -1,0 +1,146 @@
+"""Start cases against equations of four freedoms and eight or more balls that are integrated here."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from abu_calc.dynamics.scene import without
+from abu_calc.features.two_races.case import read_case
+from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.two_races.start_cases import (
+    LostRun,
+    StartCase,
+    TwoRaceRun,
+    revolution_times,
+    run_of,
+    scene_of,
+    settling_time,
+    start_cases,
+    wheels_share,
+)
+from abu_calc.inputs.read_machine import read_machine
+from abu_calc.simulation.simulate import simulate
+
+TRUE = (
+    *(f"autobalancer.{k}.race_eccentricity_mm=0.0" for k in (0, 1)),
+    *(f"autobalancer.{k}.rolling_friction_mm=0.0" for k in (0, 1)),
+    'machine.spindle_axis="vertical"',
+)
+
+
+def design_of(*overrides: str) -> TwoRaceDesign:
+    tables = read_machine("pedestal-grinder", overrides).two_races
+    assert tables is not None
+    return choose_both(read_case(tables))
+
+
+def test_start_cases_cover_phases_starts_and_oils() -> None:
+    cases = list(start_cases(design_of()))
+    assert {case.start for case in cases} == {"bunched", "spread", "standstill", "run-up"}
+    assert {case.phases for case in cases if case.drag_factor == 1} == {(phase * math.pi / 2,) for phase in range(4)}
+    assert {case.drag_factor for case in cases} == {1.0, 1 / 3, 3.0}
+
+
+def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
+    design = design_of()
+    start = StartCase("spread", 1.0, (math.pi / 2,))
+    scene = scene_of(design, start)
+    force = scene.imbalance * np.exp(1j * scene.imbalance_angle)
+    moment = scene.couple * np.exp(1j * scene.couple_angle)
+    assert force == pytest.approx(2500e-6 + 1800e-6j, rel=1e-9)
+    assert moment == pytest.approx(0.26 * 2500e-6 - 0.26j * 1800e-6, rel=1e-9)
+    for race, place in enumerate((0.3, -0.3)):
+        share = wheels_share(design, race, start)
+        assert abs(share - (force / 2 + moment / (2 * place))) < 1e-12
+
+
+def test_both_races_end_where_the_levers_say() -> None:
+    """Without friction, eccentricity and gravity the balls' resultants are exactly opposite what the races carry."""
+    design = design_of(*TRUE)
+    run = run_of(design, StartCase("spread", 1.0, (math.radians(130),)), 0.01)
+    assert isinstance(run, TwoRaceRun)
+    assert run.balances
+    assert run.slip < 1e-3
+    for end, bare in zip(run.displacements, run.displacements_without, strict=True):
+        assert end < 0.02 * bare
+
+
+@pytest.mark.slow
+def test_settling_agrees_with_an_own_integration() -> None:
+    """Lagrange's equations of x, y, two tilts and all balls, integrated by DOP853 in space-fixed angles.
+
+    Balls pass each other there and do not move along the spindle, so contact and axial inertia are left out on both
+    sides. Races without eccentricity and friction end with no residual imbalance at all: the limit is a tenth of it.
+    """
+    design = design_of(*TRUE)
+    start = StartCase("spread", 1.0, (math.radians(130),))
+    ours = without(scene_of(design, start), ["ball_contact"])
+    ours = replace(ours, support=replace(ours.support, axial_inertia=False))
+    case, scene = design.case, scene_of(design, start)
+    W, J, rotor = case.speed, case.inertia_factor, case.rotor
+    z = np.concatenate([[race.plane_offset] * len(race.ball_masses) for race in scene.races])
+    m = np.concatenate([race.ball_masses for race in scene.races])
+    R = np.concatenate([[race.pitch_radius] * len(race.ball_masses) for race in scene.races])
+    h = np.concatenate([[race.drag] * len(race.ball_masses) for race in scene.races])
+    gamma = np.concatenate([race.start_angles for race in scene.races])
+    n = len(m)
+    k = sum(b.stiffness for b in rotor.bearings)
+    kt = sum(b.stiffness * b.place**2 for b in rotor.bearings)
+    c, ct = sum(b.damping for b in rotor.bearings), sum(b.damping * b.place**2 for b in rotor.bearings)
+    static = sum(w.imbalance for w in case.turned((0.0, math.radians(130))))
+    couple = sum(w.place * w.imbalance for w in case.turned((0.0, math.radians(130))))
+
+    def rhs(t: float, s: np.ndarray) -> np.ndarray:
+        x, y, p, q = s[:4]
+        vx, vy, vp, vq = s[4:8]
+        a, w = s[8 : 8 + n], s[8 + n :]
+        A = np.zeros((4 + n, 4 + n))
+        A[0, 0] = A[1, 1] = rotor.mass + m.sum()
+        A[2, 2] = A[3, 3] = rotor.transverse_inertia + (m * z**2).sum()
+        A[0, 2] = A[2, 0] = A[1, 3] = A[3, 1] = (m * z).sum()
+        cos, sin = np.cos(a), np.sin(a)
+        A[0, 4:], A[1, 4:] = -m * R * sin, m * R * cos
+        A[2, 4:], A[3, 4:] = -m * z * R * sin, m * z * R * cos
+        A[4:, :4] = A[:4, 4:].T
+        A[range(4, 4 + n), range(4, 4 + n)] = J * m * R**2
+        turn = np.exp(1j * W * t)
+        F, M = W**2 * static * turn, W**2 * couple * turn
+        b = np.zeros(4 + n)
+        G = rotor.polar_inertia * W
+        b[0] = F.real + (m * R * w**2 * cos).sum() - k * x - c * vx
+        b[1] = F.imag + (m * R * w**2 * sin).sum() - k * y - c * vy
+        b[2] = M.real + (m * z * R * w**2 * cos).sum() - kt * p - ct * vp - G * vq
+        b[3] = M.imag + (m * z * R * w**2 * sin).sum() - kt * q - ct * vq + G * vp
+        b[4:] = -m * R**2 * h * (w - W)
+        return np.concatenate([s[4:8], np.linalg.solve(A, b)[:4], w, np.linalg.solve(A, b)[4:]])
+
+    first = np.concatenate([np.zeros(8), gamma, np.full(n, W)])
+    times = revolution_times(ours)
+    until = times[times <= 1.0]
+    own = solve_ivp(rhs, (0, 1.0), first, "DOP853", until, rtol=1e-8, atol=1e-11)
+    states = simulate(ours, 0.001, times).trajectory.at(times)
+    turned = own.y[8 : 8 + n] - W * own.t
+    assert np.abs(turned - states[8 : 8 + n, : len(until)]).max() < 2e-6
+    settled, counts = 0.0, [len(race.ball_masses) for race in scene.races]
+    for race, inside in enumerate((slice(0, counts[0]), slice(counts[0], n))):
+        need = wheels_share(design, race, start)
+        left = np.abs(need + (m[inside] * R[inside]) @ np.exp(1j * turned[inside]))
+        assert left[-1] < 0.03 * abs(need)
+        settled = max(settled, until[np.flatnonzero(left > 0.1 * abs(need))[-1] + 1])
+    needs = wheels_share(design, 0, start), wheels_share(design, 1, start)
+    assert settling_time(ours, states, needs) == pytest.approx(settled, abs=1e-9)
+    # Balls that move along the spindle with their tilting race, as start cases have them, change next to nothing.
+    leaning = scene_of(design, start)
+    assert leaning.support.axial_inertia
+    leaning = without(leaning, ["ball_contact"])
+    moved = simulate(leaning, 0.001, times).trajectory.at(times)
+    assert np.abs(moved - states)[8 : 8 + n].max() < 2e-4
+
+
+def test_what_fails_is_told() -> None:
+    lost = LostRun(StartCase("bunched"), "because")
+    assert lost.case.name == "bunched"
+    assert StartCase("bunched", 1.0, (math.pi,)).name == "bunched, phase 180°"
