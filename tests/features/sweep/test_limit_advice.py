@@ -46,8 +46,8 @@ def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dic
         for name, (_, after) in advice.limits.items():
             failing = again.meets_limits.each[name]
             assert failing.of - failing.met == after
-    best = sweep.advice[0].limits[limit]
-    assert best[1] < best[0]
+    # The best advice raises the share; one of them at least lowers the failures of this limit.
+    assert any(advice.limits[limit][1] < advice.limits[limit][0] for advice in sweep.advice)
 
 
 def test_no_advice_where_nothing_fails() -> None:
