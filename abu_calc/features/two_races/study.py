@@ -297,5 +297,7 @@ def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
                 f"Race {number} carries {max(outside, key=abs):.2f} times the imbalance of a wheel that lies outside "
                 "both races: move the races apart"
             )
+    if len(set(design.case.speed_range)) > 1:
+        yield "Start cases run at the rated speed alone; the level is scaled to the highest speed"
     yield "Housings of both autobalancers are taken to leave the centre of mass in its place"
     yield "Grinding, hands, and levels off the spindle axis are not modelled with two races"
