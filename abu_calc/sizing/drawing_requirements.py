@@ -183,8 +183,8 @@ def _seat_and_balls(
     rest = math.hypot(candidate.budget.rolling_friction, candidate.budget.race_ovality, candidate.budget.plane_offset)
     fit = split.fit
     named = "no standard fit" if fit is None else (
-        f"bore Ø{bore} {fit.bore_class} ({_limits(fit.bore)} µm), spindle Ø{bore} {fit.spindle_class} "
-        f"({_limits(fit.spindle)} µm); {_clearance(fit)}; the largest clearance gives "
+        f"bore Ø{bore} {fit.bore_class} ({_limits(fit.bore)}), spindle Ø{bore} {fit.spindle_class} "
+        f"({_limits(fit.spindle)} mm); {_clearance(fit)}; the largest clearance gives "
         f"{_um(split.clearance)} µm of the eccentricity"
     )  # fmt: skip
     return (
@@ -203,8 +203,8 @@ def _seat_and_balls(
 
 
 def _limits(limits: DeviationLimits) -> str:
-    """Upper and lower deviation in µm."""
-    return " / ".join(f"{from_si(limit, 'um'):+.3g}" if limit else "0" for limit in (limits.upper, limits.lower))
+    """Upper and lower deviation in mm."""
+    return " / ".join(f"{from_si(limit, 'mm'):+.4g}" if limit else "0" for limit in (limits.upper, limits.lower))
 
 
 def _clearance(fit: Fit) -> str:

@@ -16,6 +16,8 @@ from abu_calc.sizing.parts.surfaces import Surface
 
 FROM_RIGHT: Final = 0.7
 """Places beyond this share of the length are measured from the right face."""
+LABELS: Final = {"race": "race", "cover seat": "seat"}
+"""Names of surfaces that stand before their diameters, which may be alike."""
 SAME: Final = 1e-6
 """Places closer than this [mm] are one."""
 
@@ -162,13 +164,14 @@ def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iter
         if not demand and known.count(radius) > 1:
             continue  # another stretch of this diameter has the demand
         text, below = diameter_text(2 * along[0].start[1], part.surface(along[0].surface))
-        text = f"cover seat {text}" if along[0].surface == "cover seat" and part.surface("race") else text
+        if along[0].surface in LABELS and part.surface("race"):
+            text = f"{LABELS[along[0].surface]} {text}"
         yield Diameter(2 * along[0].start[1], *_witness(along, length, text, below, along[0].surface))
     for edge in (edge for edge in edges if edge.centre is not None):
         assert edge.centre is not None
         bottom = edge.centre[1] + (edge.radius if edge.start[1] > edge.centre[1] else -edge.radius)
         text, below = diameter_text(2 * bottom, part.surface(edge.surface))
-        text = f"race {'S' if _sphere(edge) else ''}{text}"
+        text = f"{LABELS['race']} {'S' if _sphere(edge) else ''}{text}"
         yield Diameter(2 * bottom, edge.centre[0], text, below, "right", False, edge.surface)
         for x, radius in dict.fromkeys((edge.start, edge.end)):
             if all(abs(radius - other) > SAME for other in known):
@@ -250,8 +253,8 @@ def _seated(part: TurnedPart) -> bool:
     return part.name == "cover" or (part.name == "race ring" and (race is None or race.kind != "sphere"))
 
 
-UNDER: Final = " (0 / -0.1)"
-OVER: Final = " (+0.1 / 0)"
+UNDER: Final = " 0/-0.1"
+OVER: Final = " +0.1/0"
 """Limits of a cover's thickness and of the depth of its seat [mm] (assumed)."""
 GROOVE_PLACE: Final = 0.05
 """Tolerance of the groove's middle along the axis [mm]: the balls run in one plane, free of web and cover."""

@@ -116,11 +116,11 @@ def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     else:
         yield f"Heat treatment: {made.treatment}."
     yield from _stops(result, part)
-    yield "Edges by ISO 13715 as in the title block" + (
-        "." if part.name == "cover" else "; edges of bore and seats 0.3 × 45° on the side of assembly.")  # fmt: skip
+    yield "Edges by ISO 13715" + (
+        " as in the title block." if part.name == "cover" else "; bore and seats 0.3 × 45° on the side of assembly.")
     if part.name == "cover":
         yield "The hole leaves clearance to the hub; the cover is held at its outside alone."
-    yield "Sizes without tolerance: ISO 2768-mK / GOST 30893.1-m. Sizes in brackets follow from others."
+    yield "Sizes without tolerance: ISO 2768-mK / GOST 30893.1-m. Sizes in brackets: reference."
 
 
 def note_of(line: "DrawingLine") -> str:
@@ -157,7 +157,7 @@ def _stops(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
             yield "Turn the first turn of the thread, at the inner face, down to the core diameter."
         elif relief:
             yield (f"Chamfer {digits(relief[0])} × 45° between outside and inner face: it clears the corner of the "
-                   "seat. The edge of the outer face stays by ISO 13715.")  # fmt: skip
+                   "seat.")  # fmt: skip
         return
     if "shoulder" in names and threaded:
         yield "Thread up to one turn before the stop; no undercut."
@@ -177,9 +177,8 @@ def _pressed_beside(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     if seat is None or rim is None or seat.limits is None or rim.limits is None:
         return
     growth = from_si(seat_growth(result.parts, rim.limits.upper - seat.limits.lower), "um")
-    yield (f"Size, circularity and run-out of the race are measured before the cover is pressed in. The press fit widens "
-           f"the race's edge beside it by {growth:.2g} µm in diameter at most (calculated, free ring), all round alike; "
-           "so seat and cover are as round as the race.")  # fmt: skip
+    yield (f"Measure size, circularity and run-out of the race before the cover is pressed in: the fit widens its edge "
+           f"by up to {growth:.2g} µm in diameter (free ring), all round alike if seat and cover are as round as asked.")
 
 
 DEEPEST_FLAT_MM: Final = 1.0

