@@ -156,7 +156,8 @@ def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) 
         ),
         DrawingRequirement(
             "race hardness",
-            f"{hardness_text(quality)}, through-hardened (given: {abu.race_hardness_HRC:g}); a soft race has a lever arm of {_um(SOFT_ARM)} µm",
+            f"{hardness_text(quality)}, through-hardened (given: {abu.race_hardness_HRC:g}); a soft race has a lever "
+            f"arm of {_um(SOFT_ARM)} µm",
             _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction),
         ),
         DrawingRequirement(

@@ -233,7 +233,8 @@ def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
     outer, right = abu.outer_diameter_mm / 2, abu.width_mm + COLUMN * unit
     tip = _on_race(result, 0.7)
     shelf = right, outer - HEIGHT * unit
-    hard, rough = section.hardness, f"Ra {digits(section.roughness_Ra_um)}"
+    size = f"Ø{digits(section.race_diameter_mm, 2)} ±{digits(2 * section.race_tolerance_mm)}"
+    hard, rough = f"race {size}, {section.hardness}", f"Ra {digits(section.roughness_Ra_um)}"
     yield from leader(tip, shelf, hard, scale, more=6)
     end = right + (text_width(hard, HEIGHT) + 5) * unit
     yield from roughness((end, shelf[1]), rough, scale)

@@ -162,7 +162,7 @@ def _stops(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     if "shoulder" in names and threaded:
         yield "Thread up to one turn before the stop; no undercut."
     elif "shoulder" in names and relief:
-        yield (f"Corner at the stop of the cover seat: radius {digits(relief[1])} at most, no undercut, for the seat is "
+        yield (f"Corner at the stop of the cover seat: radius {digits(relief[1])} at most, no undercut: the seat is "
                f"{digits(from_si(result.parts.dimensions.web, 'mm'))} mm long; the cover's chamfer "
                f"{digits(relief[0])} × 45° clears it.")  # fmt: skip
     elif "shoulder" in names:
@@ -177,8 +177,8 @@ def _pressed_beside(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     if seat is None or rim is None or seat.limits is None or rim.limits is None:
         return
     growth = from_si(seat_growth(result.parts, rim.limits.upper - seat.limits.lower), "um")
-    yield (f"Measure size, circularity and run-out of the race before the cover is pressed in: the fit widens its edge "
-           f"by up to {growth:.2g} µm in diameter (free ring), all round alike if seat and cover are as round as asked.")
+    yield (f"Measure size, circularity and run-out of the race before the cover is pressed in: the fit widens its "
+           f"edge by up to {growth:.2g} µm in diameter (free ring), alike all round if seat and cover are as round as asked.")  # fmt: skip
 
 
 DEEPEST_FLAT_MM: Final = 1.0
@@ -190,7 +190,7 @@ def _correction(result: "SizeResult") -> str:
     wall = from_si(size.outer_radius - (size.race_radius if hard else size.ring_radius), "mm")
     depth = digits(max(0.1, min(DEEPEST_FLAT_MM, math.floor(10 * wall / 3 + 1e-9) / 10)))
     if hard:
-        return f"Correct by grinding a flat at the rim's outside, {depth} mm deep at most; the body is hard, do not drill"
+        return f"Correct by grinding a flat at the rim's outside, {depth} mm deep at most; do not drill the hard body"
     return f"Correct by drilling the rim's outside, {depth} mm deep at most"
 
 
