@@ -56,7 +56,7 @@ class Case(NamedTuple):
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The report on one screen: tables first, then actions, then notes as far as there is room."""
-    about = [Heading(title_with_speed(result)), verdict_line(result), *small_benefit(result)]
+    about = [Heading(title_with_speed(result)), verdict_line(result), *unusual_values(result), *small_benefit(result)]
     about += arm_line(short_advice(result.swing_arm.advice)) if result.swing_arm else []
     tables = numbers_that_matter(result)
     body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
@@ -466,8 +466,24 @@ def point_mass(result: SizeResult) -> list[Paragraph]:
 
 
 def other_notes(result: SizeResult) -> list[Paragraph]:
-    """Warnings beside the missing data."""
-    return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA not in text]
+    """Warnings beside the missing data and the unusual values."""
+    return [
+        Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA not in text and UNUSUAL not in text
+    ]
+
+
+UNUSUAL: Final = " is unusual"
+"""Words of every warning about a value of the file that lies outside its usual range."""
+MOST_UNUSUAL: Final = 2
+"""Most such warnings on the first screen."""
+
+
+def unusual_values(result: SizeResult) -> list[Block]:
+    """Values that may be slips of a unit stand beside the verdict that they decide."""
+    texts = [text for text in result.warnings if UNUSUAL in text]
+    shown: list[Block] = [Paragraph(f"! {text}", "warn", hang=2) for text in texts[:MOST_UNUSUAL]]
+    more = len(texts) - MOST_UNUSUAL
+    return [*shown, Paragraph(f"! {many(more, 'more unusual value')}: see Warnings.", "warn")] if more > 0 else shown
 
 
 def starts_and_defaults(result: SizeResult) -> str:

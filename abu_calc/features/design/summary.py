@@ -13,6 +13,7 @@ from abu_calc.features.design.screen import (
     marked,
     numbers_that_matter,
     other_notes,
+    unusual_values,
     point_mass,
     small_benefit,
     starts_and_defaults,
@@ -55,6 +56,7 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     tables = numbers_that_matter(result)
     changed = any(check.overrides for check in result.checks if check.status != "pass")
     body: list[Block] = [
+        *unusual_values(result),
         *small_benefit(result),
         *arm_change(result),
         *make(result),
