@@ -25,7 +25,9 @@ from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.parts import unlike
 from abu_calc.reporting.screen import many, verdict_line
 
-ENTRIES: Final = Paragraph("The lines below an action are entries of the machine file.")
+ENTRIES: Final = Paragraph(
+    "The lines below an action are entries of the machine file: the table, a point, the key and its value."
+)
 
 
 SHEETS_MM: Final = 2 * 269.0
