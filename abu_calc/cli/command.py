@@ -141,7 +141,9 @@ def _output_option(formats: Iterable[str]) -> Any:
     """The option --output with the formats that one command writes."""
     *others, last = formats
     text = f"Also write as {', '.join(others)}{' or ' if others else ''}{last}; repeatable."
-    return Annotated[list[Path] | None, typer.Option("--output", "-o", metavar="FILE", help=text, rich_help_panel=OUTPUT)]
+    return Annotated[
+        list[Path] | None, typer.Option("--output", "-o", metavar="FILE", help=text, rich_help_panel=OUTPUT)
+    ]
 
 
 def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:

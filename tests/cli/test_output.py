@@ -116,5 +116,7 @@ def test_several_outputs_are_all_written_and_none_twice(tmp_path: Path) -> None:
     words = [word for file in files for word in ("--output", str(file))]
     assert abu("check-fit", "mmg-3200k-knife-shaft", "--quiet", *words).status == 0
     assert all(file.stat().st_size > 500 for file in files)
-    twice = abu("check-fit", "mmg-3200k-knife-shaft", "-o", str(tmp_path / "a.txt"), "-o", str(tmp_path / "." / "a.txt"))
+    twice = abu(
+        "check-fit", "mmg-3200k-knife-shaft", "-o", str(tmp_path / "a.txt"), "-o", str(tmp_path / "." / "a.txt")
+    )
     assert twice.status == 2 and "two outputs name the same file" in twice.err and not (tmp_path / "a.txt").exists()

@@ -13,11 +13,11 @@ from abu_calc.features.design.screen import (
     marked,
     numbers_that_matter,
     other_notes,
-    unusual_values,
     point_mass,
     small_benefit,
     starts_and_defaults,
     title_with_speed,
+    unusual_values,
 )
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds

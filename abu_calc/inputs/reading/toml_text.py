@@ -174,7 +174,7 @@ def with_unit_converted(key: str, text: str) -> str | None:
     try:
         value = unit.value(text)
     except WrittenUnitError as error:
-        return f"write {key} = …, a number in {unit.unit}, or {unit.stem} = \"…\", {error.allowed}"
+        return f'write {key} = …, a number in {unit.unit}, or {unit.stem} = "…", {error.allowed}'
     return f"write {key} = {value:.12g}, or {unit.stem} = {quoted(text)}"
 
 
