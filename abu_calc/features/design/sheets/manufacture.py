@@ -178,7 +178,8 @@ def _pressed_beside(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
         return
     growth = from_si(seat_growth(result.parts, rim.limits.upper - seat.limits.lower), "um")
     yield (f"Measure size, circularity and run-out of the race before the cover is pressed in: the fit widens its "
-           f"edge by up to {growth:.2g} µm in diameter (free ring), alike all round if seat and cover are as round as asked.")  # fmt: skip
+           f"edge by up to {growth:.2g} µm in diameter (free ring), alike all round if seat and cover are as round as "
+           "asked.")  # fmt: skip
 
 
 DEEPEST_FLAT_MM: Final = 1.0
