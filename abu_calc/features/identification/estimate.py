@@ -1,12 +1,14 @@
 """The unknowns that make recorded starts likely: features of tracks, their distribution by regression, intervals.
 
 Features of a start are regressed over a bank: their means by polynomials of degree four, the logarithms of their
-variances by degree two. A multivariate Student likelihood (ν = 6) of all starts is maximised; the profile of the
-likelihood gives intervals, whose drop is calibrated by starts simulated at the estimate (parametric bootstrap).
+variances by degree two. At the estimate, starts simulated there correct the regression. A multivariate Student
+likelihood (ν = 6) of all starts is maximised; the profile of the likelihood gives intervals, whose drop is calibrated
+by the same starts (parametric bootstrap).
 """
 
 import math
 from collections.abc import Sequence
+from copy import copy
 from itertools import combinations_with_replacement
 from typing import Final
 
@@ -23,6 +25,10 @@ FLOOR, NOISES = 0.04, 6.0
 """Distances from the end that count as none: this share of the amplitude without balls, or so many times the noise."""
 FREEDOM: Final = 6.0
 """ν of the Student likelihood."""
+REWEIGHTED: Final = 6
+"""Rounds of a weighted fit, which far values hardly move."""
+LEAST_DEVIATION: Final = 1e-3
+"""Least standard deviation of a feature."""
 PRIOR_UM: Final = 12.0
 """Standard deviation of a component of Δ before anything is measured."""
 NARROWEST_UM, WIDEST_UM = 10.0, 20.0
@@ -97,6 +103,20 @@ def _terms(points: Points, degree: int) -> Points:
     return np.stack([np.prod(points[:, list(each)], axis=1) for each in chosen], axis=1)
 
 
+def _student_scale(rest: Features) -> Array:
+    """Scale of each column by a Student distribution, which far values hardly widen."""
+    scale = np.median(np.abs(rest), axis=0) * 1.5 + 1e-12
+    for _ in range(REWEIGHTED):
+        scale = np.sqrt(np.mean((FREEDOM + 1) / (FREEDOM + (rest / scale) ** 2) * rest**2, axis=0)) + 1e-12
+    return np.asarray(scale)
+
+
+def _inverse_correlation(standard: Features) -> Array:
+    """Inverse of the correlation of the features, far values clipped and the correlation shrunk by 5 %."""
+    kept = np.clip(standard, -4, 4)
+    return np.asarray(np.linalg.inv(0.95 * np.corrcoef(kept.T) + 0.05 * np.eye(kept.shape[1])))
+
+
 class Regression:
     """Distribution of the features over a box."""
 
@@ -106,19 +126,42 @@ class Regression:
         scaled = bank.box.scaled(bank.points)
         terms, few = _terms(scaled, 4), _terms(scaled, 2)
         self.means = np.linalg.lstsq(terms, features, rcond=None)[0]
-        rest = features - terms @ self.means
-        self.variances = np.linalg.lstsq(few, np.log(rest**2 + 1e-10), rcond=None)[0]
-        standard = rest / np.exp(few @ self.variances / 2)
-        self.scale = standard.std(axis=0)
-        kept = np.clip(standard / self.scale, -4, 4)
-        count = features.shape[1]
-        self.inverse = np.linalg.inv(0.95 * np.corrcoef(kept.T) + 0.05 * np.eye(count))
+        # Balls that friction holds end far away now and then: unweighted, such starts would bend the means.
+        for _ in range(REWEIGHTED):
+            rest = features - terms @ self.means
+            self.variances = np.linalg.lstsq(few, np.log(rest**2 + 1e-10), rcond=None)[0]
+            deviations = np.exp(few @ self.variances / 2)
+            self.scale = _student_scale(rest / deviations)
+            standard = rest / (deviations * self.scale)
+            roots = 1 / (np.sqrt(FREEDOM + standard**2) * deviations)
+            self.means = np.stack(
+                [
+                    np.linalg.lstsq(terms * root[:, None], column * root, rcond=None)[0]
+                    for column, root in zip(features.T, roots.T, strict=True)
+                ],
+                axis=1,
+            )
+        self.inverse = _inverse_correlation(standard)
+        self.shift, self.ratio = np.zeros(features.shape[1]), np.ones(features.shape[1])
+
+    def anchored(self, point: Points, features: Features) -> "Regression":
+        """This regression with mean, scatter and correlation at a point as in starts simulated there."""
+        means, deviations = self.distribution(point)
+        middle, scale = np.median(features, axis=0), deviations[0]
+        for _ in range(REWEIGHTED):
+            weights = 1 / (FREEDOM + ((features - middle) / scale) ** 2)
+            middle = np.sum(weights * features, axis=0) / weights.sum(axis=0)
+            scale = np.maximum(_student_scale(features - middle), LEAST_DEVIATION)
+        near = copy(self)
+        near.shift, near.ratio = self.shift + middle - means[0], self.ratio * scale / deviations[0]
+        near.inverse = _inverse_correlation((features - middle) / scale)
+        return near
 
     def distribution(self, points: Points) -> tuple[Features, Features]:
         """Means and standard deviations of the features at points."""
         scaled = self.box.scaled(np.atleast_2d(points))
         deviations = np.exp(_terms(scaled, 2) @ self.variances / 2) * self.scale
-        return _terms(scaled, 4) @ self.means, deviations
+        return _terms(scaled, 4) @ self.means + self.shift, deviations * self.ratio
 
     def likelihood(self, points: Points, features: Features) -> Array:
         """Logarithm of the likelihood of all starts at points, with the prior of Δ."""

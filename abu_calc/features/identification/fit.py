@@ -23,6 +23,7 @@ from abu_calc.features.identification.tracks import (
     RecordedStart,
     Track,
 )
+from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si, to_si, wrapped_deg
@@ -35,9 +36,13 @@ ROUNDS: Final = 5
 """Narrower banks, at most."""
 SETS: Final = 40
 """Sets of starts that are simulated at the estimate, for intervals and goodness of fit."""
+ANCHORS: Final = 3
+"""Times at most that the regression is anchored at the estimate, which moves by it."""
+NEAR: Final = 0.03
+"""Move of the estimate, as a share of the box, below which the anchor stays."""
 COVERED: Final = 0.95
-LEAST_DROP, MOST_DROP = 1.92, 12.0
-"""Drops of the logarithmic likelihood at the ends of an interval: χ² of one freedom, and where a calibration stops."""
+LEAST_DROP, MOST_DROP = 2.6, 12.0
+"""Drops of the logarithmic likelihood at the ends of an interval, at least and at most: t²/2 of ten starts is 2.56."""
 SURE_UM: Final = 0.3
 """Half of the narrowest interval of the eccentricity [µm]: with a mark, machines of known values came out 0.16 µm off
 in the median, more than their starts scatter."""
@@ -125,11 +130,17 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
         regression = Regression(bank_of(scene, box, FEW, centres, within(progress, "narrow")), measured.reading)
         best, simulated = regression.best(features), simulated + FEW
         if inside(best, box, parts):
-            break
+            anchored = _anchored(scene, measured, regression, best)
+            best, simulated = anchored.best, simulated + anchored.simulated
+            if inside(best, box, parts):
+                break
+    else:
+        anchored = _anchored(scene, measured, regression, best)
+        best = anchored.best
     progress("intervals")
-    sets = list(_sets(scene, measured, best))
-    fits = [regression.best(each, begin=best.point) for each in sets]
-    drops = [_drop(regression, each, fit, best, parts) for each, fit in zip(sets, fits, strict=True)]
+    regression, truth = anchored.regression, anchored.truth
+    fits = [regression.best(each, begin=truth.point) for each in anchored.sets]
+    drops = [_drop(regression, each, fit, truth, parts) for each, fit in zip(anchored.sets, fits, strict=True)]
     intervals = [
         regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), LEAST_DROP, MOST_DROP)))
         for part, column in zip(parts, np.array(drops).T, strict=True)
@@ -144,8 +155,35 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
         float(np.mean([fit.value < best.value for fit in fits])),
         float(np.mean(amplitudes)) * math.sqrt(len(features)),
         float(np.mean(features[:, -1]) / means[0, -1]),
-        simulated + SETS * len(features),
+        simulated,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class AnchoredFit:
+    """A regression anchored by sets simulated at `truth`, near the likeliest point that it gives."""
+
+    regression: Regression
+    truth: Best
+    sets: tuple[Features, ...]
+    best: Best
+    simulated: int
+
+
+def _anchored(scene: Scene, measured: Measured, regression: Regression, best: Best) -> AnchoredFit:
+    """The likeliest point of the regression anchored there, repeated until the point stays."""
+    features, box, simulated = measured.features, regression.box, 0
+    for _ in range(ANCHORS):
+        truth, sets = best, tuple(_sets(scene, measured, best))
+        if not sets:
+            raise NotTrustworthyError(
+                "starts cannot be simulated at the estimate\n  See `abu simulate FILE` for the reason."
+            )
+        fitted = regression.anchored(truth.point, np.concatenate(sets))
+        best, simulated = fitted.best(features, begin=truth.point), simulated + SETS * len(features)
+        if np.all(np.abs(box.place(best.point) - box.place(truth.point)) < NEAR):
+            break
+    return AnchoredFit(fitted, truth, sets, best, simulated)
 
 
 def _begun(scene: Scene, measured: Measured, wide: Regression, progress: Progress) -> Best:
