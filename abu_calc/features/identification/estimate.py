@@ -9,6 +9,7 @@ by the same starts (parametric bootstrap).
 import math
 from collections.abc import Sequence
 from copy import copy
+from functools import cache
 from itertools import combinations_with_replacement
 from typing import Final
 
@@ -96,11 +97,21 @@ def end_of(track: Track) -> complex:
     return complex(np.mean(track[int((1 - END) * len(track)) :]))
 
 
+@cache
+def _plan(count: int, degree: int) -> tuple[tuple[int, int], ...]:
+    """Each product of components up to a degree, after the one of degree zero: an earlier product, and a component."""
+    chosen = [each for k in range(degree + 1) for each in combinations_with_replacement(range(count), k)]
+    places = {each: place for place, each in enumerate(chosen)}
+    return tuple((places[each[:-1]], each[-1]) for each in chosen[1:])
+
+
 def _terms(points: Points, degree: int) -> Points:
     """Products of the components up to a degree, for points [point, component]."""
-    count = points.shape[1]
-    chosen = [each for k in range(degree + 1) for each in combinations_with_replacement(range(count), k)]
-    return np.stack([np.prod(points[:, list(each)], axis=1) for each in chosen], axis=1)
+    components = points.T
+    products = [np.ones(len(points))]
+    for earlier, component in _plan(points.shape[1], degree):
+        products.append(products[earlier] * components[component])
+    return np.stack(products, axis=1)
 
 
 def _student_scale(rest: Features) -> Array:
@@ -168,11 +179,10 @@ class Regression:
         points = np.atleast_2d(points)
         means, deviations = self.distribution(points)
         total = -0.5 * np.sum(points[:, 2:] ** 2, axis=1) / PRIOR_UM**2
-        for start in features:
-            standard = (start - means) / deviations
-            distance = np.einsum("ni,ij,nj->n", standard, self.inverse, standard)
-            total += -0.5 * (FREEDOM + len(start)) * np.log1p(distance / FREEDOM) - np.log(deviations).sum(axis=1)
-        return np.asarray(total)
+        standard = (features[:, None, :] - means) / deviations
+        distance = np.sum((standard @ self.inverse) * standard, axis=2)
+        total -= 0.5 * (FREEDOM + features.shape[1]) * np.log1p(distance / FREEDOM).sum(axis=0)
+        return np.asarray(total - len(features) * np.log(deviations).sum(axis=1))
 
     def best(
         self,
@@ -192,6 +202,12 @@ class Regression:
         if held:
             bounds[held[0]] = (held[1], held[1])
         limits = [(float(low), float(high)) for low, high in bounds]
+        steps = np.diag(1e-6 * (self.box.high - self.box.low))
+
+        def downhill(point: Points) -> tuple[float, Points]:
+            here, *moved = -self.likelihood(np.vstack([point, point + steps]), features)
+            return float(here), (np.array(moved) - here) / np.diag(steps)
+
         if begin is None:
             tried = box.low + (box.high - box.low) * np.random.default_rng(1).random((12_000, 4))
             begins = tried[np.argsort(self.likelihood(tried, features))[-4:]]
@@ -200,12 +216,7 @@ class Regression:
         ends = []
         for point in begins:
             point = np.clip(np.asarray(point, dtype=float), *np.array(limits).T)
-            result = minimize(
-                lambda x: -float(self.likelihood(np.asarray(x), features)[0]),
-                point,
-                method="L-BFGS-B",
-                bounds=limits,  # type: ignore[call-overload]
-            )
+            result = minimize(downhill, point, jac=True, method="L-BFGS-B", bounds=limits)
             ends.append(Best(np.asarray(result.x), -float(result.fun)))
         return max(ends, key=lambda each: each.value)
 
