@@ -125,7 +125,9 @@ def _student_scale(rest: Features) -> Array:
 def _inverse_correlation(standard: Features) -> Array:
     """Inverse of the correlation of the features, far values clipped and the correlation shrunk by 5 %."""
     kept = np.clip(standard, -4, 4)
-    return np.asarray(np.linalg.inv(0.95 * np.corrcoef(kept.T) + 0.05 * np.eye(kept.shape[1])))
+    kept = kept - kept.mean(axis=0)
+    size = np.sqrt(np.mean(kept**2, axis=0)) + 1e-12  # a feature at its floor in every start has none
+    return np.asarray(np.linalg.inv(0.95 * (kept / size).T @ (kept / size) / len(kept) + 0.05 * np.eye(len(size))))
 
 
 class Regression:
@@ -173,6 +175,12 @@ class Regression:
         scaled = self.box.scaled(np.atleast_2d(points))
         deviations = np.exp(_terms(scaled, 2) @ self.variances / 2) * self.scale
         return _terms(scaled, 4) @ self.means + self.shift, deviations * self.ratio
+
+    def distances(self, point: Points, features: Features) -> Array:
+        """Squared distance of each start from the mean at a point, in the scatter there."""
+        means, deviations = self.distribution(point)
+        standard = (features - means) / deviations
+        return np.asarray(np.sum((standard @ self.inverse) * standard, axis=1))
 
     def likelihood(self, points: Points, features: Features) -> Array:
         """Logarithm of the likelihood of all starts at points, with the prior of Δ."""

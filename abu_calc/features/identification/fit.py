@@ -40,6 +40,8 @@ ANCHORS: Final = 3
 """Times at most that the regression is anchored at the estimate, which moves by it."""
 NEAR: Final = 0.03
 """Move of the estimate, as a share of the box, below which the anchor stays."""
+ODD: Final = 2.0
+"""Squared distance of a start, over that of the farthest of 400 simulated ones, above which it is unlike them."""
 COVERED: Final = 0.95
 LEAST_DROP, MOST_DROP = 2.6, 12.0
 """Drops of the logarithmic likelihood at the ends of an interval, at least and at most: t²/2 of ten starts is 2.56."""
@@ -86,6 +88,8 @@ class Estimate:
     """Difference of the amplitudes at the start from those simulated, in standard errors."""
     amplitude_ratio: float
     simulated: int
+    odd_start: int | None = None
+    """Number of a start, from 0, that is unlike all those simulated at the estimate."""
 
     @property
     def offset_error(self) -> float:
