@@ -255,10 +255,10 @@ class Best:
     value: float
 
 
-def narrowed(best: Best, end_error: float) -> Box:
-    """A box round an estimate; `end_error`: standard error of the mean end [µm], which friction spreads."""
+def narrowed(best: Best, end_error: float, share: float = 1.0) -> Box:
+    """A box round an estimate, or a `share` of it; `end_error`: standard error of the mean end [µm], by friction."""
     offset = min(max(4 * end_error, NARROWEST_UM), WIDEST_UM)
-    half = np.array([0.55, 1.0, offset, offset])
+    half = share * np.array([0.55, 1.0, offset, offset])
     return Box(best.point - half, best.point + half)
 
 
