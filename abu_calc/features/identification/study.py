@@ -298,6 +298,11 @@ def _assumed(scene: Scene, measured: Measured) -> Iterator[str]:
         f"{from_si(scene.imbalance, 'g_mm'):.4g} g·mm, masses and springs are those of the file."
     )
     yield "A wrong run-up time or imbalance moves the values: half the run-up may double the drag rate."
+    if not measured.reading.marked:
+        yield (
+            "Without a mark the magnitudes alone count: no eccentricity is given, and drag rate and lever arm are known "
+            "less well."
+        )
     if measured.background is None:
         yield "No recording without balls is given: a synchronous background counts as eccentricity (--without)."
     else:
