@@ -121,5 +121,7 @@ def _run_up_check(scene: Scene, measured: Measured) -> Check:
         "ABU1108",
         "warn" if off else "pass",
         f"By the mark the run-up takes {time:.3g} s, by the file {given:.3g} s",
-        remedy=f"Repeat with the measured time: --run-up {time:.3g}." if off else None,
+        remedy=f"If the recordings begin at the switching-on, repeat with the measured time: --run-up {time:.3g}."
+        if off
+        else None,
     )

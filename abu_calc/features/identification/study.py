@@ -300,8 +300,8 @@ def _assumed(scene: Scene, measured: Measured) -> Iterator[str]:
     yield "A wrong run-up time or imbalance moves the values: half the run-up may double the drag rate."
     if not measured.reading.marked:
         yield (
-            "Without a mark the magnitudes alone count: no eccentricity is given, and drag rate and lever arm are known "
-            "less well."
+            "Without a mark the magnitudes alone count: no eccentricity is given, and drag rate and lever arm are "
+            "known less well."
         )
     if measured.background is None:
         yield "No recording without balls is given: a synchronous background counts as eccentricity (--without)."
