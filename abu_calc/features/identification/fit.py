@@ -42,7 +42,7 @@ NEAR: Final = 0.03
 """Move of the estimate, as a share of the box, below which the anchor stays."""
 ODD: Final = 2.0
 """Squared distance of a start, over that of the farthest of 400 simulated ones, above which it is unlike them."""
-FINER, FINER_SHARE, POOR_FIT = 2, 0.5, 0.1
+FINER, FINER_SHARE, POOR_FIT = 3, 0.5, 0.1
 """Banks of half the size, at most, that are tried if fewer simulated sets than this share fit worse than the starts."""
 COVERED: Final = 0.95
 LEAST_DROP, MOST_DROP = 2.6, 12.0
@@ -137,12 +137,12 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
         if inside(best, anchored.regression.box, parts):
             break
     for _ in range(FINER):
-        if anchored.fits_worse >= POOR_FIT:
+        if anchored.fits_worse >= POOR_FIT and inside(best, anchored.regression.box, parts):
             break
         box = narrowed(best, measured.end_error, FINER_SHARE)
         finer = _narrow_fit(scene, measured, box, within(progress, "finer"))
         simulated += finer.simulated
-        if finer.fits_worse < anchored.fits_worse or not inside(finer.best, box, parts):
+        if finer.fits_worse < anchored.fits_worse:
             break
         anchored, best = finer, finer.best
     progress("intervals")
