@@ -161,13 +161,19 @@ def felt_mass(case: TwoRaceCase, race: int) -> float:
 
 
 def capacity_needs(case: TwoRaceCase) -> Pair:
-    """Largest resultants [kg m] that the balls of each race must have, over all phases that are not known."""
+    """Largest resultants [kg m] that the balls of each race must have, over unknown phases and the speed range."""
+    by_speed = [_needs_at(case, speed) for speed in dict.fromkeys((case.speed, *case.speed_range))]
+    return max(needs[0] for needs in by_speed), max(needs[1] for needs in by_speed)
+
+
+def _needs_at(case: TwoRaceCase, speed: float) -> Pair:
+    """Largest resultants [kg m] at one speed [rad/s]."""
     spread = (case.eccentricity, case.eccentricity)
-    worst = worst_resultants(case.rotor, case.races, case.wheels, spread, case.speed)
+    worst = worst_resultants(case.rotor, case.races, case.wheels, spread, speed)
     if case.unknown_phases:
         return worst
     exact = balancing_resultants(case.races, case.turned(()))
-    off = [worst_resultants(case.rotor, case.races, (), spread, case.speed)[race] for race in (0, 1)]
+    off = worst_resultants(case.rotor, case.races, (), spread, speed)
     return abs(exact[0]) + off[0], abs(exact[1]) + off[1]
 
 

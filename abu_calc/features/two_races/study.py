@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.dynamics.stability.verdict import stability
-from abu_calc.features.two_races.advice import tried_change
+from abu_calc.features.two_races.advice import quieter_change, sturdier_change, tried_change
 from abu_calc.features.two_races.case import TwoRaceCase, read_case
 from abu_calc.features.two_races.checks import (
     SpeedStability,
@@ -50,7 +50,7 @@ from abu_calc.formulas.two_races import (
     two_races_balance,
 )
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Action
+from abu_calc.foundation.checks import Action, Check
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.parallel import processors, side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
@@ -94,10 +94,8 @@ def size_two_races(
         checks=(
             region_check(design, one),
             *stability_check(design, judged),
-            *capacity_checks(design),
-            *race_checks(design),
-            *mass_checks(design),
-            *level_checks(design, vibration, known),
+            *_made(design),
+            *level_checks(design, vibration, known, _quieter(design, known, accuracy, progress, threads)),
             *start_checks(design, runs, _advice(design, known, accuracy, progress, threads)),
         ),
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
@@ -151,6 +149,26 @@ def _advice(
     return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers)
 
 
+def _made(design: TwoRaceDesign) -> Iterator[Check]:
+    """Checks of what is made: capacity, the races by themselves, mass; a change is tried if one does not pass."""
+    checks = (*capacity_checks(design), *race_checks(design), *mass_checks(design))
+    if all(check.status == "pass" for check in checks) or patience.over():
+        yield from checks
+        return
+    action = sturdier_change(design)
+    yield from (*capacity_checks(design, action), *race_checks(design, action), *mass_checks(design, action))
+
+
+def _quieter(
+    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int
+) -> Action | None:
+    """A truer or cleaner race that was tried, if a start case is too loud."""
+    loud = max(runs, key=lambda run: run.level, default=None)
+    if loud is None or loud.level <= design.case.table.limits.vibration_level_db or patience.over():
+        return None
+    return quieter_change(design, loud, accuracy, progress, workers)
+
+
 def _runs(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int) -> Iterator[TwoRaceRun | LostRun]:
     tasks = [(design, start, accuracy) for start in start_cases(design)]
     for index, run in enumerate(side_by_side(run_of, tasks, workers, counted(progress, "{} of {} starts", len(tasks)))):
@@ -183,7 +201,7 @@ def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
 
 def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibration:
     """Levels at every place: without autobalancers at the worst of the phases, with them over the start cases."""
-    given = [run for run in runs if run.case.drag_factor == 1 and run.balances]
+    given = [run for run in runs if run.case.drag_factor == 1 and run.case.speed is None and run.balances]
     rows = []
     for index, held in enumerate(case.places):
         without = sum(abs(case.rotor.whirl(held.place, [wheel], case.speed)) for wheel in case.wheels)
@@ -195,9 +213,7 @@ def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibratio
                 name=held.name,
                 level_before_db=level_of(without, case.speed),
                 level_after_db=level_of(statistics.median(medians), case.speed) if medians else None,
-                level_after_worst_db=level_of(max(run.displacements[index] for run in runs), case.speed)
-                if runs
-                else None,
+                level_after_worst_db=_largest([level_of(run.displacements[index], run.speed) for run in runs]),
             )
         )
     before = max(row.level_before_db for row in rows)
@@ -297,7 +313,5 @@ def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
                 f"Race {number} carries {max(outside, key=abs):.2f} times the imbalance of a wheel that lies outside "
                 "both races: move the races apart"
             )
-    if len(set(design.case.speed_range)) > 1:
-        yield "Start cases run at the rated speed alone; the level is scaled to the highest speed"
     yield "Housings of both autobalancers are taken to leave the centre of mass in its place"
     yield "Grinding, hands, and levels off the spindle axis are not modelled with two races"
