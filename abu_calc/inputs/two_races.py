@@ -14,6 +14,7 @@ from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Speed
 from abu_calc.inputs.duty import RunUp
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
+from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import QUANTITIES, Wheel
 
 MOST_WHEELS: Final = 20
@@ -225,6 +226,7 @@ class TwoRaceFile(Table):
         default=(), description="Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
     )
     limits: Limits = Field(default_factory=Limits)
+    sweep: Sweep | None = None
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 
     @model_validator(mode="after")

@@ -1,4 +1,4 @@
-"""Changes of the file that mend a check, tried first: start cases are simulated anew, the races' own checks calculated."""
+"""Changes of the file that mend a check, each tried first: simulated, or calculated for the checks of a race."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace

@@ -173,8 +173,13 @@ def _needs_at(case: TwoRaceCase, speed: float) -> Pair:
     if case.unknown_phases:
         return worst
     exact = balancing_resultants(case.races, case.turned(()))
-    off = worst_resultants(case.rotor, case.races, (), spread, speed)
+    off = eccentric_needs(case, speed)
     return abs(exact[0]) + off[0], abs(exact[1]) + off[1]
+
+
+def eccentric_needs(case: TwoRaceCase, speed: float) -> Pair:
+    """Largest resultants [kg m] that the eccentricity of both races asks for at a speed [rad/s]."""
+    return worst_resultants(case.rotor, case.races, (), (case.eccentricity, case.eccentricity), speed)
 
 
 def typical_needs(case: TwoRaceCase) -> Pair:

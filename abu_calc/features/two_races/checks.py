@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.records import OneRace, TwoRaceVibration
-from abu_calc.features.two_races.start_cases import STILL, LostRun, TwoRaceRun
+from abu_calc.features.two_races.start_cases import LostRun, TwoRaceRun
 from abu_calc.formulas.two_races import two_races_balance
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
@@ -103,7 +103,7 @@ def mass_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator
         )  # fmt: skip
 
 
-NO_QUIETER = "No smaller eccentricity, friction, or drag rate that was tried helps. Balance the wheels, or raise the limit."
+NO_QUIETER = "No smaller eccentricity, friction, or other drag rate that was tried helps. Balance the wheels."
 
 
 def level_checks(
@@ -146,7 +146,7 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
     if lost:
         text = f"{len(lost)} of {len(runs)} start cases gave no answer: {lost[0].reason}"
         hurried = any("--patience" in run.reason for run in lost)
-        remedy = "Allow more time: --patience." if hurried else "Specify a coarser --accuracy, or raise the lowest speed."
+        remedy = "Allow more time: --patience." if hurried else "Specify a coarser --accuracy."
         for code in ("ABU701", "ABU702", "ABU704"):
             yield coded(code, "not-done", text, remedy=remedy)
         return
@@ -170,7 +170,7 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
         + ("" if all_in_time or slow_anywhere is None else f"; in hot or cold oil {slow_anywhere[0]:.2f} s"),
         None if slow is None else slow[0], limit, "s", None if in_time and all_in_time else action or OTHERWISE,
     )  # fmt: skip
-    stalled = [run for run in known if run.slip > STILL]
+    stalled = [run for run in known if run.stalls]
     at_given = [run for run in stalled if run.case.drag_factor == 1]
     yield coded(
         "ABU704", verdict(not at_given, not stalled), "Start cases that leave balls stalled"

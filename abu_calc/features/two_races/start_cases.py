@@ -22,6 +22,7 @@ from abu_calc.features.two_races.case import TwoRaceCase
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.motion import HARDLY, SETTLED
+from abu_calc.formulas.two_races import PlacedImbalance
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
@@ -48,6 +49,8 @@ SMALLEST: Final = 1e-12
 """Displacement [m] that counts as none."""
 PER_TURN: Final = 16
 """Samples of a revolution."""
+ACCURACY: Final = 0.05
+"""Accuracy of a start case: many of them are simulated."""
 
 Array = NDArray[np.float64]
 
@@ -57,8 +60,8 @@ class StartCase:
     """One start: where the balls are, factor on the drag, phases of the imbalances of unknown phase [rad].
 
     `speed` [rad/s]: the full one, None: the rated speed. `ahead` [rad]: middle of bunched balls, or the first of balls
-    spread, from what the race has to balance. `race_centre` [rad]: side of the race centres, from the zero mark; None:
-    toward the resultant of the imbalances.
+    spread, from what the race has to balance. `race_centre` [rad]: side of the race centres, from the resultant of
+    the imbalances.
     """
 
     start: Start
@@ -66,7 +69,7 @@ class StartCase:
     phases: tuple[float, ...] = ()
     speed: float | None = None
     ahead: float | None = None
-    race_centre: float | None = None
+    race_centre: float = 0.0
 
     @property
     def name(self) -> str:
@@ -94,6 +97,11 @@ class TwoRaceRun:
     speed: float
     residuals: tuple[float, float] = (0.0, 0.0)
     """Residual imbalance [kg m] of each race at the end."""
+
+    @property
+    def stalls(self) -> bool:
+        """True if balls stall."""
+        return self.slip > STILL
 
     @property
     def level(self) -> float:
@@ -143,7 +151,7 @@ def scene_of(design: TwoRaceDesign, start: StartCase) -> Scene:
     """
     design = at_speed(design, start.speed)
     case = design.case
-    wheels = case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    wheels = _wheels(design, start)
     static = sum((wheel.imbalance for wheel in wheels), 0j)
     couple = sum((wheel.place * wheel.imbalance for wheel in wheels), 0j)
     bearings = case.rotor.bearings
@@ -166,16 +174,20 @@ def scene_of(design: TwoRaceDesign, start: StartCase) -> Scene:
         start_velocity=freedoms,
         couple=abs(couple),
         couple_angle=cmath.phase(couple) if couple else 0.0,
-        effects=in_order(_effects(design, run_up, _race_centre(start, static))),
+        effects=in_order(_effects(design, run_up, race_centre(design, start))),
     )
     return with_parted_balls(scene)[0]
 
 
-def _race_centre(start: StartCase, static: complex) -> float:
-    """Angle [rad] of the race centres from the zero mark."""
-    if start.race_centre is not None:
-        return start.race_centre
-    return cmath.phase(static) if static else 0.0
+def race_centre(design: TwoRaceDesign, start: StartCase) -> float:
+    """Angle [rad] of the race centres from the zero mark in this start case."""
+    static = sum((wheel.imbalance for wheel in _wheels(design, start)), 0j)
+    return start.race_centre + (cmath.phase(static) if static else 0.0)
+
+
+def _wheels(design: TwoRaceDesign, start: StartCase) -> tuple[PlacedImbalance, ...]:
+    """Imbalances at the phases of this start case."""
+    return design.case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
 
 
 def _first_is_unknown(design: TwoRaceDesign) -> bool:
@@ -184,7 +196,7 @@ def _first_is_unknown(design: TwoRaceDesign) -> bool:
 
 def wheels_share(design: TwoRaceDesign, race: int, start: StartCase) -> complex:
     """Imbalance [kg m] that a race has to balance in this start case."""
-    wheels = design.case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    wheels = _wheels(design, start)
     shares = design.races[race].shares
     return sum((share * wheel.imbalance for share, wheel in zip(shares, wheels, strict=True)), 0j)
 
@@ -242,7 +254,7 @@ def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceR
     except NotTrustworthyError as error:
         return LostRun(start, str(error).splitlines()[0])
     case = design.case
-    wheels = case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    wheels = _wheels(design, start)
     bare = [abs(case.rotor.whirl(place, wheels, case.speed)) for place in case.races]
     window = amplitude_window(scene).times
     ends = [_amplitude(scene, run.trajectory, window, place) for place in case.races]

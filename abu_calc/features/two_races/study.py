@@ -32,8 +32,8 @@ from abu_calc.features.two_races.records import (
     TwoRaceVibration,
 )
 from abu_calc.features.two_races.start_cases import (
+    ACCURACY,
     PHASES,
-    STILL,
     LostRun,
     TwoRaceRun,
     level_of,
@@ -63,8 +63,6 @@ ONE_RACE_PLACES: Final = 9
 RESPONSE_TO: Final = 1.1
 RESPONSE_STEPS: Final = 200
 """Top of the speeds of the response over the highest working speed, and their number."""
-ACCURACY: Final = 0.05
-"""Accuracy of a start case: many of them are simulated."""
 
 
 def size_two_races(
@@ -241,7 +239,7 @@ def _ensemble(runs: Sequence[TwoRaceRun | LostRun]) -> TwoRaceEnsemble | None:
     return TwoRaceEnsemble(
         members=len(runs),
         balanced=sum(run.balances for run in known),
-        hanging=sum(run.slip > STILL for run in known),
+        hanging=sum(run.stalls for run in known),
         lost=len(runs) - len(known),
         settling_time_s=TwoRaceSpread(
             typical=statistics.median(settled) if len(settled) == len(times) else None,
