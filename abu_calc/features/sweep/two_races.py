@@ -127,7 +127,7 @@ def started(values: Values, keys: tuple[str, ...]) -> StartCase:
 
 def built_two_races(design: TwoRaceDesign, table: TwoRaceFile) -> TwoRaceDesign:
     """The design as it came out in one machine, whose file may pin the balls and the races that were made."""
-    bare = read_case(table)
+    bare = read_case(table).with_races(design.case.races)
     first, second = (race.design.autobalancer.housing.mass for race in design.races)
     case = bare.carrying((first, second))
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated, ClassVar, Self
 
-from abu_calc.features.design.records import AutobalancerRecord
+from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
@@ -130,6 +130,8 @@ class TwoRaceSizeResult(Result):
     required_capacity_g_mm: Annotated[float, Quantity("required capacity of the first race", "V_1")]
     autobalancer: TwoRaceAutobalancer
     autobalancers: tuple[TwoRaceAutobalancer, ...]
+    eccentricities: tuple[Eccentricity, ...]
+    sections: tuple[Section, ...]
     one_race: OneRace | None
     vibration: TwoRaceVibration
     ensemble: TwoRaceEnsemble | None

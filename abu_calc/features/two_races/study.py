@@ -6,8 +6,9 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.dynamics.stability.verdict import stability
+from abu_calc.features.design.records import Eccentricity, Section
 from abu_calc.features.two_races.advice import quieter_change, sturdier_change, tried_change
-from abu_calc.features.two_races.case import TwoRaceCase, read_case
+from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, read_case
 from abu_calc.features.two_races.checks import (
     SpeedStability,
     capacity_checks,
@@ -20,6 +21,7 @@ from abu_calc.features.two_races.checks import (
     start_checks,
 )
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.two_races.places import arms
 from abu_calc.features.two_races.records import (
     OneRace,
     PlaceOnSpindleLevel,
@@ -54,7 +56,7 @@ from abu_calc.foundation.checks import Action, Check
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.parallel import processors, side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.result import Provenance
 
@@ -104,6 +106,8 @@ def size_two_races(
         required_capacity_g_mm=from_si(design.races[0].need, "g_mm"),
         autobalancer=TwoRaceAutobalancer.of_race(design, 0),
         autobalancers=tuple(TwoRaceAutobalancer.of_race(design, index) for index in (0, 1)),
+        eccentricities=tuple(Eccentricity.of(race.design.eccentricity) for race in design.races),
+        sections=tuple(Section.of(race.design) for race in design.races),
         one_race=one,
         vibration=vibration,
         ensemble=_ensemble(runs),
@@ -129,9 +133,7 @@ def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
 
 def _off(case: TwoRaceCase) -> float:
     """Displacement [m] of the place that moves most while both races rotate about their eccentric centres."""
-    first, second = case.races
-    arms = ((abs(held.place - second) + abs(held.place - first)) / abs(first - second) for held in case.places)
-    return case.eccentricity * max(arms)
+    return case.eccentricity * arms([held.place for held in case.places], case.races)
 
 
 def _advice(
@@ -297,7 +299,31 @@ def _one_race(design: TwoRaceDesign) -> OneRace | None:
     )
 
 
+def _search_notes(design: TwoRaceDesign) -> Iterator[str]:
+    """Places that were searched, with the displacement and capacities that they and the given ones ask for."""
+    case = design.bare
+    given = first, second = [to_si(race.plane_mm, "mm") for race in case.table.autobalancer]
+    if all(race.plane_range_mm is None for race in case.table.autobalancer):
+        return
+    before = case.with_races((first, second))
+    needs, needs_before = capacity_needs(case), capacity_needs(before)
+    for number, (race, place, old) in enumerate(zip(case.table.autobalancer, case.races, given, strict=True), 1):
+        if race.plane_range_mm is not None:
+            low, high = race.plane_range_mm
+            kept = " as given" if place == old else f", not {from_si(old, 'mm'):.4g} mm"
+            yield (
+                f"Race {number} stands at {from_si(place, 'mm'):.4g} mm{kept}, chosen within {low:g} … {high:g} mm. "
+                f"Required capacity, without the autobalancers' own mass: from "
+                f"{from_si(needs_before[number - 1], 'g_mm'):.4g} to {from_si(needs[number - 1], 'g_mm'):.4g} g·mm"
+            )
+    yield (
+        f"Race eccentricity at the loudest place: {from_si(_off(before), 'um'):.3g} µm as given, "
+        f"{from_si(_off(case), 'um'):.3g} µm as chosen (calculated)"
+    )
+
+
 def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
+    yield from _search_notes(design)
     limit = design.case.table.limits.vibration_level_db
     if one is not None and one.enough:
         yield (

@@ -33,7 +33,7 @@ def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
         *_make(result),
         Heading("Vibration and settling", "vibration"),
         *_numbers(result),
-        *(block for index, race in enumerate(result.autobalancers, 1) for block in _race(index, race)),
+        *(block for index in range(len(result.autobalancers)) for block in _race(result, index)),
         Heading("Speeds", "frequency"),
         facts(result.frequency, *result.frequency.entries()),
         *_single(result),
@@ -95,8 +95,14 @@ def _or_dash(value: float | None, digits: int = 4) -> str:
     return "–" if value is None else number(value, digits)
 
 
-def _race(index: int, race: TwoRaceAutobalancer) -> list[Block]:
-    return [Heading(f"Race {index}", f"race-{index}"), facts(race, *race.entries())]
+def _race(result: TwoRaceSizeResult, index: int) -> list[Block]:
+    race, parts = result.autobalancers[index], result.eccentricities[index]
+    return [
+        Heading(f"Race {index + 1}", f"race-{index + 1}"),
+        facts(race, *race.entries()),
+        Heading(f"Eccentricity of race {index + 1}", f"eccentricity-{index + 1}"),
+        facts(parts, *parts.entries()),
+    ]
 
 
 def _single(result: TwoRaceSizeResult) -> list[Block]:
