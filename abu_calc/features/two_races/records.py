@@ -119,6 +119,15 @@ class TwoRaceResponse(Record):
 
 
 @record
+class TwoRaceRunUp(Record):
+    """Largest displacement of any place in one revolution of the simulated run-up, imbalances in phase."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    without_um: Annotated[float, Quantity("displacement without autobalancers", "w")]
+    with_um: Annotated[float | None, Quantity("displacement with balls", "w", 4, "null: no trustworthy run")]
+
+
+@record
 class TwoRaceSizeResult(Result):
     """A design of two autobalancers on one spindle, its checks, and simulated start cases."""
 
@@ -136,3 +145,4 @@ class TwoRaceSizeResult(Result):
     vibration: TwoRaceVibration
     ensemble: TwoRaceEnsemble | None
     response: tuple[TwoRaceResponse, ...]
+    run_up: tuple[TwoRaceRunUp, ...]

@@ -29,10 +29,12 @@ from abu_calc.features.two_races.records import (
     TwoRaceEnsemble,
     TwoRaceFrequency,
     TwoRaceResponse,
+    TwoRaceRunUp,
     TwoRaceSizeResult,
     TwoRaceSpread,
     TwoRaceVibration,
 )
+from abu_calc.features.two_races.run_up import run_up_amplitudes
 from abu_calc.features.two_races.start_cases import (
     ACCURACY,
     PHASES,
@@ -62,6 +64,8 @@ from abu_calc.simulation.result import Provenance
 
 ONE_RACE_PLACES: Final = 9
 """Places of a single race that are tried between both races."""
+RUN_UP_ACCURACY: Final = 0.01
+"""Accuracy of the run-up that is drawn."""
 RESPONSE_TO: Final = 1.1
 RESPONSE_STEPS: Final = 200
 """Top of the speeds of the response over the highest working speed, and their number."""
@@ -112,6 +116,7 @@ def size_two_races(
         vibration=vibration,
         ensemble=_ensemble(runs),
         response=tuple(_response(design.case)),
+        run_up=tuple(_run_up(design, progress)),
     )
 
 
@@ -128,6 +133,19 @@ def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
             speed_rpm=from_si(speed, "rpm"),
             without_um=from_si(without, "um"),
             balanced_um=from_si(_off(case), "um") if still else None,
+        )
+
+
+def _run_up(design: TwoRaceDesign, progress: Progress) -> Iterator[TwoRaceRunUp]:
+    """Displacements of the simulated run-up; none if the time of --patience is over."""
+    if patience.over():
+        return
+    progress("run-up, with and without balls")
+    for point in run_up_amplitudes(design, RUN_UP_ACCURACY):
+        yield TwoRaceRunUp(
+            speed_rpm=from_si(point.speed, "rpm"),
+            without_um=from_si(point.without, "um"),
+            with_um=None if point.with_balls is None else from_si(point.with_balls, "um"),
         )
 
 

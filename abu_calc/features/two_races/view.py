@@ -2,6 +2,7 @@
 
 from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.parts import (
     check_blocks,
@@ -16,7 +17,16 @@ from abu_calc.reporting.screen import one_screen, verdict_line
 
 def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
     """Outcome of the command: screen and whole report."""
-    return Outcome.of(result, lambda: two_race_blocks(result), lambda: two_race_screen(result))
+    return Outcome.of(
+        result, lambda: two_race_blocks(result), lambda: two_race_screen(result), lambda: _drawings(result)
+    )
+
+
+def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
+    """The section of both autobalancers."""
+    from abu_calc.features.two_races.drawing import both_sections
+
+    return (both_sections(result),)
 
 
 def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
