@@ -62,7 +62,7 @@ def stability_check(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> 
     )  # fmt: skip
 
 
-NO_OTHER_MAKE = "No ball, room, eccentricity or mass that was tried helps. Balance the wheels, or move the races apart."
+NO_OTHER_MAKE = "No larger ball, room, share of mass, or truer race that was tried helps. Reduce the imbalances."
 
 
 def capacity_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator[Check]:

@@ -29,7 +29,7 @@ def _run_up(result: TwoRaceSizeResult) -> Iterator[Figure]:
     without = [(point.speed_rpm, point.without_um) for point in points]
     balls = [(point.speed_rpm, point.with_um) for point in points if point.with_um is not None]
     lines = [Curve(without, "without autobalancers")]
-    lines += [Curve(balls, "with balls")] if balls else []
+    lines += [Curve(balls, "with balls", 2)] if balls else []
     across = Axis.around("speed [rpm]", (speed for speed, _ in without))
     up = Axis.around("displacement, 0–peak [µm]", [0.0, *(value for _, value in (*without, *balls))])
     highest = max((value for _, value in balls), default=0.0)
@@ -50,7 +50,7 @@ def _over_speed(result: TwoRaceSizeResult) -> Iterator[Figure]:
     without = [(point.speed_rpm, point.without_um) for point in response]
     balanced = [(point.speed_rpm, point.balanced_um) for point in response if point.balanced_um is not None]
     lines = [Curve(without, "without autobalancers")]
-    lines += [Curve(balanced, "balanced, closed form")] if balanced else []
+    lines += [Curve(balanced, "balanced, closed form", 2)] if balanced else []
     across = Axis.around("speed [rpm]", (speed for speed, _ in without))
     up = Axis.around("displacement, 0–peak [µm]", [0.0, *(value for _, value in (*without, *balanced))])
     speeds = ", ".join(f"{speed:.0f}" for speed in result.frequency.critical_speeds_rpm)
