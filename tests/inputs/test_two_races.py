@@ -117,7 +117,8 @@ def test_hints_of_tables_that_stand_wrongly(change, words: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("command", "words"), [("declare", "hand-held machine"), ("grinding", "effects.grinding_contact"), ("size", "abu sweep")]
+    ("command", "words"),
+    [("declare", "hand-held machine"), ("grinding", "effects.grinding_contact"), ("size", "abu sweep")],
 )
 def test_commands_that_take_one_race_say_why_and_what_to_do(command: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
