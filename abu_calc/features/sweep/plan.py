@@ -235,7 +235,10 @@ KEYS: Final = {
     "design": (),
     "scene": ("start.angle_deg", "start.temperature_C"),
     "two races": (
-        "start.kind", "start.angle_deg", "start.eccentricity_deg", "start.temperature_C",
+        "start.kind",
+        "start.angle_deg",
+        "start.eccentricity_deg",
+        "start.temperature_C",
         *(PHASE.format(number) for number in range(1, MOST_WHEELS + 1)),
     ),
 }

@@ -39,8 +39,9 @@ def test_true_races_go_where_the_larger_capacity_is_least() -> None:
     ]
     assert chosen == pytest.approx(min(needs), rel=0.005)  # the search steps by 3 mm
     first, second = case.races
-    assert chosen == pytest.approx((0.26 - second) / (first - second) * 2500e-6 + abs(-0.26 - second) / (first - second)
-                                   * 1800e-6)
+    assert chosen == pytest.approx(
+        (0.26 - second) / (first - second) * 2500e-6 + abs(-0.26 - second) / (first - second) * 1800e-6
+    )
 
 
 WHEELS = ((0.26, 2500e-6), (-0.26, 1800e-6))
