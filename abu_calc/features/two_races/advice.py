@@ -44,8 +44,25 @@ class Change(NamedTuple):
         return tuple(f"autobalancer.{race}.{key}={value:g}" for race in (0, 1) for key, value in self.entries.items())
 
 
-def changed(design: TwoRaceDesign, entries: dict[str, float]) -> Change | None:
-    """The machine sized anew with these entries in both tables; None if it then breaks a limit, or cannot be made."""
+def failing(design: TwoRaceDesign) -> frozenset[tuple[str, int]]:
+    """Codes and races of the checks of capacity, mass and the races by themselves that do not pass."""
+    table, broken = design.case.table, set[tuple[str, int]]()
+    for index, (race, room) in enumerate(zip(design.races, table.autobalancer, strict=True)):
+        if race.design.autobalancer.mass > room.max_mass_fraction * table.machine.mass_kg:
+            broken.add(("ABU203", index))
+        if race.design.autobalancer.capacity < race.need * room.capacity_margin * (1 - 1e-9):
+            broken.add(("ABU201", index))
+        broken |= {(check.code, index) for check in race.design.checks if check.status != "pass"}
+    return frozenset(broken)
+
+
+def changed(
+    design: TwoRaceDesign, entries: dict[str, float], allowed: frozenset[tuple[str, int]] | None = None
+) -> Change | None:
+    """The machine sized anew with these entries in both tables; None if it cannot be made, or then breaks a limit.
+
+    `allowed`: checks that may fail; None: those that fail without the change.
+    """
     tables = tuple(race.model_copy(update=entries) for race in design.bare.table.autobalancer)
     table = design.bare.table.model_copy(update={"autobalancer": tables})
     eccentricity, friction = entries.get("race_eccentricity_mm"), entries.get("rolling_friction_mm")
@@ -59,11 +76,8 @@ def changed(design: TwoRaceDesign, entries: dict[str, float]) -> Change | None:
         sized = choose_both(case)
     except InputError:
         return None
-    for race, room in zip(sized.races, tables, strict=True):
-        light = race.design.autobalancer.mass <= room.max_mass_fraction * table.machine.mass_kg
-        carries = race.design.autobalancer.capacity >= race.need * room.capacity_margin * (1 - 1e-9)
-        if not (light and carries and all(check.status == "pass" for check in race.design.checks)):
-            return None
+    if not failing(sized) <= (failing(design) if allowed is None else allowed):
+        return None
     return Change(sized, entries)
 
 
@@ -118,7 +132,7 @@ def _sturdier(design: TwoRaceDesign) -> Iterator[Change]:
     balls = [] if larger is None else [{"ball_diameter_mm": larger}]
     together = [{**room, **heavier[-1]} for room in rooms] + [{**truer[0], **rooms[0]}]
     for entries in (*truer, *balls, *rooms, *heavier, *together):
-        if change := changed(design, entries):
+        if change := changed(design, entries, frozenset()):
             yield change
 
 
