@@ -76,9 +76,7 @@ def compared(seed: int, folder: Path) -> Comparison | str:
         return f"lever arm {lever * 1e3:.2g} mm"
     file, told = tomllib.loads(text), design.worst[-1]
     result, limit = _result(design), file["limits"]["settling_time_s"]
-    endings = [
-        ended(start, result, limit, longest=LENGTH) for start in starts(file, result, seed, ANYWHERE, RUN_UPS)
-    ]
+    endings = [ended(start, result, limit, longest=LENGTH) for start in starts(file, result, seed, ANYWHERE, RUN_UPS)]
     seen = [
         1e6 * math.sqrt(2) * REFERENCE * 10 ** (ending.level / 20) / design.case.speed
         for ending in endings
