@@ -91,18 +91,21 @@ def compared(seed: int, folder: Path) -> Comparison | str:
 
 
 def horizontal_machine(seed: int, path: Path) -> tuple[str, Design, float]:
-    """File, design and friction number of a machine; the lever arm follows the balls that are chosen with it."""
-    number = float(np.exp(np.random.default_rng(seed + 77).uniform(*map(math.log, FRICTION_NUMBERS))))
+    """File of a machine, the design of this very file, and its friction number.
+
+    The lever arm follows the balls that are chosen with it, for three steps. The number is near the one drawn.
+    """
+    drawn = float(np.exp(np.random.default_rng(seed + 77).uniform(*map(math.log, FRICTION_NUMBERS))))
     text = held_text(seed).replace('spindle_axis = "vertical"', 'spindle_axis = "horizontal"')
-    for _ in range(3):
+    for steps_left in (3, 2, 1, 0):
         path.write_text(text, encoding="utf-8")
         design = size(abu_calc.read(str(path)).tables)
         balls, case = design.autobalancer, design.case
-        lever = number * balls.ball_diameter / 2 * GRAVITY / (balls.pitch_radius * case.speed**2)
-        if math.isclose(lever, case.friction_arm, rel_tol=1e-3):
+        unit = balls.ball_diameter / 2 * GRAVITY / (balls.pitch_radius * case.speed**2)
+        if not steps_left or math.isclose(drawn * unit, case.friction_arm, rel_tol=1e-3):
             break
-        text = re.sub(r"rolling_friction_mm = .*", f"rolling_friction_mm = {1e3 * lever:.6g}", text)
-    return text, design, number
+        text = re.sub(r"rolling_friction_mm = .*", f"rolling_friction_mm = {1e3 * drawn * unit:.6g}", text)
+    return text, design, case.friction_arm / unit
 
 
 def _result(design: Design) -> dict[str, Any]:
