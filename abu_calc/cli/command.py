@@ -81,20 +81,19 @@ def _option(parameter: Parameter) -> str | None:
 
 def write_files(outcome: Outcome, how: Delivery) -> bool:
     """Write all of them; False: there are none. Where one cannot be written, what was computed is told all the same."""
-    if how.output is None and not outcome.further and not how.figures:
+    if not how.outputs and not outcome.further and not how.figures:
         return False
     from abu_calc.reporting.files import as_file, further_sheets
     from abu_calc.reporting.write import Target, check_target, write
 
-    own = () if how.output is None else (
-        Target(how.output, as_file(outcome, how.output.suffix.lower())), *further_sheets(outcome, how.output)
-    )  # fmt: skip
+    own = [Target(path, as_file(outcome, path.suffix.lower())) for path in how.outputs]
+    sheets = [sheet for path in how.outputs for sheet in further_sheets(outcome, path)]
     try:
-        for target in own[1:]:
+        for target in sheets:
             check_target(target.path, force=how.force)
         with progress(how) as tell:
             named = _figures(outcome, how)
-            files = chain(outcome.further, own, (Target(path, _drawn(figure, path)) for figure, path in named))
+            files = chain(outcome.further, own, sheets, (Target(path, _drawn(figure, path)) for figure, path in named))
             targets = (Target(path, _told(text, f"writing {path}", tell)) for path, text in files)
             write(targets, force=how.force)
     except (InputError, OutputError) as error:
@@ -141,8 +140,10 @@ Overrides = Annotated[
 def _output_option(formats: Iterable[str]) -> Any:
     """The option --output with the formats that one command writes."""
     *others, last = formats
-    text = f"Also write the result as {', '.join(others)}{' or ' if others else ''}{last}."
-    return Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help=text, rich_help_panel=OUTPUT)]
+    text = f"Also write as {', '.join(others)}{' or ' if others else ''}{last}; repeatable."
+    return Annotated[
+        list[Path] | None, typer.Option("--output", "-o", metavar="FILE", help=text, rich_help_panel=OUTPUT)
+    ]
 
 
 def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
@@ -155,7 +156,7 @@ def _shared(
     json: Annotated[
         bool, typer.Option("--json", help="Print one JSON document on standard output.", rich_help_panel=OUTPUT)
     ] = False,
-    output: Path | None = None,
+    output: list[Path] | None = None,
     figure: list[str] | None = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=OUTPUT)] = False,
     quiet: Annotated[
@@ -166,7 +167,7 @@ def _shared(
     ] = False,
     full: Annotated[bool, typer.Option("--full", help="Print the whole report.", rich_help_panel=OUTPUT)] = False,
 ) -> Delivery:
-    return Delivery(json, output, force, quiet, not no_color, full, asked_figures(figure or ()))
+    return Delivery(json, tuple(output or ()), force, quiet, not no_color, full, asked_figures(figure or ()))
 
 
 def _walled(

@@ -49,12 +49,12 @@ def _pair(text: str) -> tuple[str, Path]:
     return name.strip(), Path(file.strip())
 
 
-def check_figures(command: str, figures: Iterable[tuple[str, Path]], output: Path | None, *, force: bool) -> None:
+def check_figures(command: str, figures: Iterable[tuple[str, Path]], outputs: Iterable[Path], *, force: bool) -> None:
     """Refuse unknown names, files that could not be written, and what is not installed."""
     from abu_calc.reporting.charts.matplotlib_draw import SUFFIXES, check_matplotlib
     from abu_calc.reporting.write import check_target
 
-    taken = set() if output is None else {os.path.realpath(output)}
+    taken = {os.path.realpath(path) for path in outputs}
     for name, path in figures:
         figure = known(command, name)
         check_target(path, force=force, suffixes=SUFFIXES, option=OPTION)
@@ -72,7 +72,7 @@ class Delivery(NamedTuple):
     """Requested delivery of an outcome: the options that all commands share."""
 
     json: bool = False
-    output: Path | None = None
+    outputs: tuple[Path, ...] = ()
     force: bool = False
     quiet: bool = False
     color: bool = True
@@ -82,13 +82,19 @@ class Delivery(NamedTuple):
     def check(self, command: str, drawn: tuple[str, ...] = ()) -> None:
         """Refuse before computing what could not be written after; `drawn`: formats of the command's drawing."""
         if self.figures:
-            check_figures(command, self.figures, self.output, force=self.force)
-        if self.output is not None:
-            from abu_calc.reporting.files import FORMATS, check_extra
-            from abu_calc.reporting.write import check_target
+            check_figures(command, self.figures, self.outputs, force=self.force)
+        if not self.outputs:
+            return
+        from abu_calc.reporting.files import FORMATS, check_extra
+        from abu_calc.reporting.write import check_target
 
-            check_target(self.output, force=self.force, suffixes=(*FORMATS, *drawn), option="--output")
-            check_extra(self.output.suffix.lower())
+        taken = set[str]()
+        for path in self.outputs:
+            check_target(path, force=self.force, suffixes=(*FORMATS, *drawn), option="--output")
+            check_extra(path.suffix.lower())
+            if os.path.realpath(path) in taken:
+                raise OutputError("two outputs name the same file", place=Place(str(path)), remedy="Give another name.")
+            taken.add(os.path.realpath(path))
 
 
 def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:

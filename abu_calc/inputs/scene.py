@@ -132,7 +132,7 @@ class SceneTable(Table):
     def _support_has_its_numbers(self) -> Self:
         for key in NEEDED[self.support]:
             if getattr(self, key) is None:
-                given = f"{key} = {EXAMPLES[key]}, with your own value" if key in EXAMPLES else f"[scene.{key}]"
+                given = f"{key} = …, such as {EXAMPLES[key]}" if key in EXAMPLES else f"[scene.{key}]"
                 raise problem(f'support = "{self.support}" needs {key}', key, remedy=f"add {given}")
         for key in REFUSED[self.support]:
             if getattr(self, key) is not None:

@@ -269,7 +269,8 @@ class Wheel(Measured):
     balance_grade: BalanceGrade | None = Field(
         default=None,
         description="Balance quality grade by ISO 21940-11, of the wheel's mass at the rated speed: G4000, G1600, "
-        "G630, G250, G100, G40, G16, G6.3, G2.5, G1 or G0.4. Instead of imbalance_g_mm.",
+        "G630, G250, G100, G40, G16, G6.3, G2.5, G1 or G0.4. Instead of imbalance_g_mm. "
+        "It describes balanced rotors; abrasive wheels are far worse.",
         examples=["G16"],
     )
     measured_level_db: Levels = measured_field("measured_level_db", BARE)

@@ -13,6 +13,7 @@ from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.simulation.result import Provenance, Result
+from tests.cli.runner import abu
 
 
 @record
@@ -98,13 +99,24 @@ def test_a_figure_is_a_name_and_a_file() -> None:
 def test_two_outputs_do_not_share_a_file(tmp_path: Path) -> None:
     pair = [("levels", tmp_path / "a.svg"), ("section", tmp_path / "a.svg")]
     with pytest.raises(OutputError, match="same file"):
-        check_figures("size", pair, None, force=False)
+        check_figures("size", pair, (), force=False)
     with pytest.raises(OutputError, match="same file"):
-        check_figures("size", pair[1:], tmp_path / "a.svg", force=False)
-    check_figures("size", pair[1:], tmp_path / "b.svg", force=False)
+        check_figures("size", pair[1:], [tmp_path / "a.svg"], force=False)
+    check_figures("size", pair[1:], [tmp_path / "b.svg"], force=False)
 
 
 def test_commands_without_figures_have_no_option_for_them() -> None:
     assert figure_option("presets") is None and figure_option("no such command") is None
     option = figure_option("size")
     assert option is not None and "levels" in str(option.annotation.__metadata__[0].help)
+
+
+def test_several_outputs_are_all_written_and_none_twice(tmp_path: Path) -> None:
+    files = [tmp_path / name for name in ("fit.json", "fit.html", "fit.txt")]
+    words = [word for file in files for word in ("--output", str(file))]
+    assert abu("check-fit", "mmg-3200k-knife-shaft", "--quiet", *words).status == 0
+    assert all(file.stat().st_size > 500 for file in files)
+    twice = abu(
+        "check-fit", "mmg-3200k-knife-shaft", "-o", str(tmp_path / "a.txt"), "-o", str(tmp_path / "." / "a.txt")
+    )
+    assert twice.status == 2 and "two outputs name the same file" in twice.err and not (tmp_path / "a.txt").exists()

@@ -47,9 +47,10 @@ def test_reports_of_presets() -> None:
 
 
 def _report_of(command: str, changes: dict) -> tuple[str, str]:
-    """Whole report of a random machine; that of the effects simulates nothing for long."""
+    """Whole report of a random machine; simulations of `size` end after a few seconds, the effects need none."""
     options = [f"{path.replace('__', '.', 1)}={json.dumps(value)}" for path, value in changes.items() if "__" in path]
-    seen = abu(command, "msh-230", "--full", *(word for option in options for word in ("--set", option)))
+    limited = ("--patience", "4") if command == "size" else ()
+    seen = abu(command, "msh-230", "--full", *limited, *(word for option in options for word in ("--set", option)))
     return f"abu {command} {options}", f"{seen.out}\n\n{seen.err}"
 
 

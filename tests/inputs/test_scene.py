@@ -27,7 +27,7 @@ def effect(text: str) -> str:
 # What is replaced in the basic scene, by what, the line and key that must be named, words that must be told.
 CASES: list[tuple[str, str, int | None, str, tuple[str, ...]]] = [
     # not TOML, unknown names
-    (MASS, "mass_kg = 1,0", 4, "scene.mass_kg", ("decimal comma", "write 1.0")),
+    (MASS, "mass_kg = 1,0", 4, "scene.mass_kg", ("a comma in a number", "write 1.0")),
     (MASS, "mass_g = 1000", 4, "scene.mass_g", ("unknown key", "mass_kg")),
     (MASS, "mas_kg = 1", 4, "scene.mas_kg", ("nearest known key is mass_kg",)),
     (SPEED, SPEED + "\npitch_radius_mm = 3", 8, "scene.pitch_radius_mm", ("belongs in [[scene.race]]",)),
@@ -68,7 +68,7 @@ CASES: list[tuple[str, str, int | None, str, tuple[str, ...]]] = [
     (DRAG + "\n", "", 12, "scene.race[0].rolling_drag_per_s", ("missing",)),
     (f"{RACE}\n{PITCH}\n{BALLS}\n{DRAG}\n{ANGLES}\n", "", 2, "scene.race", ("missing", "add [[scene.race]]")),
     # rules between keys
-    (MASS + "\n", "", 2, "scene.mass_kg", ('"planar" needs mass_kg', "add mass_kg = 1.0")),
+    (MASS + "\n", "", 2, "scene.mass_kg", ('"planar" needs mass_kg', "add mass_kg = …, such as 1.0")),
     (STIFFNESS + "\n", "", 2, "scene.stiffness_N_per_m", ("needs stiffness_N_per_m",)),
     (DAMPING + "\n", "", 2, "scene.damping_N_s_per_m", ("needs damping_N_s_per_m",)),
     (SUPPORT, 'support = "tilting"', 2, "scene.tilting", ("needs tilting", "[scene.tilting]")),

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from abu_calc.features.declare.measured_checks import Calibrated, Series, measured_checks
 from abu_calc.features.declare.read import Recordings, Run, loaded, of_files, remark_in_list, runs_of
-from abu_calc.features.levels.octaves import Filter, Signal, acceleration_filter, band_rms, hand_arm_filter, why_not
+from abu_calc.features.levels.octaves import AxisSignal, Filter, acceleration_filter, band_rms, hand_arm_filter, why_not
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, Stage, silent
@@ -237,11 +237,11 @@ def _refuse_doubles(key: tuple[str, int, str], group: Sequence[Run], names: Sequ
     )  # fmt: skip
 
 
-def _signal(recording: Recording, samples: NDArray[np.float64]) -> Signal:
-    return Signal(samples, recording.rate, 1 - QUANTITIES.index(recording.quantity), 0.0, True)
+def _signal(recording: Recording, samples: NDArray[np.float64]) -> AxisSignal:
+    return AxisSignal(samples, recording.rate, 1 - QUANTITIES.index(recording.quantity), 0.0, True)
 
 
-def _rms(signal: Signal, weighting: Filter) -> float:
+def _rms(signal: AxisSignal, weighting: Filter) -> float:
     return band_rms(signal, weighting)
 
 

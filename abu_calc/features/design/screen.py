@@ -45,7 +45,7 @@ TENTH: Final = 0.05
 """Difference of two levels [dB] that are printed alike, or nearly."""
 
 
-class Case(NamedTuple):
+class TableCase(NamedTuple):
     """One case of a table: its label, its number as text, its limit and its grade."""
 
     label: str
@@ -56,7 +56,7 @@ class Case(NamedTuple):
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The report on one screen: tables first, then actions, then notes as far as there is room."""
-    about = [Heading(title_with_speed(result)), verdict_line(result), *small_benefit(result)]
+    about = [Heading(title_with_speed(result)), verdict_line(result), *unusual_values(result), *small_benefit(result)]
     about += arm_line(short_advice(result.swing_arm.advice)) if result.swing_arm else []
     tables = numbers_that_matter(result)
     body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
@@ -140,19 +140,21 @@ def make(result: SizeResult) -> list[Block]:
         f"groove R {number(groove, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, "
     )  # fmt: skip
     rows = (
-        Case("Balls", f"{balls(abu)}, {abu.ball_material}{'' if abu.corrector == 'ball' else f' {abu.corrector}s'}"),
-        Case(
+        TableCase(
+            "Balls", f"{balls(abu)}, {abu.ball_material}{'' if abu.corrector == 'ball' else f' {abu.corrector}s'}"
+        ),
+        TableCase(
             "Race",
             f"R {abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm, {shape}{section.hardness}",
         ),
-        Case(
+        TableCase(
             "Housing",
             f"{abu.housing.split(':')[0]}, Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
             f"{section.bore_diameter_mm:g} mm {section.bore_class}",
         ),
-        Case("Eccentricity", _eccentricity(result)),
-        Case("Capacity", f"{number(abu.capacity_g_mm, 5)} g·mm ({capacity})"),
-        Case("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
+        TableCase("Eccentricity", _eccentricity(result)),
+        TableCase("Capacity", f"{number(abu.capacity_g_mm, 5)} g·mm ({capacity})"),
+        TableCase("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
     )  # fmt: skip
     return [Grid((title, ""), tuple((row.label, row.value) for row in rows))]
 
@@ -264,7 +266,7 @@ def _acceleration(value: float | None) -> str:
     return number(value, 3) if value >= 1 else f"{value:.2f}"
 
 
-def _table(title: str, column: str, cases: Sequence[Case]) -> Grid:
+def _table(title: str, column: str, cases: Sequence[TableCase]) -> Grid:
     return Grid((title, column, "limit", ""), tuple(tuple(case) for case in cases), frozenset({1, 2}))
 
 
@@ -285,12 +287,12 @@ def _graded(value: float | None, check: Check | None, numbers: Mapping[str, int]
     return limit, f"{word} {numbers[check.code]}" if check.code in numbers else ""
 
 
-def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[Case]:
+def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[TableCase]:
     vibration, many_starts, check = result.vibration, result.ensemble, checks.get("ABU401")
-    cases = [Case(WITHOUT, _db(vibration.level_before_db))]
+    cases = [TableCase(WITHOUT, _db(vibration.level_before_db))]
 
-    def judged(label: str, level: float | None, *, decides: bool) -> Case:
-        return Case(label, _db(level), *_graded(level, check, numbers, decides=decides))
+    def judged(label: str, level: float | None, *, decides: bool) -> TableCase:
+        return TableCase(label, _db(level), *_graded(level, check, numbers, decides=decides))
 
     if many_starts is not None:
         cases.append(judged("Idle, with: median of the start cases", many_starts.predicted_level_db, decides=True))
@@ -311,50 +313,50 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
         worst, upright = vibration.worst_arrangement, vibration.worst_arrangement_vertical
         cases.append(judged(label, worst.level_after_db, decides=False))
         if upright is not None and upright.level_after_db >= worst.level_after_db + TENTH:
-            cases.append(Case("    spindle held vertical", _db(upright.level_after_db)))
+            cases.append(TableCase("    spindle held vertical", _db(upright.level_after_db)))
     return [*cases, *_at_idle_speed(result), *_measured(result), *_under_load(result.vibration_loaded)]
 
 
-def _at_idle_speed(result: SizeResult) -> list[Case]:
+def _at_idle_speed(result: SizeResult) -> list[TableCase]:
     """Levels at the motor's idle speed, if that is not the rated speed."""
     idle = result.vibration.at_idle_speed
     if idle is None:
         return []
     label = f"At the motor's idle speed, {idle.speed_rpm:.0f} rpm"
     return [
-        Case(f"{label}, without", _db(idle.level_before_db)),
-        Case(f"{label}, expected", _db(idle.level_after_db) or "none"),
+        TableCase(f"{label}, without", _db(idle.level_before_db)),
+        TableCase(f"{label}, expected", _db(idle.level_after_db) or "none"),
     ]
 
 
-def _measured(result: SizeResult) -> list[Case]:
+def _measured(result: SizeResult) -> list[TableCase]:
     after = result.measured_after
     if after is None:
         return []
     level = after.measured.removesuffix(" dB") if after.unit == "dB" else f"{after.measured_level_db:.1f}"
     place = "" if after.place == _place(result.vibration) else f", {after.place}"
     if after.difference_db is None:
-        return [Case(f"  measured{place}", level)]
+        return [TableCase(f"  measured{place}", level)]
     distance = f"{abs(after.difference_db):.1f} dB {'above' if after.difference_db >= 0 else 'below'} median"
-    return [Case(f"  measured{place}: {distance}", level)]
+    return [TableCase(f"  measured{place}: {distance}", level)]
 
 
-def _under_load(loaded: Vibration | None) -> list[Case]:
+def _under_load(loaded: Vibration | None) -> list[TableCase]:
     """Levels at the workpiece; a face works as it idles, so that it has none."""
     if loaded is None or loaded.at_once_stays is None:
         return []
     before, after, early = loaded.level_before_db, loaded.level_after_db, loaded.level_at_once_db
     cases = [
-        Case("Grinding, without autobalancer", _db(before) or "not known"),
-        Case("Grinding, with: pressed after settling", _db(after) or "not known", "", _louder(after, before)),
+        TableCase("Grinding, without autobalancer", _db(before) or "not known"),
+        TableCase("Grinding, with: pressed after settling", _db(after) or "not known", "", _louder(after, before)),
     ]
     if after is not None and early is not None and early > after + TENTH:
-        cases.append(Case("  pressed earlier", _db(early), "", _louder(early, before)))
+        cases.append(TableCase("  pressed earlier", _db(early), "", _louder(early, before)))
     starts = loaded.starts
     known = max((level for level in (after, early) if level is not None), default=None)
     if starts is not None and starts.worst_db is not None and known is not None and starts.worst_db > known + TENTH:
         label = f"  loudest of {many(starts.count, 'start case')}"
-        cases.append(Case(label, _db(starts.worst_db), "", _louder(starts.worst_db, before)))
+        cases.append(TableCase(label, _db(starts.worst_db), "", _louder(starts.worst_db, before)))
     return cases
 
 
@@ -363,14 +365,14 @@ def _louder(level: float | None, before: float | None) -> str:
     return LOUDER if louder else ""
 
 
-def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[Case]:
+def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[TableCase]:
     many_starts, check = result.ensemble, checks.get("ABU702")
     if many_starts is None:
         return []
     given = result.model.drag_per_s
 
-    def judged(label: str, time: float | None, *, decides: bool) -> Case:
-        return Case(label, _seconds(time), *_graded(time, check, numbers, decides=decides))
+    def judged(label: str, time: float | None, *, decides: bool) -> TableCase:
+        return TableCase(label, _seconds(time), *_graded(time, check, numbers, decides=decides))
 
     cases = [judged("Median of the start cases", many_starts.settling_time_s.typical, decides=True)]
     by_drag: dict[float, list[SettlingOfStart]] = {}
@@ -466,8 +468,22 @@ def point_mass(result: SizeResult) -> list[Paragraph]:
 
 
 def other_notes(result: SizeResult) -> list[Paragraph]:
-    """Warnings beside the missing data."""
-    return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA not in text]
+    """Warnings beside the missing data and the unusual values."""
+    return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA not in text and UNUSUAL not in text]
+
+
+UNUSUAL: Final = " is unusual"
+"""Words of every warning about a value of the file that lies outside its usual range."""
+MOST_UNUSUAL: Final = 2
+"""Most such warnings on the first screen."""
+
+
+def unusual_values(result: SizeResult) -> list[Block]:
+    """Values that may be slips of a unit stand beside the verdict that they decide."""
+    texts = [text for text in result.warnings if UNUSUAL in text]
+    shown: list[Block] = [Paragraph(f"! {text}", "warn", hang=2) for text in texts[:MOST_UNUSUAL]]
+    more = len(texts) - MOST_UNUSUAL
+    return [*shown, Paragraph(f"! {many(more, 'more unusual value')}: see Warnings.", "warn")] if more > 0 else shown
 
 
 def starts_and_defaults(result: SizeResult) -> str:

@@ -17,6 +17,7 @@ from abu_calc.features.design.screen import (
     small_benefit,
     starts_and_defaults,
     title_with_speed,
+    unusual_values,
 )
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds
@@ -24,7 +25,9 @@ from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.parts import unlike
 from abu_calc.reporting.screen import many, verdict_line
 
-ENTRIES: Final = Paragraph("The lines below an action are entries of the machine file.")
+ENTRIES: Final = Paragraph(
+    "The lines below an action are entries of the machine file: the table, a point, the key and its value."
+)
 
 
 SHEETS_MM: Final = 2 * 269.0
@@ -55,6 +58,7 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     tables = numbers_that_matter(result)
     changed = any(check.overrides for check in result.checks if check.status != "pass")
     body: list[Block] = [
+        *unusual_values(result),
         *small_benefit(result),
         *arm_change(result),
         *make(result),

@@ -222,12 +222,21 @@ def _stability(frequency: Frequency) -> str:
         return "The stability of the balanced state at idle is not known."
     word = "stable" if stable else "not stable"
     changes = ", ".join(f"{number(boundary.speed_rpm, 4)} rpm ({_above(boundary)} above)" for boundary in limits)
-    modes = (f"{number(mode.frequency_hz, 3)} Hz (ζ {number(mode.damping_ratio, 2)})" for mode in frequency.modes)
+    modes = (f"{number(mode.frequency_hz, 3)} Hz ({_damping(mode.damping_ratio)})" for mode in frequency.modes)
     return (
         f"The balanced state at idle is {word} at the rated speed, by the eigenvalues of its least stable arrangement. "
         f"Its stability changes at {changes or 'no speed'}. The machine's free oscillations are at "
         f"{', '.join(dict.fromkeys(modes)) or 'no frequency'}."
     )
+
+
+def _damping(ratio: float) -> str:
+    """The damping ratio of a mode; the eigenvalues of an undamped one leave rounding errors alone.
+
+    >>> _damping(0.05), _damping(-2e-17)
+    ('ζ 0.050', 'ζ below 0.0001')
+    """
+    return f"ζ {number(ratio, 2)}" if abs(ratio) >= 1e-4 else "ζ below 0.0001"
 
 
 def _hanging(result: SizeResult) -> str:

@@ -16,7 +16,7 @@ from abu_calc.features.levels.octaves import (
     RAMP,
     SETTLED,
     Array,
-    Signal,
+    AxisSignal,
     acceleration_filter,
     band_rms,
     hand_arm_filter,
@@ -129,7 +129,7 @@ def level(velocity: float | None) -> float | None:
     return level_from_velocity(velocity) if velocity else None
 
 
-def axis_levels(name: str, signal: Signal, *, thirds: bool = False) -> AxisLevels:
+def axis_levels(name: str, signal: AxisSignal, *, thirds: bool = False) -> AxisLevels:
     """Levels of a signal along one axis, and by third octaves if they are asked for.
 
     The whole velocity is the rms about the mean from the signal's start on; for accelerations it is that of
@@ -143,19 +143,19 @@ def axis_levels(name: str, signal: Signal, *, thirds: bool = False) -> AxisLevel
     return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason, narrow)
 
 
-def _third(signal: Signal, third: ThirdOctave) -> ThirdBand:
+def _third(signal: AxisSignal, third: ThirdOctave) -> ThirdBand:
     band = third_octave_filter(third)
     reason = why_not(signal, band)
     return ThirdBand(third, band_rms(signal, band) if reason is None else None, reason)
 
 
-def _band(signal: Signal, octave: Octave) -> Band:
+def _band(signal: AxisSignal, octave: Octave) -> Band:
     band = octave_filter(octave)
     reason = why_not(signal, band)
     return Band(octave, band_rms(signal, band) if reason is None else None, reason)
 
 
-def _whole(signal: Signal, bands: Sequence[Band]) -> float | None:
+def _whole(signal: AxisSignal, bands: Sequence[Band]) -> float | None:
     """Rms velocity [m/s]; of places by a spline of the fifth degree, its slope within 0.1 % at 8 samples a turn."""
     first = min(math.ceil(signal.start * signal.rate), len(signal.samples) - 2)
     if signal.derivative == 1:
@@ -173,7 +173,7 @@ def _whole(signal: Signal, bands: Sequence[Band]) -> float | None:
     return weighted_rms(values[first:], 0.5 if signal.whole and signal.start else ENDS)
 
 
-def halves_differ(signal: Signal) -> float | None:
+def halves_differ(signal: AxisSignal) -> float | None:
     """Level of the second half of the averaged signal over the first half [dB]; None if a half is silent."""
     values = np.asarray(signal.samples[math.ceil(signal.start * signal.rate) :], dtype=float)
     first, second = (float(np.std(half)) for half in np.array_split(values, 2))
@@ -251,7 +251,7 @@ def axis_place_levels(run: Simulation, times: Array, name: str, *, thirds: bool 
     """Levels of the axis along x and y, from the states of a run sampled at these times."""
     velocities = run.scene.axis_velocity(run.trajectory.at(times))
     rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * run.scene.duration - float(times[0])
-    signals = [Signal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
+    signals = [AxisSignal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
     return PlaceLevels(
         name, tuple(axis_levels(x, signal, thirds=thirds) for x, signal in zip("xy", signals, strict=True))
     )

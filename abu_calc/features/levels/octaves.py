@@ -63,7 +63,7 @@ class Filter:
 
 
 @dataclass(frozen=True)
-class Signal:
+class AxisSignal:
     """Equally spaced samples of one axis [SI] from 0 s on; `derivative` of the velocity: −1 place, 0, 1 acceleration.
 
     `start` [s]: where means begin; what comes before only lets the filters settle. `whole`: a band may begin earlier
@@ -129,7 +129,7 @@ def needed_rate(band: Filter) -> float:
     return from_si(band.high, "hz") * 2 / SHARE_OF_NYQUIST
 
 
-def why_not(signal: Signal, band: Filter) -> str | None:
+def why_not(signal: AxisSignal, band: Filter) -> str | None:
     """Why a record does not tell a band's velocity, in words that suit several bands; None where it does."""
     if band.high > SHARE_OF_NYQUIST * math.pi * signal.rate:
         needed = f"{2 / SHARE_OF_NYQUIST:.2g} times its upper edge"
@@ -144,7 +144,7 @@ def why_not(signal: Signal, band: Filter) -> str | None:
     return None
 
 
-def band_rms(signal: Signal, band: Filter) -> float:
+def band_rms(signal: AxisSignal, band: Filter) -> float:
     """Rms [SI] of what a filter makes of the velocity behind a signal, in the mean from its `start` on.
 
     A filter times s gives the acceleration of a velocity. Assumes `why_not` None. Exact for steady motion to 0.01 dB
@@ -181,7 +181,7 @@ def _ramps(first: int, count: int, length: float) -> Callable[[Array], Array]:
     return weights
 
 
-def _filtered(signal: Signal, band: Filter, first: int) -> Iterator[tuple[Array, Array]]:
+def _filtered(signal: AxisSignal, band: Filter, first: int) -> Iterator[tuple[Array, Array]]:
     """Indices and filtered values from `first` on, block by block; each is led in by twice the time to settle."""
     from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
@@ -204,7 +204,7 @@ def _filtered(signal: Signal, band: Filter, first: int) -> Iterator[tuple[Array,
         yield np.arange(begin, end, dtype=float), values
 
 
-def _response(signal: Signal, band: Filter, frequencies: Array) -> NDArray[np.complex128]:
+def _response(signal: AxisSignal, band: Filter, frequencies: Array) -> NDArray[np.complex128]:
     """Response of a filter to a signal at frequencies [rad/s].
 
     It is set to zero three octaves away, where it is 200 dB down.
@@ -216,7 +216,7 @@ def _response(signal: Signal, band: Filter, frequencies: Array) -> NDArray[np.co
     return response
 
 
-def folded_share(signal: Signal) -> float:
+def folded_share(signal: AxisSignal) -> float:
     """Share of the power of a signal above three quarters of half its sampling rate: much there tells of too slow
     sampling, which folds what is faster into the bands.
     """

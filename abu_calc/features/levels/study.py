@@ -24,7 +24,7 @@ from abu_calc.features.levels.levels import (
     moved_at,
     times_for,
 )
-from abu_calc.features.levels.octaves import SHARE_OF_NYQUIST, Signal, folded_share, needed_rate, octave_filter
+from abu_calc.features.levels.octaves import SHARE_OF_NYQUIST, AxisSignal, folded_share, needed_rate, octave_filter
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -301,7 +301,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
             remedy="Check the unit of the time column.",
         )
     start, derivative = _start(recorded, from_s), QUANTITIES.index(recorded.quantity)
-    signals = [Signal(values, recorded.rate, 1 - derivative, start, from_s is None) for values in recorded.samples]
+    signals = [AxisSignal(values, recorded.rate, 1 - derivative, start, from_s is None) for values in recorded.samples]
     axes = [axis_levels(name, signal, thirds=thirds) for name, signal in zip(recorded.names, signals, strict=True)]
     places = tuple(
         PlaceLevels(handle or "file", tuple(axes[k] for k in members))
@@ -331,7 +331,7 @@ def _start(recorded: Recording, from_s: float | None) -> float:
     return from_s
 
 
-def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
+def _remarks(recorded: Recording, signals: Sequence[AxisSignal]) -> Iterator[str]:
     """Remarks on a record that a reader must know."""
     if recorded.simulated and signals[0].whole:
         yield "The file is a trajectory of a simulation: means are taken over its last twentieth."

@@ -38,7 +38,7 @@ def answered(
     fresh: Sequence[Flags], path: Path | None,
 ) -> OptimiseResult:  # fmt: skip
     """The result of a race that is over; `fresh`: flags of fresh samples of each machine of the best candidate."""
-    designs = Designs(ask, space, race)
+    designs = DesignPoints(ask, space, race)
     fresh_share = None if source.impatient else _fresh(fresh, ask.seed + 1)
     undecided = _undecided(race, best) if proven else 0
     point = designs.point(best)
@@ -75,7 +75,7 @@ def answered(
     )
 
 
-class Designs:
+class DesignPoints:
     """Candidates as points of the result."""
 
     def __init__(self, ask: OptimiseRequest, space: SearchSpace, race: CandidateRace) -> None:

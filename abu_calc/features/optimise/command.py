@@ -109,7 +109,7 @@ def optimise(
     for file in files:
         check_target(file, force=how.force, suffixes=(".toml",), option="--write")
     if store is not None:
-        checked_path(store, taken=(*([how.output] if how.output else []), *(path for _, path in how.figures), *files))
+        checked_path(store, taken=(*how.outputs, *(path for _, path in how.figures), *files))
     read = [read_machine(machine, set_ or ()) for machine in machines]
     with _naming(), wording(store), cluster_executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
         result = study(

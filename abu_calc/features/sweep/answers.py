@@ -22,7 +22,7 @@ from abu_calc.features.sweep.result import (
     Sensitivity,
 )
 from abu_calc.features.sweep.sampling import BLOCK, Sample, block
-from abu_calc.features.sweep.sensitivity import Fit, Indices, saltelli
+from abu_calc.features.sweep.sensitivity import Indices, RegressionSums, saltelli
 from abu_calc.features.sweep.store import Store, quoted
 
 REASONS: Final = 20
@@ -160,7 +160,7 @@ def sensitivities(
 def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
     """All numbers in one pass, since their products are the same."""
     levels = tuple(len(factor.variation.values) for factor in sample.factors)
-    fits = {name: Fit(levels, sample.runs) for name in names}
+    fits = {name: RegressionSums(levels, sample.runs) for name in names}
     for members, columns in parts_of(store, names):
         places = np.empty((len(members), len(sample.factors)))
         for first in np.unique(members // BLOCK).tolist():

@@ -154,7 +154,7 @@ def sweep(
     if resume and store is None:
         raise InputError("--resume goes with --store", remedy="Add --store FILE.sqlite.")
     if store is not None:
-        files = (*([how.output] if how.output else []), *(path for _, path in how.figures))
+        files = (*how.outputs, *(path for _, path in how.figures))
         checked_path(store, taken=files)
     with wording(store), cluster_executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
         result = study(

@@ -16,7 +16,7 @@ from abu_calc.features.sweep.answers import parts_of
 from abu_calc.features.sweep.columns import FLAGS, LEVEL, SETTLING
 from abu_calc.features.sweep.result import DecidingValue, FailedLimit, MeetsLimits
 from abu_calc.features.sweep.sampling import BLOCK, Factor, Sample, block
-from abu_calc.features.sweep.sensitivity import Fit
+from abu_calc.features.sweep.sensitivity import RegressionSums
 from abu_calc.features.sweep.store import Store
 
 Array = NDArray[np.float64]
@@ -60,7 +60,7 @@ def _failed(
 ) -> FailedLimit:
     fails = columns[name] == 0
     margin = MARGINS.get(name, _answer)(columns, limits, name)
-    fit = Fit(tuple(len(factor.variation.values) for factor in sample.factors), len(margin))
+    fit = RegressionSums(tuple(len(factor.variation.values) for factor in sample.factors), len(margin))
     fit.add(fit.products(places), margin, np.arange(len(margin)))
     indices = fit.indices()
     rows = [] if indices is None else [

@@ -50,7 +50,7 @@ Term = tuple[tuple[int, int], ...]
 """Factor and degree, of one value or of two."""
 
 
-class Fit:
+class RegressionSums:
     """Takes members in parts and keeps sums alone, so that memory does not grow with their number.
 
     `levels` of each factor: how many choices it has, 0 for a number; `members`: about how many there will be.

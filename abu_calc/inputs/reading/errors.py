@@ -13,7 +13,7 @@ from abu_calc.inputs.reading.format import renamed
 from abu_calc.inputs.reading.suggestions import header, meant_key, meant_table, nearest, nearest_numbered
 from abu_calc.inputs.reading.table import RULE, Table, is_array, subtable, table_at, usual_of
 from abu_calc.inputs.reading.text import Part, is_number, key_path, quoted, shown, shown_short, unit_symbol
-from abu_calc.inputs.reading.toml_text import line_of
+from abu_calc.inputs.reading.toml_text import line_of, with_unit_converted, without_comma
 
 MOST_LISTED: Final = 10
 MOST_EXPLAINED: Final = 40
@@ -159,7 +159,7 @@ def _absent(finding: _Finding, origin: Origin) -> InputError:
         name = header(finding.root, finding.path)
         return InputError(f"the table {name} is missing", place=origin.place(finding.path), remedy=f"add {name}")
     examples = finding.table.model_fields[finding.key].examples
-    remedy = f"add {finding.key} = {shown(examples[0])}, with your own value" if examples else f"add {finding.key} = …"
+    remedy = f"add {finding.key} = …, such as {shown(examples[0])}" if examples else f"add {finding.key} = …"
     return InputError("the key is missing", place=origin.place(finding.path), remedy=remedy)
 
 
@@ -185,10 +185,12 @@ def _no_number(what: str) -> Callable[[_Finding], _Words]:
     def no_number(finding: _Finding) -> _Words:
         value = finding.value
         if isinstance(value, str):
-            number = value.strip().replace(",", ".")
+            if written := without_comma(value.strip()):
+                return what, None, f"{written}, without quotes"
+            number = value.strip()
             if leading := re.match(r"[+-]?\d+(\.\d+)?([eE][+-]?\d+)?", number):
-                why = "" if leading[0] == number else "the unit stands in the key: "
-                return what, None, f"{why}write {leading[0]} without quotes"
+                written = None if leading[0] == number else with_unit_converted(finding.key, number)
+                return what, None, written or f"write {leading[0]} without quotes"
         if isinstance(value, float) and value.is_integer():
             return what, None, f"write {int(value)}"
         return what, None, "write one number, not a list" if isinstance(value, list) else None

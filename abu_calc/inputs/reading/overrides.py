@@ -197,12 +197,12 @@ def _path(key: str, given_by: str = "--set") -> tuple[Part, ...]:
 
 
 def _value(text: str, place: Place) -> object:
-    from abu_calc.inputs.reading.toml_text import DECIMAL_COMMA
+    from abu_calc.inputs.reading.toml_text import without_comma
 
     if not text:
         raise InputError("the value is missing", place=place, remedy=f"write {place.key}=…")
-    if comma := DECIMAL_COMMA.fullmatch(text):
-        raise InputError("a decimal comma", place=place, found=text, remedy=f"write {comma[1]}.{comma[2]}")
+    if written := without_comma(text):
+        raise InputError("a comma in a number", place=place, found=text, remedy=written)
     try:
         parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):

@@ -143,17 +143,47 @@ _NUMBER: Final = r"[+-]?\d[\d_]*(?:\.\d+)?(?:[eE][+-]?\d+)?"
 _DIGITS: Final = re.compile(r"\d(?:_?\d){4300}")
 """Number with more digits than Python spends time on; its error gives no line."""
 DECIMAL_COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
+
+
+def without_comma(text: str) -> str | None:
+    """What to write for a number with a comma, which may be a decimal comma or group thousands; None for others.
+
+    >>> without_comma("5,6"), without_comma("0,125"), without_comma("5.6")
+    ('write 5.6 (the decimal sign is a point)', 'write 0.125 (the decimal sign is a point)', None)
+    >>> without_comma("11,000")
+    'write 11000 if the comma groups thousands, 11.000 if it is a decimal comma'
+    """
+    if not (comma := DECIMAL_COMMA.fullmatch(text)):
+        return None
+    whole, rest = comma.groups()
+    if re.fullmatch(r"[+-]?[1-9]\d{0,2}", whole) and len(rest) == 3:
+        return f"write {whole}{rest} if the comma groups thousands, {whole}.{rest} if it is a decimal comma"
+    return f"write {whole}.{rest} (the decimal sign is a point)"
+
+
+def with_unit_converted(key: str, text: str) -> str | None:
+    """What to write for a number with its unit under a key that names a unit; None for other keys.
+
+    >>> with_unit_converted("mass_kg", "1900 g")
+    'write mass_kg = 1.9, or mass = "1900 g"'
+    """
+    from abu_calc.foundation.written_units import WrittenUnitError, written_unit  # loaded for such files alone
+
+    if (unit := written_unit(key)) is None:
+        return None
+    try:
+        value = unit.value(text)
+    except WrittenUnitError as error:
+        return f'write {key} = …, a number in {unit.unit}, or {unit.stem} = "…", {error.allowed}'
+    return f"write {key} = {value:.12g}, or {unit.stem} = {quoted(text)}"
+
+
 _WORDS: Final = {"True": "true", "False": "false", "TRUE": "true", "FALSE": "false"}
 _NOTHING: Final = ("none", "null", "nil", "-")
 
 # What the value of a refused line looks like, and what to write instead ({0} the whole, {1} … the groups).
 _VALUES: Final = (
-    (re.compile(r"([+-]?\d+),(\d+)"), "a decimal comma", "the decimal sign is a point: write {1}.{2}"),
-    (
-        re.compile(rf"({_NUMBER})\s*[^\W\d_][\w/·²]*"),
-        "more than a number",
-        "the unit stands in the key: write {1} alone",
-    ),
+    (re.compile(rf"({_NUMBER})\s*[^\W\d_][\w/·²]*"), "more than a number", "this number has no unit: write {1} alone"),
     (re.compile(r"([+-]?)(\.\d+)"), "a number without its zero", "write {1}0{2}"),
     (re.compile(r"([+-]?\d+)\."), "a number that ends in a point", "write {1}.0"),
     (re.compile(r"([+-]?)0+(\d+(?:\.\d+)?)"), "a number with leading zeros", "write {1}{2}"),
@@ -211,10 +241,14 @@ def _seen(row: str) -> tuple[str | None, str | None, str | None]:
     value = re.sub(r"\s+#[^\"']*$", "", value)
     if not value or value.startswith("#"):
         return row, "the value is missing", f"write {key} = …, or leave the key out"
-    return value, *_value_seen(value)
+    return value, *_value_seen(key, value)
 
 
-def _value_seen(value: str) -> tuple[str | None, str | None]:
+def _value_seen(key: str, value: str) -> tuple[str | None, str | None]:
+    if written := without_comma(value):
+        return "a comma in a number", written
+    if re.fullmatch(rf"{_NUMBER}\s*[^\W\d_][\w/·²]*", value) and (written := with_unit_converted(key, value)):
+        return "a number with its unit", written
     for pattern, fault, remedy in _VALUES:
         if seen := pattern.fullmatch(value):
             return fault, remedy.format(seen[0], *seen.groups())

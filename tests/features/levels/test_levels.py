@@ -17,7 +17,7 @@ from abu_calc.features.levels.levels import (
     times_for,
     with_tone,
 )
-from abu_calc.features.levels.octaves import Signal
+from abu_calc.features.levels.octaves import AxisSignal
 from abu_calc.standards.vibration import octaves
 from tests.dynamics.scenes import dimensionless
 
@@ -57,10 +57,10 @@ def test_a_tone_is_added_as_energy_in_its_own_octave() -> None:
 
 def test_a_second_half_twice_as_large_is_six_decibels_louder() -> None:
     wave = np.sin(2 * math.pi * 50 * np.arange(4000) / 1000)
-    signal = Signal(np.where(np.arange(4000) < 2000, wave, 2 * wave), 1000.0, 0)
+    signal = AxisSignal(np.where(np.arange(4000) < 2000, wave, 2 * wave), 1000.0, 0)
     assert halves_differ(signal) == pytest.approx(20 * math.log10(2), abs=1e-6)
-    assert halves_differ(Signal(np.zeros(100), 1000.0, 0)) is None
-    late = Signal(np.concatenate([100 * wave[:2000], wave[:2000]]), 1000.0, 0, start=2.0)
+    assert halves_differ(AxisSignal(np.zeros(100), 1000.0, 0)) is None
+    late = AxisSignal(np.concatenate([100 * wave[:2000], wave[:2000]]), 1000.0, 0, start=2.0)
     assert halves_differ(late) == pytest.approx(0.0, abs=1e-6)
 
 
@@ -68,7 +68,7 @@ def test_a_second_half_twice_as_large_is_six_decibels_louder() -> None:
 def test_the_whole_velocity_of_a_sine_is_its_rms(derivative: int) -> None:
     t, omega = np.arange(8192) / 4096, 2 * math.pi * 125
     samples = -np.cos(omega * t) / omega if derivative == -1 else np.sin(omega * t)
-    velocity = axis_levels("x", Signal(samples, 4096.0, derivative)).velocity
+    velocity = axis_levels("x", AxisSignal(samples, 4096.0, derivative)).velocity
     assert velocity == pytest.approx(math.sqrt(0.5), rel=2e-3)
 
 

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from abu_calc.features.levels.levels import axis_levels
 from abu_calc.features.levels.octaves import (
     BLOCK,
+    AxisSignal,
     Filter,
-    Signal,
     acceleration_filter,
     band_rms,
     folded_share,
@@ -34,14 +34,14 @@ PASSED = {0.0: 0.3, 1 / 8: 0.4, 1 / 4: 0.6, 3 / 8: 1.3}
 """Most attenuation [dB], class 1, so far from the centre in octaves; −0.3 dB is the least everywhere."""
 
 
-def sine(hertz: float, rate: float, seconds: float, derivative: int = 0, phase: float = 0.3) -> Signal:
+def sine(hertz: float, rate: float, seconds: float, derivative: int = 0, phase: float = 0.3) -> AxisSignal:
     """Of unit rms velocity, as place (−1), velocity (0) or acceleration (1)."""
     t, w = np.arange(round(seconds * rate)) / rate, 2 * math.pi * hertz
     values = {-1: -np.cos(w * t + phase) / w, 0: np.sin(w * t + phase), 1: w * np.cos(w * t + phase)}[derivative]
-    return Signal(math.sqrt(2) * values, rate, derivative)
+    return AxisSignal(math.sqrt(2) * values, rate, derivative)
 
 
-def db(signal: Signal, index: int) -> float:
+def db(signal: AxisSignal, index: int) -> float:
     """The level in an octave against that of the whole sine."""
     return 20 * math.log10(band_rms(signal, octave_filter(octaves()[index])))
 
@@ -123,7 +123,7 @@ def test_a_sine_reads_its_level_in_its_third_octave(index: int) -> None:
 def test_third_octaves_of_noise_add_up_to_their_octave_and_to_the_weighted_acceleration() -> None:
     """Energies of three thirds are that of the octave; Σ(W_h·a)² of the table is a_h² (ISO 5349-1, A.2 within 1 %)."""
     noise = np.random.default_rng(2).standard_normal(2**17)
-    found = axis_levels("x", Signal(noise, 4096.0, 1), thirds=True)
+    found = axis_levels("x", AxisSignal(noise, 4096.0, 1), thirds=True)
     velocities = [band.velocity for band in found.thirds]
     assert len(velocities) == 24 and None not in velocities
     for index, octave in enumerate(found.bands):
@@ -132,7 +132,7 @@ def test_third_octaves_of_noise_add_up_to_their_octave_and_to_the_weighted_accel
         assert third == pytest.approx(octave.velocity, rel=0.06 if index < 2 else 0.02)
     total = math.hypot(*(band.third.weight * band.third.centre * (band.velocity or 0.0) for band in found.thirds))
     assert found.weighted == pytest.approx(total, rel=0.03)
-    assert axis_levels("x", Signal(noise[:4096], 4096.0, 0)).thirds == ()
+    assert axis_levels("x", AxisSignal(noise[:4096], 4096.0, 0)).thirds == ()
 
 
 def test_the_edge_belongs_half_to_either_octave() -> None:
@@ -143,7 +143,7 @@ def test_the_edge_belongs_half_to_either_octave() -> None:
 def test_octaves_of_noise_add_up() -> None:
     """Octaves side by side leave out nothing: flat noise of unit power per Hz has its width in each, √2 apart."""
     noise = np.random.default_rng(1).standard_normal(2**18) * math.sqrt(4096 / 2)
-    signal = Signal(noise, 4096.0, 0)
+    signal = AxisSignal(noise, 4096.0, 0)
     for band in octaves()[1:]:
         width = from_si(band.high - band.low, "hz")
         # 64 s of noise of 11 Hz and more: one part in √(2·64·width) by chance.
@@ -175,7 +175,7 @@ def test_place_and_acceleration_beside_the_velocity(derivative: int) -> None:
 
 def test_gravity_and_drift_of_an_accelerometer_are_no_vibration() -> None:
     signal = sine(63.1, 4096.0, 6.0, 1)
-    tilted = Signal(signal.samples + 9.81 + 0.5 * np.arange(len(signal.samples)) / 4096, 4096.0, 1)
+    tilted = AxisSignal(signal.samples + 9.81 + 0.5 * np.arange(len(signal.samples)) / 4096, 4096.0, 1)
     for index in range(8):
         assert abs(10 ** (db(tilted, index) / 20) - 10 ** (db(signal, index) / 20)) < 1e-4
 
@@ -185,16 +185,16 @@ def test_what_comes_at_the_start_rings_out() -> None:
     signal = sine(125.9, 4096.0, 3.0)
     jolted = signal.samples.copy()
     jolted[:100] += 100.0
-    assert abs(db(Signal(jolted, 4096.0, 0, 1.0), 4)) < 0.01
+    assert abs(db(AxisSignal(jolted, 4096.0, 0, 1.0), 4)) < 0.01
 
 
 def test_only_what_is_averaged_counts() -> None:
     """A motion ten times as large in its first half: the mean from the middle on does not know it."""
     signal = sine(125.9, 4096.0, 4.0)
     louder = signal.samples * np.where(np.arange(len(signal.samples)) < 2 * 4096, 10.0, 1.0)
-    assert abs(db(Signal(louder, 4096.0, 0, 2.5), 4)) < 0.01
+    assert abs(db(AxisSignal(louder, 4096.0, 0, 2.5), 4)) < 0.01
     # All of it: half at ten, half at one, √((100 + 1)/2), but for the ends where means rise and fall.
-    assert db(Signal(louder, 4096.0, 0), 4) == pytest.approx(10 * math.log10(50.5), abs=0.3)
+    assert db(AxisSignal(louder, 4096.0, 0), 4) == pytest.approx(10 * math.log10(50.5), abs=0.3)
 
 
 def test_blocks_of_long_records_join() -> None:
@@ -202,7 +202,7 @@ def test_blocks_of_long_records_join() -> None:
     count = 3 * BLOCK
     t = np.arange(count) / 4096.0
     both = np.sin(2 * math.pi * 500 * t) + np.where(t > t[-1] / 2, np.sin(2 * math.pi * 126 * t), 0.0)
-    signal = Signal(math.sqrt(2) * both, 4096.0, 0)
+    signal = AxisSignal(math.sqrt(2) * both, 4096.0, 0)
     assert abs(db(signal, 6)) < 0.01
     assert db(signal, 4) == pytest.approx(-10 * math.log10(2), abs=0.03)
 
@@ -211,7 +211,7 @@ def test_blocks_of_long_records_join() -> None:
     (250.0, 10.0, 0.0, "slowly"), (4096.0, 0.2, 0.0, "short"), (4096.0, 1.0, 0.98, "left"),
 ])  # fmt: skip
 def test_what_a_record_does_not_tell_is_not_told(rate: float, seconds: float, start: float, word: str) -> None:
-    signal = Signal(np.zeros(round(seconds * rate)), rate, 0, start)
+    signal = AxisSignal(np.zeros(round(seconds * rate)), rate, 0, start)
     reason = why_not(signal, octave_filter(octaves()[4]))
     assert reason is not None and word in reason
 
@@ -219,11 +219,11 @@ def test_what_a_record_does_not_tell_is_not_told(rate: float, seconds: float, st
 def test_an_octave_is_known_from_36_periods_on() -> None:
     band: Filter = octave_filter(octaves()[0])
     enough = 36 / CENTRES[0]
-    assert why_not(Signal(np.zeros(math.ceil(enough * 100)), 100.0, 0), band) is None
-    assert why_not(Signal(np.zeros(math.ceil(0.98 * enough * 100)), 100.0, 0), band) is not None
+    assert why_not(AxisSignal(np.zeros(math.ceil(enough * 100)), 100.0, 0), band) is None
+    assert why_not(AxisSignal(np.zeros(math.ceil(0.98 * enough * 100)), 100.0, 0), band) is not None
 
 
 def test_folding_is_told_by_what_lies_near_half_the_rate() -> None:
     t = np.arange(8192) / 1000.0
-    assert folded_share(Signal(np.sin(2 * math.pi * 97 * t), 1000.0, 0)) < 1e-6
-    assert folded_share(Signal(np.sin(2 * math.pi * 450 * t), 1000.0, 0)) > 0.9
+    assert folded_share(AxisSignal(np.sin(2 * math.pi * 97 * t), 1000.0, 0)) < 1e-6
+    assert folded_share(AxisSignal(np.sin(2 * math.pi * 450 * t), 1000.0, 0)) > 0.9

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from abu_calc.features.sweep.sampling import BLOCK, Factor, Sample, Scheme, block
-from abu_calc.features.sweep.sensitivity import Fit, Indices, saltelli
+from abu_calc.features.sweep.sensitivity import Indices, RegressionSums, saltelli
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
 
@@ -31,7 +31,7 @@ def values(
 
 
 def fitted(sample: Sample, found: np.ndarray[tuple[int], np.dtype[np.float64]], parts: int = 1) -> Indices | None:
-    fit = Fit(tuple(len(one.variation.values) for one in sample.factors), sample.runs)
+    fit = RegressionSums(tuple(len(one.variation.values) for one in sample.factors), sample.runs)
     places = np.vstack([block(sample, number) for number in range(-(-sample.runs // BLOCK))])
     for members in np.array_split(np.arange(sample.runs), parts):
         fit.take(places[members], found[members], members)

@@ -18,8 +18,11 @@ LIMITS = "[limits]"
 # What is replaced in the basic file, by what, the line and key that must be named, words that must be told.
 CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     # not TOML
-    (MASS, "mass_kg = 5,6", 5, "machine.mass_kg", ("decimal comma", "write 5.6")),
-    (MASS, "mass_kg = 5.6 kg", 5, "machine.mass_kg", ("unit stands in the key", "5.6 alone")),
+    (MASS, "mass_kg = 5,6", 5, "machine.mass_kg", ("a comma in a number", "write 5.6 (the decimal sign is a point)")),
+    (MASS, "mass_kg = 11,000", 5, "machine.mass_kg", ("11000 if the comma groups thousands", "11.000 if it is")),
+    (MASS, "mass_kg = 1900 g", 5, "machine.mass_kg", ("write mass_kg = 1.9", 'or mass = "1900 g"')),
+    (MASS, "mass_kg = 3 furlong", 5, "machine.mass_kg", ("a number in kg", "lb")),
+    (MASS, "mass_kg = 5.6 kg", 5, "machine.mass_kg", ("a number with its unit", "write mass_kg = 5.6")),
     (MASS, "mass_kg = .5", 5, "machine.mass_kg", ("write 0.5",)),
     (MASS, "mass_kg = 5.", 5, "machine.mass_kg", ("write 5.0",)),
     (MASS, "mass_kg = 05.6", 5, "machine.mass_kg", ("leading zeros", "write 5.6")),
@@ -60,8 +63,8 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (LIMITS, '[limits]\n"a b" = 1', 28, 'limits."a b"', ("unknown key",)),
     # wrong kinds
     (MASS, 'mass_kg = "5.6"', 5, "machine.mass_kg", ("number", "5.6 without quotes")),
-    (MASS, 'mass_kg = "5,6"', 5, "machine.mass_kg", ("number", "5.6 without quotes")),
-    (MASS, 'mass_kg = "5.6 kg"', 5, "machine.mass_kg", ("unit stands in the key",)),
+    (MASS, 'mass_kg = "5,6"', 5, "machine.mass_kg", ("number", "write 5.6 (", "without quotes")),
+    (MASS, 'mass_kg = "5600 g"', 5, "machine.mass_kg", ('write mass_kg = 5.6, or mass = "5600 g"',)),
     (MASS, "mass_kg = true", 5, "machine.mass_kg", ("number", "found true")),
     (MASS, "mass_kg = [5.6]", 5, "machine.mass_kg", ("not a list",)),
     (MASS, "mass_kg = 2020-01-01", 5, "machine.mass_kg", ("number", "2020-01-01")),
@@ -107,7 +110,7 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (IMBALANCE, "measured_level_db = []", 17, "wheel.measured_level_db", ("too few",)),
     (IMBALANCE, 'measured_level_db = [110, "111"]', 17, "wheel.measured_level_db[1]", ("111 without quotes",)),
     # missing
-    (MASS + "\n", "", 2, "machine.mass_kg", ("missing", "add mass_kg = 5.6")),
+    (MASS + "\n", "", 2, "machine.mass_kg", ("missing", "add mass_kg = …, such as 5.6")),
     (DIAMETER + "\n", "", 14, "wheel.diameter_mm", ("missing", "add diameter_mm")),
     (WIDTH + "\n", "", 19, "autobalancer.max_width_mm", ("missing",)),
     ('[suspension]\nmodel = "springs"\nnatural_frequencies_hz = [2.5, 2.5]\ndamping_ratios = [0.5, 0.5]\n', "", None,

@@ -34,7 +34,7 @@ def test_written_overrides(written: str, path: tuple[str | int, ...], value: obj
 @pytest.mark.parametrize(
     ("override", "key", "words"),
     [
-        ("machine.mass_kg=5,6", "--set machine.mass_kg", ("decimal comma", "5.6")),
+        ("machine.mass_kg=5,6", "--set machine.mass_kg", ("a comma in a number", "5.6")),
         ("machine.mass_kg=", "--set machine.mass_kg", ("value is missing",)),
         ("machine.mass_kg", "--set", ("not an override",)),
         ("=5", "--set", ("not an override",)),
