@@ -18,6 +18,7 @@ from abu_calc.features.stability.attractor_starts import designed_starts, drawn_
 from abu_calc.features.stability.attractors import attractors_of, interval
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.scene import read_any
+from abu_calc.registry import known
 from abu_calc.simulation.subject import subject_of
 from tests.cli.runner import abu
 from tests.dynamics.scenes import dimensionless, straight_grinder
@@ -132,6 +133,8 @@ def test_shares_add_up_and_a_printed_command_ends_the_same_way() -> None:
     assert searched is not None and groups is not None and searched.drawn_starts == 12
     assert sum(group.share for group in groups) + searched.undecided_share == pytest.approx(1.0)
     assert {group.kind for group in groups} == {"balanced", "stuck"}
+    assert "attractors" in result.figures and "attractors" in {known("stability", name).name for name in result.figures}
+    assert "Attractors: where starts end" in result.text() and "Criterion of attractors" in result.text(full=True)
     for group in groups:
         assert group.low <= group.share <= group.high
         words = shlex.split(str(group.example.command))
