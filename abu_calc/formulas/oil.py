@@ -48,7 +48,8 @@ INDEX_CURVES: Final = (
     (55.0, 0.85921, 11.1009, -83.19, 0.1713, 11.368, -76.94),
     (70.0, 0.83531, 14.6731, -216.246, 0.16841, 11.8493, -96.947),
 )
-"""ASTM D2270: from this viscosity at 100 °C on, coefficients of L and of H."""
+"""ASTM D2270: from this viscosity at 100 °C on, coefficients of L and of H. The open packages lubepy 1.0a0 (all
+16 rows) and chemicals (table of L and H) give the same; the standard itself was not at hand."""
 
 
 @formula(
@@ -171,7 +172,8 @@ def oil_depth(fill: float, race: OilRace, speed: float) -> float:
     where="Re_b = 2·r·u_b/ν_o. The branches meet at 32.2 and 0.74.",
     checked=(REYNOLDS,),
     assumed="a smooth wall; the ball is wholly under the surface",
-    source="Jan and Chen 1997, J. Hydraulic Research 35(5), 689–706, measured; coefficients by later citations",
+    source="Jan and Chen 1997, Movements of a sphere rolling down an inclined plane, J. Hydraulic Research 35(5), "
+    "689–706, measured; the coefficients are not verified: no public text of the paper was found",
 )
 def rolling_drag_coefficient(reynolds: float) -> float:
     """

@@ -6,7 +6,7 @@ check_data/, one file for each hundred, read when one of its codes is first requ
 
 import tomllib
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -211,7 +211,7 @@ def worst(checks: Iterable[Check]) -> Grade:
     return next((grade for grade in order if grade in statuses), "pass")
 
 
-def verdict_words(status: Status, checks: Iterable[Check]) -> str:
+def verdict_words(status: Status, checks: Sequence[Check]) -> str:
     """The verdict with the counts of checks by grade.
 
     >>> verdict_words("pass", [Check("ABU201", "capacity", "pass", "…"), Check("ABU401", "level", "warn", "…")])
@@ -230,9 +230,24 @@ def verdict_words(status: Status, checks: Iterable[Check]) -> str:
         ]
     if count["not-done"]:
         clauses.append(f"{count['not-done']} not evaluated")
-    if status == "pass" and count["warn"]:
-        word += " WITH WARNINGS"
-    return f"{word}: {', '.join(clauses)}"
+    return f"{verdict_word(status, checks)}: {', '.join(clauses)}"
+
+
+def verdict_word(status: Status, checks: Sequence[Check]) -> str:
+    """The verdict in words: a pass with warnings is called so."""
+    warned = status == "pass" and any(check.status == "warn" and check.requested for check in checks)
+    return f"{WORDS[status]} WITH WARNINGS" if warned else WORDS[status]
+
+
+def verdict_codes(status: Status, checks: Sequence[Check]) -> str:
+    """The verdict with the codes of the checks that decide it.
+
+    >>> verdict_codes("pass", [Check("ABU201", "capacity", "pass", "…"), Check("ABU401", "level", "warn", "…")])
+    'PASS WITH WARNINGS: ABU401'
+    """
+    grade = "warn" if status == "pass" else status
+    codes = dict.fromkeys(check.code for check in checks if check.status == grade and check.requested)
+    return f"{verdict_word(status, checks)}{': ' if codes else ''}{' '.join(codes)}"
 
 
 def verdict(passed: bool, safe: bool = True) -> Grade:

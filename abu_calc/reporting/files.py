@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from abu_calc.foundation.checks import verdict_codes
 from abu_calc.foundation.errors import OutputError
 from abu_calc.foundation.escaping import escaped, escaped_toml
 from abu_calc.foundation.quantity import flattened
@@ -22,10 +23,14 @@ FORMULAS: Final = ("=", "+", "-", "@")
 
 
 def as_toml(outcome: Outcome) -> str:
-    """The JSON document as TOML, which has no null: such keys are left out, in a list the word keeps the place."""
+    """The JSON document as TOML, which has no null: such keys are left out, in a list the word keeps the place.
+
+    A comment before it gives the verdict with its codes: the status of a pass with warnings is "pass".
+    """
     import tomli_w
 
-    return escaped_toml(tomli_w.dumps(_without_null(document(outcome))))
+    verdict = f"# {verdict_codes(outcome.status, outcome.checks)}\n" if outcome.checks else ""
+    return verdict + escaped_toml(tomli_w.dumps(_without_null(document(outcome))))
 
 
 def as_csv(outcome: Outcome) -> str:

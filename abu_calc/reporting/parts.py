@@ -185,7 +185,7 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
     if provenance.file is not None:
         text += f"; {provenance.file}, SHA-256 {(provenance.sha256 or '')[:16]}…"
     blocks: list[Block] = [Heading("Provenance", "provenance"), Paragraph(text)]
-    entries = [entry for key, value in provenance.overrides for entry in _entries(key, value)]
+    entries = replaced_entries(provenance)
     if entries:
         blocks += [Paragraph("With these entries replaced:"), *(Paragraph(entry, indent=4) for entry in entries)]
     if provenance.converted:
@@ -196,8 +196,12 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
 
 def options_of(provenance: Provenance) -> str:
     """The replaced entries of a result as options of a command, each after a space."""
-    entries = (entry for key, value in provenance.overrides for entry in _entries(key, value))
-    return "".join(f" --set {shlex.quote(entry.replace(' = ', '=', 1))}" for entry in entries)
+    return "".join(f" --set {shlex.quote(entry.replace(' = ', '=', 1))}" for entry in replaced_entries(provenance))
+
+
+def replaced_entries(provenance: Provenance) -> list[str]:
+    """The replaced entries of a result as a file would have them."""
+    return [entry for key, value in provenance.overrides for entry in _entries(key, value)]
 
 
 def _entries(path: str, value: object) -> Iterator[str]:

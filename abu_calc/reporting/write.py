@@ -27,7 +27,11 @@ def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = (), opt
     if "\0" in str(path):
         raise OutputError("not a file name", place=place)
     if suffixes and path.suffix.lower() not in suffixes:
-        raise OutputError("unknown format", found=str(path), allowed="a name ending in " + " ".join(suffixes))
+        picture = path.suffix.lower() in (".png", ".jpg", ".jpeg") and option == "--output"
+        remedy = "Figures alone are pictures: --figure NAME=FILE.png." if picture else None
+        raise OutputError(
+            "unknown format", found=str(path), allowed="a name ending in " + " ".join(suffixes), remedy=remedy
+        )
     try:
         if path.is_dir():
             raise OutputError("this is a folder", place=place, remedy="Give a file's name.")

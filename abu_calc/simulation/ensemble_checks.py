@@ -37,6 +37,8 @@ class TriedChange:
     after: Ensemble | None
     without_success: tuple[str, ...] = ()
     in_all_oils: bool = False
+    by_oil: str = ""
+    """Sentence on a drag rate that overrides the oil of the file."""
 
     def action(
         self, quantity: str, value: Callable[[StartOutcome], float], unit: str, limit: float | None = None
@@ -58,7 +60,7 @@ class TriedChange:
         oils = IN_ALL_OILS if self.in_all_oils else ""
         moved = Moved(f"{quantity}{oils}", value(self.before), value(self.after), unit, limit)
         judged = "hot and cold oil included" if self.in_all_oils else "at the given drag rate"
-        more = f"All {self.after.members} start cases, {judged}, then pass."
+        more = f"All {self.after.members} start cases, {judged}, then pass. {self.by_oil}".rstrip()
         return set_action(self.entries, self.candidate, moved, SIMULATED, more)
 
 

@@ -18,6 +18,7 @@ from abu_calc.sizing.manufacture.race_quality import RaceQuality
 from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.track import Track
+from abu_calc.standards.tolerance_classes import DeviationLimits
 
 SOFT_ARM = to_si(10, "um")
 """Lever arm of rolling friction on a soft race (assumed; 10–50 µm)."""
@@ -59,7 +60,7 @@ def drawing(
     return (
         *_eccentricity(case, candidate, split),
         *_race(case, candidate, track, quality),
-        *_seat_and_balls(candidate, split, quality),
+        *_seat_and_balls(candidate, split, quality, f"{case.autobalancer.bore_diameter_mm:g}"),
         *_construction(case, construction),
         *_running(case, candidate, track),
     )
@@ -155,8 +156,8 @@ def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) 
         ),
         DrawingRequirement(
             "race hardness",
-            f"{hardness_text(quality)}, case ≥ {_mm(quality.case_depth)} mm after grinding (given: "
-            f"{abu.race_hardness_HRC:g}); a soft race has a lever arm of {_um(SOFT_ARM)} µm",
+            f"{hardness_text(quality)}, through-hardened (given: {abu.race_hardness_HRC:g}); a soft race has a lever "
+            f"arm of {_um(SOFT_ARM)} µm",
             _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction),
         ),
         DrawingRequirement(
@@ -178,12 +179,13 @@ def hardness_text(quality: RaceQuality) -> str:
 
 
 def _seat_and_balls(
-    candidate: Candidate, split: EccentricitySplit, quality: RaceQuality
+    candidate: Candidate, split: EccentricitySplit, quality: RaceQuality, bore: str
 ) -> tuple[DrawingRequirement, ...]:
     rest = math.hypot(candidate.budget.rolling_friction, candidate.budget.race_ovality, candidate.budget.plane_offset)
     fit = split.fit
     named = "no standard fit" if fit is None else (
-        f"bore {fit.bore_class}, spindle {fit.spindle_class}; {_clearance(fit)}; the largest clearance gives "
+        f"bore Ø{bore} {fit.bore_class} ({_limits(fit.bore)}), spindle Ø{bore} {fit.spindle_class} "
+        f"({_limits(fit.spindle)} mm); {_clearance(fit)}; the largest clearance gives "
         f"{_um(split.clearance)} µm of the eccentricity"
     )  # fmt: skip
     return (
@@ -201,6 +203,11 @@ def _seat_and_balls(
     )  # fmt: skip
 
 
+def _limits(limits: DeviationLimits) -> str:
+    """Upper and lower deviation in mm."""
+    return " / ".join(f"{from_si(limit, 'mm'):+.4g}" if limit else "0" for limit in (limits.upper, limits.lower))
+
+
 def _clearance(fit: Fit) -> str:
     """Clearance or interference of a fit in words."""
     if fit.tightest <= 0:
@@ -211,13 +218,13 @@ def _clearance(fit: Fit) -> str:
 
 
 def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequirement, ...]:
-    oval = candidate.roundness
+    oval, overspeed = candidate.roundness, 1.2 * from_si(case.speed_range[1], "rpm")
     optimum = "" if track.optimum_drag is None else f" (optimum {track.optimum_drag:.0f})"
     return (
         DrawingRequirement(
             "oil",
-            f"for a viscous drag rate of about {case.drag:g} 1/s{optimum}; VG 46 gives 3 "
-            "to 50 1/s, depending on slip, more when cold; specify grade and volume"
+            f"one that gives a viscous drag rate of {case.drag:g} 1/s, which the design assumes{optimum}. Specify "
+            "grade and volume under [oil], or record starts by abu measure-plan and evaluate them by abu identify"
             if case.table.oil is None
             else f"{case.table.oil.fill_ml:g} ml of {oil_name(case.table.oil)}, for a viscous drag rate of about "
             f"{case.drag:.3g} 1/s{optimum} at {case.table.oil.temperature_C:g} °C",
@@ -228,7 +235,7 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
             f"{_um(ovality_residual(oval.lobes))} µm, with one web alone {_um(ovality_residual(oval.unaided))} µm; "
             f"the diameter of a free ring would grow by {_um(oval.free_ring)} µm",
         ),
-        DrawingRequirement("proof", "cover and seal; overspeed test at 1.2 × the highest speed"),
+        DrawingRequirement("proof", f"cover and seal; overspeed test at {overspeed:.0f} rpm, 1.2 × the highest speed"),
     )
 
 

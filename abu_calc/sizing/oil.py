@@ -1,6 +1,6 @@
 """Viscous drag rate by the oil in the race: cold, at work and hot, with the factor by which it is uncertain."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Final
 
@@ -110,6 +110,21 @@ def with_oil(case: Case, candidate: Candidate) -> Case:
     if oil is None:
         return case
     return replace(case, oil=oil, drag=case.drag if oil.overridden else oil.working.drag)
+
+
+def overriding(case: Case, entries: Mapping[str, object]) -> str:
+    """Sentence for an action that sets a drag rate in a file whose oil gives it; empty for any other action.
+
+    The oil's own rate is that of the file as it is.
+    """
+    rate = entries.get(f"autobalancer.{RATE_KEY}")
+    if case.oil is None or case.oil.overridden or not isinstance(rate, float | int):
+        return ""
+    other = "A more" if rate > case.drag else "A less"
+    return (
+        f"The key overrides [oil], which gives {case.drag:.3g} 1/s. {other} viscous oil gives such a rate, within a "
+        f"factor of {FACTOR:g}: see the table of oils of --full."
+    )
 
 
 def drag_share(case: Case, candidate: Candidate, temperature: float) -> float:

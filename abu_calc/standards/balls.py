@@ -1,6 +1,7 @@
 """Balls: stock diameters and materials, with the conversion of hardness from Rockwell C to Vickers."""
 
 from bisect import bisect_left
+from fractions import Fraction
 from functools import cache
 from typing import Literal, NamedTuple
 
@@ -51,6 +52,21 @@ def stock_diameter(diameter: float) -> float | None:
     """
     near = min(stock_diameters(), key=lambda d: abs(d - diameter))
     return near if abs(near - diameter) <= STOCK_TOLERANCE + _ROUNDING else None
+
+
+def inch_size(diameter: float) -> str:
+    """The inch fraction that names a stock ball of a diameter [m]; nothing for a metric one.
+
+    >>> inch_size(0.005953125), inch_size(0.0269875), inch_size(0.006)
+    ('15/64 in', '1 1/16 in', '')
+    """
+    table = toml_table("balls")
+    near = stock_diameter(diameter)
+    if near is None or any(abs(near - to_si(metric, "mm")) < _ROUNDING for metric in table["metric"]):
+        return ""
+    size = Fraction(near / to_si(25.4, "mm")).limit_denominator(64)
+    whole, part = divmod(size, 1)
+    return " ".join(str(each) for each in (whole, part) if each) + " in"
 
 
 def material(name: str) -> Material:

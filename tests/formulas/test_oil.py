@@ -26,6 +26,31 @@ def test_viscosity_indices_are_those_of_the_examples_of_the_standard() -> None:
     assert round(viscosity_index(22.83, 5.05)) == 156
 
 
+# Table 1 of ASTM D2270 (viscosity at 100 °C, L, H) as the open package chemicals 1.x transcribes it.
+TABLE = (
+    (2.0, 7.994, 6.394), (3.0, 15.49, 12.15), (3.8, 23.13, 17.97), (4.0, 25.32, 19.56), (4.7, 35.13, 25.63),
+    (5.5, 49.09, 33.34), (6.6, 69.16, 44.24), (6.8, 73.48, 46.44), (7.3, 84.53, 51.78), (8.0, 100.0, 59.6),
+    (10.0, 147.7, 82.87), (12.0, 201.9, 108.0), (14.0, 263.3, 135.4), (17.0, 369.4, 180.2), (20.0, 493.2, 229.5),
+    (25.0, 736.5, 320.9), (30.0, 1023.0, 421.7), (35.0, 1356.0, 532.5), (45.0, 2152.0, 780.9), (50.0, 2618.0, 919.6),
+    (60.0, 3676.0, 1222.0), (70.0, 4905.0, 1558.0),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("at_100", "low", "high"), TABLE)
+def test_curves_of_the_index_are_those_of_the_table(at_100: float, low: float, high: float) -> None:
+    """Oils of index 0 and 100 by definition; the table is rounded, and smoothed unlike its polynomials."""
+    assert viscosity_index(low, at_100) == pytest.approx(0, abs=1.0)
+    assert viscosity_index(high, at_100) == pytest.approx(100, abs=1.0)
+
+
+def test_the_usual_hydraulic_oil_has_the_viscosity_between_rows_of_the_table() -> None:
+    """46 mm²/s at 40 °C. Index 100: H is 45.33 at 6.7 and 46.44 at 6.8. Index 95: L − 0.95·(L − H) at 6.6 and 6.7."""
+    by_hand = 6.7 + 0.1 * (46 - 45.33) / (46.44 - 45.33)
+    assert viscosity_at_100(46.0, 100.0) == pytest.approx(by_hand, abs=0.02)
+    low, high = 69.16 - 0.95 * (69.16 - 44.24), 71.29 - 0.95 * (71.29 - 45.33)
+    assert viscosity_at_100(46.0, 95.0) == pytest.approx(6.6 + 0.1 * (46 - low) / (high - low), abs=0.02)
+
+
 @pytest.mark.parametrize("place", range(1, len(INDEX_CURVES)))
 def test_curves_of_the_index_meet(place: int) -> None:
     """A digit typed wrongly would tear the curve."""

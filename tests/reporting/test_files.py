@@ -15,7 +15,7 @@ from abu_calc.foundation.errors import OutputError
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.files import FORMULAS, as_file, check_extra
 from abu_calc.reporting.outcome import Outcome
-from tests.cli.runner import abu
+from tests.cli.runner import abu, again
 from tests.inputs.samples import BEARINGS
 
 ACTING = re.compile("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\u2028\u2029]")
@@ -93,3 +93,13 @@ def test_a_format_without_its_package_is_refused_with_what_installs_it(monkeypat
     with pytest.raises(OutputError, match="ezdxf") as caught:
         check_extra(".dxf")
     assert "abu-calc[report]" in str(caught.value)
+
+
+def test_toml_begins_with_the_verdict_and_its_codes(tmp_path: Path) -> None:
+    """The status of a pass with warnings is "pass", so a comment says the rest."""
+    output = tmp_path / "out.toml"
+    assert again("size", "avtovaz-707-222", "--quiet", "--output", str(output)).status == 0
+    text = output.read_text(encoding="utf-8")
+    warned = dict.fromkeys(each["code"] for each in tomllib.loads(text)["checks"] if each["status"] == "warn")
+    assert text.splitlines()[0] == f"# PASS WITH WARNINGS: {' '.join(warned)}" and warned
+    assert tomllib.loads(text)["status"] == "pass"

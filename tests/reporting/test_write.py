@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from abu_calc.cli import command as filing
+from abu_calc.foundation.errors import OutputError
 from abu_calc.reporting import write
 from tests.cli.runner import abu
 from tests.inputs.samples import BEARINGS
@@ -168,3 +169,11 @@ def test_a_files_ending_says_what_is_in_it(arguments: tuple[str, ...], name: str
         (json.loads if name.endswith(".json") else tomllib.loads)(file.read_text(encoding="utf-8"))
     else:
         assert ".json" in seen.err and "does not write" in seen.err
+
+
+def test_a_picture_as_output_is_refused_with_the_option_for_pictures(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"--figure NAME=FILE\.png"):
+        write.check_target(tmp_path / "a.png", force=False, suffixes=(".svg",), option="--output")
+    with pytest.raises(OutputError) as other:
+        write.check_target(tmp_path / "a.doc", force=False, suffixes=(".svg",), option="--output")
+    assert other.value.remedy is None

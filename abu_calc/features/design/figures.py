@@ -68,7 +68,7 @@ def _scale(outer: float, room: float) -> float:
 
 
 def _drawn(scale: float) -> str:
-    return f"drawn to scale {_ratio(scale)}, sizes in mm"
+    return f"drawn {_ratio(scale)} for this page (sheets have scales of their own), sizes in mm"
 
 
 def _ratio(scale: float) -> str:

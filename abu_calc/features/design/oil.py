@@ -75,7 +75,8 @@ class OilRecord(Record):
 METHOD: Final = (
     "Viscosity follows the line of Ubbelohde and Walther through the values at 40 °C and 100 °C. Rotation lays the oil "
     "into an even ring. A ball in it has the drag that Jan and Chen (1997) measured on balls that roll along a wall. "
-    "How much of that is left in a shallow ring is reasoned: no source covers a partly wetted ball."
+    "Its coefficients are quoted, not verified in the paper. How much of that drag is left in a shallow ring is "
+    "reasoned: no source covers a partly wetted ball."
 )
 
 

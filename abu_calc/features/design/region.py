@@ -30,6 +30,7 @@ from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
 from abu_calc.simulation.start_cases import Member, members
 from abu_calc.sizing.actions import set_action, speeds_from
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.oil import overriding
 
 
 @dataclass(frozen=True)
@@ -261,7 +262,7 @@ def _action(design: Design, speeds: SpeedRange) -> Action:
         changed = None if other is None else _speed_range(other, with_boundaries=False)
         if changed and changed.stable:
             moved = Moved("the growth rate", speeds.growth, changed.growth, "1/s", 0.0)
-            return set_action(entries, design.autobalancer, moved)
+            return set_action(entries, design.autobalancer, moved, more=overriding(case, entries))
     above = f"Keep all speeds above {_rpm(last.speed)}. " if last else ""
     return Action(
         f"{above}No change of the drag rate or the damping was found that makes these speeds stable. Use lighter "

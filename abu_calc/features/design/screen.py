@@ -11,12 +11,14 @@ from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds, arm_line, short_advice
 from abu_calc.foundation.checks import Check
+from abu_calc.foundation.units import to_si
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, level_text, number
 from abu_calc.reporting.parts import RANK, WORD, file_of, paste_lines, unlike, value_and_limit
 from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by, verdict_line
 from abu_calc.reporting.text import height
 from abu_calc.simulation.vibration_records import HandleLevels
 from abu_calc.sizing.case import WHEEL_PLANE
+from abu_calc.standards.balls import inch_size
 
 INERTIA: Final = "modelled as a point mass"
 """Words of the warning that a machine has no inertia; it is the first note."""
@@ -140,9 +142,8 @@ def make(result: SizeResult) -> list[Block]:
         f"groove R {number(groove, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, "
     )  # fmt: skip
     rows = (
-        TableCase(
-            "Balls", f"{balls(abu)}, {abu.ball_material}{'' if abu.corrector == 'ball' else f' {abu.corrector}s'}"
-        ),
+        TableCase("Balls", f"{balls(abu)}{_inch(abu)}, {abu.ball_material}"
+                  f"{'' if abu.corrector == 'ball' else f' {abu.corrector}s'}"),
         TableCase(
             "Race",
             f"R {abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm, {shape}{section.hardness}",
@@ -539,6 +540,12 @@ def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:
 def balls(autobalancer: AutobalancerRecord) -> str:
     """Count and size, inch sizes to the micrometre."""
     return f"{autobalancer.ball_count} × Ø{round(autobalancer.ball_diameter_mm, 3):g} mm"
+
+
+def _inch(autobalancer: AutobalancerRecord) -> str:
+    """The fraction of an inch by which balls are ordered, in brackets; nothing for metric ones and rollers."""
+    inch = inch_size(to_si(autobalancer.ball_diameter_mm, "mm")) if autobalancer.corrector == "ball" else ""
+    return f" ({inch})" if inch else ""
 
 
 def _place(vibration: Vibration) -> str:

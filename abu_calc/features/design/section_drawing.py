@@ -11,6 +11,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from abu_calc.features.design.records import AutobalancerRecord, Section
+from abu_calc.foundation.units import to_si
 from abu_calc.reporting.drawings.callouts import balloon
 from abu_calc.reporting.drawings.dimensions import arrow, datum, extent, fits, leader, moved, roughness, tolerance_frame
 from abu_calc.reporting.drawings.shapes import (
@@ -28,6 +29,7 @@ from abu_calc.reporting.drawings.shapes import (
     digits,
     text_width,
 )
+from abu_calc.standards.balls import inch_size
 
 if TYPE_CHECKING:
     from abu_calc.features.design.records import SectionPart
@@ -97,7 +99,7 @@ def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
         *_cutting_plane(outer, scale),
         *_balls_seen(result),
         *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text, True) for (radius, text), angle in zip((
-            (abu.race_radius_mm, f"Ø{digits(2 * abu.race_radius_mm)} ±{digits(2 * section.race_tolerance_mm)}"),
+            (abu.race_radius_mm, f"Ø{digits(2 * abu.race_radius_mm, 2)} ±{digits(2 * section.race_tolerance_mm)}"),
             (pitch, f"(Ø{digits(2 * pitch)})"),
             (section.hub_diameter_mm / 2, f"Ø{digits(section.hub_diameter_mm)}"),
         ), _clear_of_balls(abu), strict=True)),
@@ -231,7 +233,8 @@ def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
     outer, right = abu.outer_diameter_mm / 2, abu.width_mm + COLUMN * unit
     tip = _on_race(result, 0.7)
     shelf = right, outer - HEIGHT * unit
-    hard, rough = f"{section.hardness}, case ≥ {digits(section.case_depth_mm)}", f"Ra {digits(section.roughness_Ra_um)}"
+    size = f"Ø{digits(section.race_diameter_mm, 2)} ±{digits(2 * section.race_tolerance_mm)}"
+    hard, rough = f"race {size}, {section.hardness}", f"Ra {digits(section.roughness_Ra_um)}"
     yield from leader(tip, shelf, hard, scale, more=6)
     end = right + (text_width(hard, HEIGHT) + 5) * unit
     yield from roughness((end, shelf[1]), rough, scale)
@@ -269,7 +272,13 @@ def _part_names(result: "SizeResult", scale: float, items: Mapping[str, str]) ->
 
 def balls_text(abu: AutobalancerRecord) -> str:
     """Count and diameter of the balls, as the section names them."""
-    return f"{abu.ball_count} × Ø{digits(abu.ball_diameter_mm)}"
+    return f"{abu.ball_count} × {ball_size(abu)}"
+
+
+def ball_size(abu: AutobalancerRecord) -> str:
+    """Diameter of a ball, with the fraction of an inch by which it is ordered."""
+    inch = inch_size(to_si(abu.ball_diameter_mm, "mm")) if abu.corrector == "ball" else ""
+    return f"Ø{digits(abu.ball_diameter_mm)}{f' ({inch})' if inch else ''}"
 
 
 def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool, float]]:

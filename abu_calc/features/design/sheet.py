@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.features.design.section_drawing import assembly_face, balls_text, bore_limits, described, section_view
+from abu_calc.features.design.section_drawing import assembly_face, ball_size, balls_text, described, section_view
 from abu_calc.features.design.sheets.frame import (
     BINDING,
     BLOCK,
@@ -19,16 +19,16 @@ from abu_calc.features.design.sheets.frame import (
     title_block,
     written_notes,
 )
-from abu_calc.features.design.sheets.manufacture import BALL_STEEL, SHOWN, assembly_notes, grade, race_lines
+from abu_calc.features.design.sheets.manufacture import BALL_STEEL, SHOWN, assembly_notes, grade, note_of, race_lines
 from abu_calc.features.design.sheets.part_sheet import number, on_paper, origin, part_sheets, ratio
 from abu_calc.features.seats.figures import seats_of
-from abu_calc.reporting.drawings.dimensions import extent, fits, moved
+from abu_calc.reporting.drawings.dimensions import extent, moved
 from abu_calc.reporting.drawings.shapes import SCALES, Drawing, Point, Shape, digits, plain
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
 
-COLUMNS: Final = (10.0, 32.0, 13.0, 18.0, 80.0, 27.0)
+COLUMNS: Final = (10.0, 40.0, 13.0, 18.0, 80.0, 19.0)
 """Widths of the parts list."""
 GAP = 12.0
 """Distance between views, and between views and the frame. All lengths are on paper [mm]."""
@@ -43,9 +43,6 @@ def section_sheet(result: "SizeResult") -> Drawing:
     room = WIDE - MARGIN - BINDING - GAP, HIGH - 2 * MARGIN - below - GAP
     items = {row[1]: row[0] for row in rows[1:]} | {balls_text(result.autobalancer): rows[-1][0]}
     scale, views = _views(result, room, items)
-    bore = result.section.bore_diameter_mm, bore_limits(result.section)
-    if bore[1] and not fits(*bore, scale):
-        notes = [f"Ø{digits(bore[0])} {result.section.bore_class}: {bore[1]} mm", *notes]
     block = TitleBlock(
         title=f"autobalancer, {result.section.design}", more=result.title, number=number(result, 1), sheet=1,
         sheets=1 + len(result.parts.turned), kind="assembly drawing", material="see parts list",
@@ -66,7 +63,7 @@ def parts_rows(result: "SizeResult") -> list[tuple[str, ...]]:
     for item, (part, made) in enumerate(zip(result.section.parts, result.parts.turned, strict=True), 1):
         named = grade(made, made.name == race).name
         rows.append((str(item), part.name, "1", part.material, named, digits(part.mass_g, 2)))
-    rows.append((str(len(rows)), f"{abu.corrector} Ø{digits(abu.ball_diameter_mm)}", f"{abu.ball_count}",
+    rows.append((str(len(rows)), f"{abu.corrector} {ball_size(abu)}", f"{abu.ball_count}",
                  abu.ball_material, BALL_STEEL.name, f"{abu.ball_count} × {digits(abu.ball_mass_g)}"))  # fmt: skip
     return rows
 
@@ -86,7 +83,7 @@ def _views(result: "SizeResult", room: Point, items: Mapping[str, str]) -> tuple
 def _notes(result: "SizeResult") -> Iterator[str]:
     """The lines of the drawing table that neither a dimension nor the sheet of the race's part says."""
     told = SHOWN | {line.feature for line in race_lines(result)} | {"housing without balls"}
-    yield from (f"{line.feature}: {line.requirement}" for line in result.drawing if line.feature not in told)
+    yield from (note_of(line) for line in result.drawing if line.feature not in told)
 
 
 def size_sheets(result: "SizeResult") -> tuple[Drawing, ...]:

@@ -24,6 +24,7 @@ from abu_calc.sizing import instead
 from abu_calc.sizing.actions import pins, with_entries, words
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design, built
+from abu_calc.sizing.oil import overriding
 
 OILS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
 """Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
@@ -92,7 +93,8 @@ def tried_change(
                 break
             ensembles.append(ensemble)
         if len(ensembles) == 1 + len(change.variants):
-            return TriedChange(design.autobalancer, first, change.entries, ensembles[0])
+            by_oil = overriding(design.case, change.entries)
+            return TriedChange(design.autobalancer, first, change.entries, ensembles[0], by_oil=by_oil)
         tried.append(change.name)
     return TriedChange(design.autobalancer, first, {}, None, tuple(tried)) if tried else None
 
@@ -119,7 +121,10 @@ def change_for_oils(
             ensemble = simulate_members(variant, accuracy, within(progress, f"with {change.name}"), workers)
             most -= ensemble.work
             if not ensemble.lost and all(_good(variant, outcome) for outcome in ensemble.outcomes):
-                return TriedChange(design.autobalancer, first, change.entries, ensemble, in_all_oils=True)
+                by_oil = overriding(design.case, change.entries)
+                return TriedChange(
+                    design.autobalancer, first, change.entries, ensemble, in_all_oils=True, by_oil=by_oil
+                )
         tried.append(change.name)
     return TriedChange(design.autobalancer, first, {}, None, tuple(tried), in_all_oils=True) if tried else None
 

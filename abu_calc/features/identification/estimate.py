@@ -1,12 +1,15 @@
 """The unknowns that make recorded starts likely: features of tracks, their distribution by regression, intervals.
 
 Features of a start are regressed over a bank: their means by polynomials of degree four, the logarithms of their
-variances by degree two. A multivariate Student likelihood (ν = 6) of all starts is maximised; the profile of the
-likelihood gives intervals, whose drop is calibrated by starts simulated at the estimate (parametric bootstrap).
+variances by degree two. At the estimate, starts simulated there correct the regression. A multivariate Student
+likelihood (ν = 6) of all starts is maximised; the profile of the likelihood gives intervals, whose drop is calibrated
+by the same starts (parametric bootstrap).
 """
 
 import math
 from collections.abc import Sequence
+from copy import copy
+from functools import cache
 from itertools import combinations_with_replacement
 from typing import Final
 
@@ -23,6 +26,10 @@ FLOOR, NOISES = 0.04, 6.0
 """Distances from the end that count as none: this share of the amplitude without balls, or so many times the noise."""
 FREEDOM: Final = 6.0
 """ν of the Student likelihood."""
+REWEIGHTED: Final = 6
+"""Rounds of a weighted fit, which far values hardly move."""
+LEAST_DEVIATION: Final = 1e-3
+"""Least standard deviation of a feature."""
 PRIOR_UM: Final = 12.0
 """Standard deviation of a component of Δ before anything is measured."""
 NARROWEST_UM, WIDEST_UM = 10.0, 20.0
@@ -90,11 +97,37 @@ def end_of(track: Track) -> complex:
     return complex(np.mean(track[int((1 - END) * len(track)) :]))
 
 
+@cache
+def _plan(count: int, degree: int) -> tuple[tuple[int, int], ...]:
+    """Each product of components up to a degree, after the one of degree zero: an earlier product, and a component."""
+    chosen = [each for k in range(degree + 1) for each in combinations_with_replacement(range(count), k)]
+    places = {each: place for place, each in enumerate(chosen)}
+    return tuple((places[each[:-1]], each[-1]) for each in chosen[1:])
+
+
 def _terms(points: Points, degree: int) -> Points:
     """Products of the components up to a degree, for points [point, component]."""
-    count = points.shape[1]
-    chosen = [each for k in range(degree + 1) for each in combinations_with_replacement(range(count), k)]
-    return np.stack([np.prod(points[:, list(each)], axis=1) for each in chosen], axis=1)
+    components = points.T
+    products = [np.ones(len(points))]
+    for earlier, component in _plan(points.shape[1], degree):
+        products.append(products[earlier] * components[component])
+    return np.stack(products, axis=1)
+
+
+def _student_scale(rest: Features) -> Array:
+    """Scale of each column by a Student distribution, which far values hardly widen."""
+    scale = np.median(np.abs(rest), axis=0) * 1.5 + 1e-12
+    for _ in range(REWEIGHTED):
+        scale = np.sqrt(np.mean((FREEDOM + 1) / (FREEDOM + (rest / scale) ** 2) * rest**2, axis=0)) + 1e-12
+    return np.asarray(scale)
+
+
+def _inverse_correlation(standard: Features) -> Array:
+    """Inverse of the correlation of the features, far values clipped and the correlation shrunk by 5 %."""
+    kept = np.clip(standard, -4, 4)
+    kept = kept - kept.mean(axis=0)
+    size = np.sqrt(np.mean(kept**2, axis=0)) + 1e-12  # a feature at its floor in every start has none
+    return np.asarray(np.linalg.inv(0.95 * (kept / size).T @ (kept / size) / len(kept) + 0.05 * np.eye(len(size))))
 
 
 class Regression:
@@ -106,30 +139,58 @@ class Regression:
         scaled = bank.box.scaled(bank.points)
         terms, few = _terms(scaled, 4), _terms(scaled, 2)
         self.means = np.linalg.lstsq(terms, features, rcond=None)[0]
-        rest = features - terms @ self.means
-        self.variances = np.linalg.lstsq(few, np.log(rest**2 + 1e-10), rcond=None)[0]
-        standard = rest / np.exp(few @ self.variances / 2)
-        self.scale = standard.std(axis=0)
-        kept = np.clip(standard / self.scale, -4, 4)
-        count = features.shape[1]
-        self.inverse = np.linalg.inv(0.95 * np.corrcoef(kept.T) + 0.05 * np.eye(count))
+        # Balls that friction holds end far away now and then: unweighted, such starts would bend the means.
+        for _ in range(REWEIGHTED):
+            rest = features - terms @ self.means
+            self.variances = np.linalg.lstsq(few, np.log(rest**2 + 1e-10), rcond=None)[0]
+            deviations = np.exp(few @ self.variances / 2)
+            self.scale = _student_scale(rest / deviations)
+            standard = rest / (deviations * self.scale)
+            roots = 1 / (np.sqrt(FREEDOM + standard**2) * deviations)
+            self.means = np.stack(
+                [
+                    np.linalg.lstsq(terms * root[:, None], column * root, rcond=None)[0]
+                    for column, root in zip(features.T, roots.T, strict=True)
+                ],
+                axis=1,
+            )
+        self.inverse = _inverse_correlation(standard)
+        self.shift, self.ratio = np.zeros(features.shape[1]), np.ones(features.shape[1])
+
+    def anchored(self, point: Points, features: Features) -> "Regression":
+        """This regression with mean, scatter and correlation at a point as in starts simulated there."""
+        means, deviations = self.distribution(point)
+        middle, scale = np.median(features, axis=0), deviations[0]
+        for _ in range(REWEIGHTED):
+            weights = 1 / (FREEDOM + ((features - middle) / scale) ** 2)
+            middle = np.sum(weights * features, axis=0) / weights.sum(axis=0)
+            scale = np.maximum(_student_scale(features - middle), LEAST_DEVIATION)
+        near = copy(self)
+        near.shift, near.ratio = self.shift + middle - means[0], self.ratio * scale / deviations[0]
+        near.inverse = _inverse_correlation((features - middle) / scale)
+        return near
 
     def distribution(self, points: Points) -> tuple[Features, Features]:
         """Means and standard deviations of the features at points."""
         scaled = self.box.scaled(np.atleast_2d(points))
         deviations = np.exp(_terms(scaled, 2) @ self.variances / 2) * self.scale
-        return _terms(scaled, 4) @ self.means, deviations
+        return _terms(scaled, 4) @ self.means + self.shift, deviations * self.ratio
+
+    def distances(self, point: Points, features: Features) -> Array:
+        """Squared distance of each start from the mean at a point, in the scatter there."""
+        means, deviations = self.distribution(point)
+        standard = (features - means) / deviations
+        return np.asarray(np.sum((standard @ self.inverse) * standard, axis=1))
 
     def likelihood(self, points: Points, features: Features) -> Array:
         """Logarithm of the likelihood of all starts at points, with the prior of Δ."""
         points = np.atleast_2d(points)
         means, deviations = self.distribution(points)
         total = -0.5 * np.sum(points[:, 2:] ** 2, axis=1) / PRIOR_UM**2
-        for start in features:
-            standard = (start - means) / deviations
-            distance = np.einsum("ni,ij,nj->n", standard, self.inverse, standard)
-            total += -0.5 * (FREEDOM + len(start)) * np.log1p(distance / FREEDOM) - np.log(deviations).sum(axis=1)
-        return np.asarray(total)
+        standard = (features[:, None, :] - means) / deviations
+        distance = np.sum((standard @ self.inverse) * standard, axis=2)
+        total -= 0.5 * (FREEDOM + features.shape[1]) * np.log1p(distance / FREEDOM).sum(axis=0)
+        return np.asarray(total - len(features) * np.log(deviations).sum(axis=1))
 
     def best(
         self,
@@ -149,6 +210,12 @@ class Regression:
         if held:
             bounds[held[0]] = (held[1], held[1])
         limits = [(float(low), float(high)) for low, high in bounds]
+        steps = np.diag(1e-6 * (self.box.high - self.box.low))
+
+        def downhill(point: Points) -> tuple[float, Points]:
+            here, *moved = -self.likelihood(np.vstack([point, point + steps]), features)
+            return float(here), (np.array(moved) - here) / np.diag(steps)
+
         if begin is None:
             tried = box.low + (box.high - box.low) * np.random.default_rng(1).random((12_000, 4))
             begins = tried[np.argsort(self.likelihood(tried, features))[-4:]]
@@ -157,12 +224,7 @@ class Regression:
         ends = []
         for point in begins:
             point = np.clip(np.asarray(point, dtype=float), *np.array(limits).T)
-            result = minimize(
-                lambda x: -float(self.likelihood(np.asarray(x), features)[0]),
-                point,
-                method="L-BFGS-B",
-                bounds=limits,  # type: ignore[call-overload]
-            )
+            result = minimize(downhill, point, jac=True, method="L-BFGS-B", bounds=limits)
             ends.append(Best(np.asarray(result.x), -float(result.fun)))
         return max(ends, key=lambda each: each.value)
 
@@ -193,10 +255,10 @@ class Best:
     value: float
 
 
-def narrowed(best: Best, end_error: float) -> Box:
-    """A box round an estimate; `end_error`: standard error of the mean end [µm], which friction spreads."""
+def narrowed(best: Best, end_error: float, share: float = 1.0) -> Box:
+    """A box round an estimate, or a `share` of it; `end_error`: standard error of the mean end [µm], by friction."""
     offset = min(max(4 * end_error, NARROWEST_UM), WIDEST_UM)
-    half = np.array([0.55, 1.0, offset, offset])
+    half = share * np.array([0.55, 1.0, offset, offset])
     return Box(best.point - half, best.point + half)
 
 

@@ -23,6 +23,7 @@ from abu_calc.features.identification.tracks import (
     RecordedStart,
     Track,
 )
+from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si, to_si, wrapped_deg
@@ -35,9 +36,17 @@ ROUNDS: Final = 5
 """Narrower banks, at most."""
 SETS: Final = 40
 """Sets of starts that are simulated at the estimate, for intervals and goodness of fit."""
+ANCHORS: Final = 3
+"""Times at most that the regression is anchored at the estimate, which moves by it."""
+NEAR: Final = 0.03
+"""Move of the estimate, as a share of the box, below which the anchor stays."""
+ODD: Final = 2.0
+"""Squared distance of a start, over that of the farthest of 400 simulated ones, above which it is unlike them."""
+FINER, FINER_SHARE, POOR_FIT = 3, 0.5, 0.1
+"""Banks of half the size, at most, that are tried if fewer simulated sets than this share fit worse than the starts."""
 COVERED: Final = 0.95
-LEAST_DROP, MOST_DROP = 1.92, 12.0
-"""Drops of the logarithmic likelihood at the ends of an interval: χ² of one freedom, and where a calibration stops."""
+LEAST_DROP, MOST_DROP = 2.6, 12.0
+"""Drops of the logarithmic likelihood at the ends of an interval, at least and at most: t²/2 of ten starts is 2.56."""
 SURE_UM: Final = 0.3
 """Half of the narrowest interval of the eccentricity [µm]: with a mark, machines of known values came out 0.16 µm off
 in the median, more than their starts scatter."""
@@ -81,6 +90,8 @@ class Estimate:
     """Difference of the amplitudes at the start from those simulated, in standard errors."""
     amplitude_ratio: float
     simulated: int
+    odd_start: int | None = None
+    """Number of a start, from 0, that is unlike all those simulated at the estimate."""
 
     @property
     def offset_error(self) -> float:
@@ -116,20 +127,27 @@ def horizontal(scene: Scene) -> bool:
 
 def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     """The likeliest values, their intervals, and how well simulated sets fit."""
-    features, centres, box = measured.features, measured.reading.centres, WIDE
-    regression = Regression(bank_of(scene, box, MANY, centres, within(progress, "wide")), measured.reading)
-    best, simulated = _begun(scene, measured, regression, progress), MANY + (len(LEVERS) - 1) * FEW // 2
+    features, centres = measured.features, measured.reading.centres
+    wide = Regression(bank_of(scene, WIDE, MANY, centres, within(progress, "wide")), measured.reading)
+    best, simulated = _begun(scene, measured, wide, progress), MANY + (len(LEVERS) - 1) * FEW // 2
     parts = (0, 1, 2, 3) if measured.reading.marked else (0, 1)
     for _ in range(ROUNDS):
-        box = narrowed(best, measured.end_error)
-        regression = Regression(bank_of(scene, box, FEW, centres, within(progress, "narrow")), measured.reading)
-        best, simulated = regression.best(features), simulated + FEW
-        if inside(best, box, parts):
+        anchored = _narrow_fit(scene, measured, narrowed(best, measured.end_error), within(progress, "narrow"))
+        best, simulated = anchored.best, simulated + anchored.simulated
+        if inside(best, anchored.regression.box, parts):
             break
+    for _ in range(FINER):
+        if anchored.fits_worse >= POOR_FIT and inside(best, anchored.regression.box, parts):
+            break
+        box = narrowed(best, measured.end_error, FINER_SHARE)
+        finer = _narrow_fit(scene, measured, box, within(progress, "finer"))
+        simulated += finer.simulated
+        if finer.fits_worse < anchored.fits_worse:
+            break
+        anchored, best = finer, finer.best
     progress("intervals")
-    sets = list(_sets(scene, measured, best))
-    fits = [regression.best(each, begin=best.point) for each in sets]
-    drops = [_drop(regression, each, fit, best, parts) for each, fit in zip(sets, fits, strict=True)]
+    regression, truth = anchored.regression, anchored.truth
+    drops = [_drop(regression, each, fit, truth, parts) for each, fit in zip(anchored.sets, anchored.fits, strict=True)]
     intervals = [
         regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), LEAST_DROP, MOST_DROP)))
         for part, column in zip(parts, np.array(drops).T, strict=True)
@@ -138,14 +156,59 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     amplitudes = (features[:, -1] - means[0, -1]) / deviations[0, -1]
     return Estimate(
         best,
-        box,
+        regression.box,
         tuple(intervals),
         measured.end_error,
-        float(np.mean([fit.value < best.value for fit in fits])),
+        anchored.fits_worse,
         float(np.mean(amplitudes)) * math.sqrt(len(features)),
         float(np.mean(features[:, -1]) / means[0, -1]),
-        simulated + SETS * len(features),
+        simulated,
+        _odd_start(anchored, features),
     )
+
+
+def _odd_start(anchored: "AnchoredFit", features: Features) -> int | None:
+    """The start farthest from the estimate, if it is much farther than the farthest simulated one."""
+    usual = anchored.regression.distances(anchored.truth.point, np.concatenate(anchored.sets)).max()
+    recorded = anchored.regression.distances(anchored.best.point, features)
+    return int(np.argmax(recorded)) if recorded.max() > ODD * usual else None
+
+
+@dataclass(frozen=True, eq=False)
+class AnchoredFit:
+    """A regression anchored by sets simulated at `truth`, near the likeliest point that it gives."""
+
+    regression: Regression
+    truth: Best
+    sets: tuple[Features, ...]
+    best: Best
+    simulated: int
+    fits: tuple[Best, ...]
+    """The likeliest point of each set."""
+
+    @property
+    def fits_worse(self) -> float:
+        """Share of the sets that fit worse than the recorded starts."""
+        return float(np.mean([fit.value < self.best.value for fit in self.fits]))
+
+
+def _narrow_fit(scene: Scene, measured: Measured, box: Box, progress: Progress) -> AnchoredFit:
+    """The likeliest point of a box: of its bank first, then of the regression anchored there until the point stays."""
+    features = measured.features
+    regression = Regression(bank_of(scene, box, FEW, measured.reading.centres, progress), measured.reading)
+    best, simulated = regression.best(features), FEW
+    for _ in range(ANCHORS):
+        truth, sets = best, tuple(_sets(scene, measured, best))
+        if not sets:
+            raise NotTrustworthyError(
+                "starts cannot be simulated at the estimate\n  See `abu simulate FILE` for the reason."
+            )
+        fitted = regression.anchored(truth.point, np.concatenate(sets))
+        best, simulated = fitted.best(features, begin=truth.point), simulated + SETS * len(features)
+        if np.all(np.abs(box.place(best.point) - box.place(truth.point)) < NEAR):
+            break
+    fits = tuple(fitted.best(each, begin=truth.point) for each in sets)
+    return AnchoredFit(fitted, truth, sets, best, simulated, fits)
 
 
 def _begun(scene: Scene, measured: Measured, wide: Regression, progress: Progress) -> Best:

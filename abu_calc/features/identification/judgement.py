@@ -55,6 +55,14 @@ def checks_of(scene: Scene, measured: Measured, estimate: Estimate | None) -> It
         f"{estimate.fits_worse:.0%} of {SETS} simulated sets fit worse",
     )
     yield _run_up_check(scene, measured)
+    odd = estimate.odd_start
+    yield coded(
+        "ABU1109",
+        "pass" if odd is None else "warn",
+        "All starts lie where simulated ones lie"
+        if odd is None
+        else f"{measured.starts[odd].file} is unlike the starts simulated with the identified values",
+    )
 
 
 def _of_the_ends(mean: complex, error: float, estimate: Estimate, *, marked: bool) -> Iterator[Check]:
@@ -91,7 +99,7 @@ def _trend(measured: Measured) -> Check:
     from scipy.stats import spearmanr
 
     decays = measured.features[:, DECAY]
-    rank, chance = spearmanr(np.arange(len(decays)), decays)
+    rank, chance = spearmanr(np.arange(len(decays)), decays) if np.ptp(decays) else (0.0, 1.0)
     trend = bool(chance < TREND)
     way = "longer" if rank > 0 else "shorter"
     return coded(
@@ -113,5 +121,7 @@ def _run_up_check(scene: Scene, measured: Measured) -> Check:
         "ABU1108",
         "warn" if off else "pass",
         f"By the mark the run-up takes {time:.3g} s, by the file {given:.3g} s",
-        remedy=f"Repeat with the measured time: --run-up {time:.3g}." if off else None,
+        remedy=f"If the recordings begin at the switching-on, repeat with the measured time: --run-up {time:.3g}."
+        if off
+        else None,
     )

@@ -33,6 +33,7 @@ from abu_calc.features.identification.results import (
     interval_lines,
 )
 from abu_calc.features.identification.tracks import (
+    RecordedStart,
     Signal,
     recorded,
     recorded_start,
@@ -48,6 +49,9 @@ from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.subject import Source, Subject, subject_of
 
+SIZES: Final = (0.003, 10.0)
+"""Largest displacement over the amplitude without balls, at least and at most. Balls that settle within the run-up
+leave a small one."""
 ALIKE: Final = 0.8
 """Length of the shortest recording over that of the longest, at least."""
 RUN_UP: Final = Range("run-up time", 0, 1000, "s", key="run_up_s", open_low=True)
@@ -79,10 +83,13 @@ def identify(
     if not recordings:
         raise InputError("no recordings", place=Place(key="RECORDING"), remedy="Name the CSV files of the starts.")
     subject, starts = machine_subject(source), [recorded(file) for file in recordings]
+    clipped = tuple(f"{start.file} is clipped: its amplitudes read too low." for start in starts if start.clipped)
+    subject = replace(subject, warnings=(*subject.warnings, *clipped))
     with subject.located():
         scene = as_long(known_scene(subject.scene, run_up_s), starts)
     film = None if bench is None else bench_values(bench, scene)
     measured = _measured(scene, starts, without, mark_angle_deg)
+    _refuse_twins(starts)
     estimate = estimated(scene, measured, progress) if len(recordings) >= FEWEST else None
     return _result(subject, scene, measured, estimate, mark_angle_deg, film)
 
@@ -144,8 +151,38 @@ def as_long(scene: Scene, starts: Sequence[Signal]) -> Scene:
     return replace(scene, duration=min(shortest, 60.0))
 
 
+def _refuse_twins(signals: Sequence[Signal]) -> None:
+    """Refuse a start that is given twice: its noise would count as agreement."""
+    seen: dict[bytes, str] = {}
+    for signal in signals:
+        samples = signal.motion.tobytes()
+        if samples in seen:
+            raise InputError(
+                "the same start is given twice",
+                place=Place(signal.file),
+                found=f"the samples of {seen[samples]}",
+                remedy="Give each recording once.",
+            )
+        seen[samples] = signal.file
+
+
+def _refuse_other_sizes(starts: Sequence[RecordedStart], amplitude: float) -> None:
+    """Refuse motions far larger or smaller than the machine's: their unit or machine is another."""
+    low, high = SIZES
+    for start in starts:
+        ratio = float(np.median(np.sort(np.abs(start.track))[-5:])) / amplitude
+        if not low < ratio < high:
+            raise InputError(
+                "the motion is not that of the machine of the file",
+                place=Place(start.file),
+                found=f"{ratio:.3g} times the amplitude without balls",
+                allowed=f"{low:g} … {high:g} times",
+                remedy="Check the unit of the column, its sensitivity, and imbalance and mass of the file.",
+            )
+
+
 def _measured(scene: Scene, signals: Sequence[Signal], without: str | None, mark_angle: float) -> Measured:
-    centres = window_centres(scene)
+    centres = window_centres(scene, min(signals, key=lambda signal: signal.duration).file)
     marked = all(signal.mark is not None for signal in signals)
     without_mark = next((signal.file for signal in signals if signal.mark is None), "")
     if not marked and any(signal.mark is not None for signal in signals):
@@ -155,6 +192,7 @@ def _measured(scene: Scene, signals: Sequence[Signal], without: str | None, mark
             remedy="Record all starts with the mark.",
         )
     starts = [recorded_start(signal, scene, centres) for signal in signals]
+    _refuse_other_sizes(starts, abs(without_balls(scene)))
     turn = np.exp(1j * to_si(mark_angle, "deg"))
     tracks = [np.asarray(start.track * turn) for start in starts]
     background = None
@@ -260,6 +298,11 @@ def _assumed(scene: Scene, measured: Measured) -> Iterator[str]:
         f"{from_si(scene.imbalance, 'g_mm'):.4g} g·mm, masses and springs are those of the file."
     )
     yield "A wrong run-up time or imbalance moves the values: half the run-up may double the drag rate."
+    if not measured.reading.marked:
+        yield (
+            "Without a mark the magnitudes alone count: no eccentricity is given, and drag rate and lever arm are "
+            "known less well."
+        )
     if measured.background is None:
         yield "No recording without balls is given: a synchronous background counts as eccentricity (--without)."
     else:

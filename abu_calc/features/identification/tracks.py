@@ -58,14 +58,17 @@ class RecordedStart:
         return math.sqrt(float(np.mean(np.abs(np.diff(tail)) ** 2)) / 4)
 
 
-def window_centres(scene: Scene) -> Array:
-    """Centres [s] of the windows, from the switching-on; the first begins when the rotor is at full speed."""
+def window_centres(scene: Scene, file: str = "") -> Array:
+    """Centres [s] of the windows, from the switching-on; the first begins when the rotor is at full speed.
+
+    `file`: the shortest recording, which sets the duration; else the scene does.
+    """
     half = REVOLUTIONS * math.pi / scene.speed
     first, last = scene.full_speed + half, scene.duration - 1.05 * half
     if last < first + 20 * half:
         raise InputError(
             "the starts are too short",
-            place=Place(key="scene.duration_s"),
+            place=Place(file) if file else Place(key="scene.duration_s"),
             found=f"{scene.duration:.3g} s",
             allowed=f"at least {scene.full_speed + 22 * half:.3g} s",
             remedy="Record until the balls have come to rest.",
@@ -83,6 +86,7 @@ class Signal:
     motion: Array
     rate: float
     mark: Array | None
+    clipped: bool = False
 
     @property
     def duration(self) -> float:
@@ -95,7 +99,8 @@ def recorded(file: str) -> Signal:
     recording = read_recording(file)
     axis = next((k for k, name in enumerate(recording.names) if "x" in name.lower().split("_")[0]), 0)
     motion = recording.samples[axis]
-    return Signal(file, recording.names[axis], recording.quantity, motion, recording.rate, _mark_column(file))
+    return Signal(file, recording.names[axis], recording.quantity, motion, recording.rate, _mark_column(file),
+                  recording.names[axis] in recording.clipped)  # fmt: skip
 
 
 def recorded_start(signal: Signal, scene: Scene, centres: Array) -> RecordedStart:

@@ -202,8 +202,10 @@ def plain(text: str) -> str:
 def digits(value: float, most: int = 3) -> str:
     """A number as drawings write it: no zeros at its end.
 
-    >>> digits(67.0), digits(15.875), digits(-0.0)
-    ('67', '15.875', '0')
+    Halves round away from zero, whatever the last digit of their binary form.
+
+    >>> digits(67.0), digits(15.875), digits(-0.0), digits(19.474999999999998, 2)
+    ('67', '15.875', '0', '19.48')
     """
-    text = f"{value:.{most}f}".rstrip("0").rstrip(".")
+    text = f"{value + math.copysign(1e-9, value):.{most}f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text

@@ -5,6 +5,7 @@ from html import escape
 from itertools import chain
 from typing import TYPE_CHECKING, Final
 
+from abu_calc.foundation.checks import verdict_word
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Picture
 from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure
 from abu_calc.reporting.page.assets import beside, text
@@ -23,7 +24,6 @@ REPEAT: Final = "Origin of this page"
 MAIN: Final = '<main id="main" tabindex="-1">'
 SAFE: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 """Security policy of the page: it never asks a network, not even by mistake."""
-WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 
 
 def page(outcome: "Outcome") -> str:
@@ -60,7 +60,7 @@ def page(outcome: "Outcome") -> str:
         chain.from_iterable(elements(_below(part), REPEAT) for part in source),
         ("</section>", "</main>"),
     )
-    return _framed(f"{WORDS[outcome.status]}: {title}", body)
+    return _framed(f"{verdict_word(outcome.status, outcome.checks)}: {title}", body)
 
 
 def _for_reader(part: Sequence[Block]) -> Sequence[Block]:

@@ -156,6 +156,17 @@ def _axial_load(parts: HousingParts, force: float) -> float:
     return axial_load(balls.count, force, slope, parts.cover.mass + balls.count * balls.mass)
 
 
+def seat_growth(parts: HousingParts, interference: float) -> float:
+    """Growth in diameter [m] of the wall round a pressed cover, at its seat: D/E·(σ_θ + ν·p), by Lamé.
+
+    The wall counts as a free ring as wide as the seat, so the race beside the seat grows by less.
+    """
+    inside, outside = cover_rings(parts)
+    left = interference_left(interference, inside, outside, ASSEMBLY_TEMPERATURE, 0.0)
+    pressure, material = contact_pressure(left, inside, outside), outside.material
+    return 2 * outside.inner / material.modulus * (outer_hoop(pressure, outside) + material.poisson * pressure)
+
+
 def seat_name(parts: HousingParts, hold: Cover) -> str:
     """The cover's fit or thread, as a drawing writes it."""
     if parts.closure == "screwed":

@@ -29,7 +29,7 @@ def with_surfaces(
 ) -> HousingParts:
     """The parts with the demands on their surfaces."""
     race = _race(parts, split, quality)
-    cover_seat, cover_rim = _closure(parts, cover)
+    cover_seat, cover_rim = _closure(parts, cover, quality.circularity)
     body = [*_bore(parts, split), cover_seat]
     if parts.ring is None or seat is None:
         return replace(parts, body=_with(parts.body, [*body, race]), cover=_with(parts.cover, [cover_rim]))
@@ -99,18 +99,23 @@ def _race(parts: HousingParts, split: "EccentricitySplit", quality: "RaceQuality
     )  # fmt: skip
 
 
-def _closure(parts: HousingParts, cover: "Cover") -> tuple[Surface, Surface]:
-    """Seat of the cover, and the cover's rim: a fit or a thread."""
+def _closure(parts: HousingParts, cover: "Cover", circularity: float) -> tuple[Surface, Surface]:
+    """Seat of the cover, and the cover's rim: a fit or a thread.
+
+    A cover that is pressed in beside the race shapes its wall: seat and rim are as round as the race.
+    """
     diameter = 2 * parts.dimensions.seat_radius
     if parts.closure == "screwed":
         thread = f"M{from_si(diameter, 'mm'):g}×{from_si(cover.pitch, 'mm'):g}" if cover.pitch else ""
         return Surface("cover seat", "thread", diameter, thread=thread), Surface(
             "outside", "thread", diameter, thread=thread
         )
-    fit = cover.fit
+    fit, size = cover.fit, parts.dimensions
+    beside_race = parts.ring is None or size.ring_end > size.cover_start
+    form = (GeometricalTolerance("circularity", circularity),) if beside_race else ()
     return (
         Surface("cover seat", "cylinder", diameter, tolerance_class=fit.bore_class if fit else "",
-                limits=fit.bore if fit else None, roughness=SEAT_ROUGHNESS),
+                limits=fit.bore if fit else None, roughness=SEAT_ROUGHNESS, geometrical=form),
         Surface("outside", "cylinder", diameter, tolerance_class=fit.spindle_class if fit else "",
-                limits=fit.spindle if fit else None, roughness=SEAT_ROUGHNESS),
+                limits=fit.spindle if fit else None, roughness=SEAT_ROUGHNESS, geometrical=form),
     )  # fmt: skip

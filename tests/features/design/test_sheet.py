@@ -1,5 +1,6 @@
 """The sheet to hand over: paper size, scale, title block, parts list."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -40,6 +41,8 @@ def test_the_verdict_names_each_code_once() -> None:
     assert verdict(replace(result("one-piece"), checks=checks)) == "FAIL: ABU401"
     assert verdict(replace(result("one-piece"), checks=checks[1:2])) == "PASS"
     assert verdict(replace(result("one-piece"), checks=checks[3:])) == "NOT EVALUATED: ABU501"
+    warned = (replace(checks[0], status="warn"), *checks[1:2])
+    assert verdict(replace(result("one-piece"), checks=warned)) == "PASS WITH WARNINGS: ABU401"
 
 
 @pytest.mark.parametrize("name", ["one-piece", "bearing-ring"])
@@ -52,3 +55,37 @@ def test_the_list_names_every_part_and_the_balls(name: str) -> None:
     assert any(text.startswith(f"{sized.autobalancer.ball_count} × ") for text in shown)
     names = [sheet.name for sheet in size_sheets(sized)]  # no arm, no bearings
     assert names == ["section", *(part.name.replace(" ", "-") for part in sized.section.parts)]
+
+
+def test_each_sheet_says_that_there_are_warnings() -> None:
+    for sheet in size_sheets(result("one-piece")):
+        shown = [shape.text for shape in sheet.shapes if isinstance(shape, Text)]
+        assert any(text.startswith("PASS WITH WARNINGS: ABU") for text in shown) and "PASS" not in shown
+
+
+def test_every_note_is_numbered_and_begins_with_a_capital() -> None:
+    shown = texts("one-piece")
+    first = shown.index("Requirements (engineering practice, assumed)") + 1
+    notes = [text for text in shown[first:] if re.match(r"\d+ ", text)]
+    assert [text.split()[0] for text in notes] == [str(number) for number in range(1, len(notes) + 1)]
+    assert len(notes) > 8 and all(text.split()[1][0].isupper() for text in notes)
+    assert shown[first] == notes[0]
+
+
+def test_the_oil_is_a_decision_of_the_design() -> None:
+    shown = " ".join(texts("one-piece"))
+    assert "viscous drag rate of 15 1/s, which the design assumes" in shown and "VG 46" not in shown
+
+
+def test_balls_of_an_inch_size_are_ordered_by_it() -> None:
+    sized = result("one-piece")
+    assert sized.autobalancer.ball_diameter_mm == 15.875
+    assert any("Ø15.875 (5/8 in)" in text for text in texts("one-piece"))
+    assert not any(" in)" in text for text in texts("sixteen balls"))
+
+
+def test_the_body_is_not_drilled_where_it_is_hard() -> None:
+    """A third of the wall: 2.5 mm of the one-piece body, 2 mm of the light one round its ring."""
+    hard, soft = (" ".join(texts(name)) for name in ("one-piece", "light"))
+    assert "grinding a flat" in hard and "Correct by drilling" not in hard and "0.8 mm deep at most" in hard
+    assert "Correct by drilling" in soft and "0.6 mm deep at most" in soft

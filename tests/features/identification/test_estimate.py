@@ -41,3 +41,33 @@ def test_features_of_an_exponential_are_those_of_the_equation() -> None:
     # |w| falls below 50, 25, 12 % of A₀ at ln 2/8, ln 4/8, ln(1/0.12)/8; interpolated between windows.
     assert features[:3] == pytest.approx(np.log(np.log([2, 4, 1 / 0.12]) / 8), abs=0.02)
     assert abs(end_of(decay.astype(complex))) < 1e-9 and features[-1] == pytest.approx(1)
+
+
+def test_an_anchored_regression_has_the_mean_of_the_starts_at_its_point_and_far_values_hardly_move_it() -> None:
+    rng = np.random.default_rng(8)
+    points = BOX.low + (BOX.high - BOX.low) * rng.random((800, 4))
+    tracks = np.array([track(point, rng) for point in points])
+    regression = Regression(Bank(BOX, points, tracks), READING)
+    point = np.array([2.5, 0.5, 4.0, -3.0])
+    sets = np.array([READING.features(each) for each in READING.noisy(np.array([track(point, rng)] * 400), 2)])
+    shifted = sets + 0.3
+    means, deviations = regression.anchored(point, shifted).distribution(point)
+    assert means[0] == pytest.approx(shifted.mean(axis=0), abs=0.02)
+    far = shifted.copy()
+    far[:20] += 50.0
+    assert regression.anchored(point, far).distribution(point)[0][0] == pytest.approx(means[0], abs=0.05)
+    assert np.all(regression.anchored(point, far).distribution(point)[1][0] < 3 * deviations[0] + 0.01)
+    # Far from the point it still follows the regression.
+    away = np.array([2.2, 0.2, 2.0, -1.0])
+    shift = regression.anchored(point, shifted).distribution(away)[0] - regression.distribution(away)[0]
+    assert shift[0] == pytest.approx(means[0] - regression.distribution(point)[0][0])
+
+
+def test_a_bank_with_far_values_gives_the_means_of_the_rest() -> None:
+    """One start in twenty ends 30 µm away: ends of the others are −Δ."""
+    rng = np.random.default_rng(9)
+    points = BOX.low + (BOX.high - BOX.low) * rng.random((800, 4))
+    tracks = np.array([track(point, rng) + (30e-6 if k % 20 == 0 else 0) for k, point in enumerate(points)])
+    regression = Regression(Bank(BOX, points, tracks), READING)
+    means, _ = regression.distribution(np.array([2.5, 0.5, 4.0, -3.0]))
+    assert means[0, 6:8] == pytest.approx([-4.0, 3.0], abs=0.3)

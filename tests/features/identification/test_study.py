@@ -60,6 +60,42 @@ def test_recordings_that_cannot_be_starts_are_refused(tmp_path: Path) -> None:
         abu_calc.identify(source, [str(tmp_path / "none.csv")])
 
 
+def test_recordings_of_another_unit_or_given_twice_are_refused(tmp_path: Path) -> None:
+    path, files = starts(tmp_path, 2)
+    source = read_any(str(path))
+    with pytest.raises(InputError, match="given twice"):
+        abu_calc.identify(source, [files[0], files[0]])
+    copied = tmp_path / "copy.csv"
+    copied.write_text(Path(files[0]).read_text(encoding="utf-8"), encoding="utf-8")
+    with pytest.raises(InputError, match="given twice"):
+        abu_calc.identify(source, [files[0], files[1], str(copied)])
+    head, *rows = Path(files[0]).read_text(encoding="utf-8").splitlines()
+    for factor in (1e3, 1e-3):
+        parts = [row.split(",") for row in rows]
+        text = "\n".join([head, *(f"{t},{float(v) * factor:.6f},{mark}" for t, v, mark in parts)])
+        copied.write_text(text + "\n", encoding="utf-8")
+        with pytest.raises(InputError, match="not that of the machine"):
+            abu_calc.identify(source, [str(copied), files[1]])
+    for k, file in enumerate(files):
+        Path(file).write_text("\n".join([head, *rows[: 600 + k]]) + "\n", encoding="utf-8")
+    with pytest.raises(InputError, match="too short") as refusal:
+        abu_calc.identify(source, files)
+    assert "start00.csv" in str(refusal.value)
+
+
+def test_a_clipped_recording_is_told(tmp_path: Path) -> None:
+    path, files = starts(tmp_path, 2)
+    head, *rows = Path(files[0]).read_text(encoding="utf-8").splitlines()
+    parts = [row.split(",") for row in rows]
+    most = 0.6 * max(abs(float(velocity)) for _, velocity, _ in parts)
+    text = "\n".join([head, *(f"{t},{max(-most, min(most, float(v))):.3f},{mark}" for t, v, mark in parts)])
+    Path(files[0]).write_text(text + "\n", encoding="utf-8")
+    result = abu_calc.identify(read_any(str(path)), files)
+    assert [warning for warning in result.warnings if "clipped" in warning] == [
+        f"{files[0]} is clipped: its amplitudes read too low."
+    ]
+
+
 def test_a_scene_without_run_up_or_balls_is_refused(tmp_path: Path) -> None:
     path, files = starts(tmp_path, 1)
     text = path.read_text(encoding="utf-8")

@@ -76,9 +76,9 @@ def test_tolerances_are_the_result_s(name: str) -> None:
     space = ezdxf.read(io.StringIO(dxf_text(sheet))).modelspace()
     texts = [each.dxf.text for each in (*space.query("DIMENSION"), *space.query("TEXT"))]
     if name == "bearing-ring":  # its ring is bought: a sphere without a tolerance of ours
-        assert any(text.startswith("SØ") for text in texts)
+        assert any(text.startswith("race SØ") for text in texts)
         return
-    race_text = f"Ø{2 * one['autobalancer']['race_radius_mm']:.3f}".rstrip("0").rstrip(".") + " ±0.1"
+    race_text = f"race Ø{2 * one['autobalancer']['race_radius_mm']:.2f}".rstrip("0").rstrip(".") + " ±0.1"
     assert any(text.startswith(race_text) for text in texts)
     assert section["race_tolerance_mm"] == 0.05 and section["groove_tolerance_mm"] == 0.2
     assert any(text.endswith("±0.2") for text in texts) == (one["autobalancer"]["groove_radius_mm"] is not None)

@@ -16,6 +16,8 @@ from abu_calc.sizing.parts.surfaces import Surface
 
 FROM_RIGHT: Final = 0.7
 """Places beyond this share of the length are measured from the right face."""
+LABELS: Final = {"race": "race", "cover seat": "seat"}
+"""Names of surfaces that stand before their diameters, which may be alike."""
 SAME: Final = 1e-6
 """Places closer than this [mm] are one."""
 
@@ -103,6 +105,19 @@ def size_text(value: float, toleranced: bool) -> str:
     return digits(value, 3 if toleranced else 2)
 
 
+COARSE: Final = 0.1
+"""From this tolerance [mm], either way, two decimals are enough."""
+
+
+def symmetric_text(value: float, either_way: float) -> str:
+    """A size [mm] with its tolerance either way, rounded to no more than a twentieth of it.
+
+    >>> symmetric_text(12.6432, 0.2), symmetric_text(4.8125, 0.05)
+    ('12.64 ±0.2', '4.813 ±0.05')
+    """
+    return f"{size_text(value, either_way < COARSE - SAME)} ±{digits(either_way, 3)}"
+
+
 def limits_text(surface: Surface) -> str:
     """Limit deviations [mm] as a drawing writes them; nothing where they are not tabulated."""
     if surface.limits is None:
@@ -126,7 +141,7 @@ def diameter_text(value: float, surface: Surface | None) -> tuple[str, str]:
     if surface.limits is not None:
         return f"Ø{size_text(value, True)}", limits_text(surface)
     if surface.plus_minus is not None:
-        return f"Ø{size_text(value, True)} ±{digits(from_si(surface.plus_minus, 'mm'), 3)}", ""
+        return f"Ø{symmetric_text(value, from_si(surface.plus_minus, 'mm'))}", ""
     return f"Ø{size_text(value, False)}", ""
 
 
@@ -135,7 +150,7 @@ def _groove_text(surface: Surface | None, edge: Edge) -> str:
     allowed = None if surface is None else surface.groove_plus_minus
     if allowed is None:
         return f"R{size_text(edge.radius, False)}"
-    return f"R{size_text(edge.radius, True)} ±{digits(from_si(allowed, 'mm'), 3)}"
+    return f"R{symmetric_text(edge.radius, from_si(allowed, 'mm'))}"
 
 
 def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iterator[Diameter]:
@@ -149,12 +164,14 @@ def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iter
         if not demand and known.count(radius) > 1:
             continue  # another stretch of this diameter has the demand
         text, below = diameter_text(2 * along[0].start[1], part.surface(along[0].surface))
+        if along[0].surface in LABELS and part.surface("race"):
+            text = f"{LABELS[along[0].surface]} {text}"
         yield Diameter(2 * along[0].start[1], *_witness(along, length, text, below, along[0].surface))
     for edge in (edge for edge in edges if edge.centre is not None):
         assert edge.centre is not None
         bottom = edge.centre[1] + (edge.radius if edge.start[1] > edge.centre[1] else -edge.radius)
         text, below = diameter_text(2 * bottom, part.surface(edge.surface))
-        text = f"S{text}" if _sphere(edge) else text
+        text = f"{LABELS['race']} {'S' if _sphere(edge) else ''}{text}"
         yield Diameter(2 * bottom, edge.centre[0], text, below, "right", False, edge.surface)
         for x, radius in dict.fromkeys((edge.start, edge.end)):
             if all(abs(radius - other) > SAME for other in known):
@@ -196,14 +213,20 @@ def _witness(
 
 
 def _lengths(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iterator[AxialLength]:
-    """Each place once, from the nearer face; the middle of a groove from the left one, toleranced."""
-    yield AxialLength(0.0, length, size_text(length, False))
+    """Each place once, from the nearer face; the middle of a groove from the left one, toleranced.
+
+    Limits of the depth in which another part is seated, and of that part's thickness, keep it from standing out.
+    """
+    floor = _seat_floor(part, edges)
+    yield AxialLength(0.0, length, f"{size_text(length, False)}{UNDER if _seated(part) else ''}")
     places = list[float]()
     for edge in edges:
         if all(abs(edge.start[0] - other) > SAME for other in (0.0, length, *places)):
             places.append(edge.start[0])
     for x in sorted(places):
-        if x > FROM_RIGHT * length:
+        if floor is not None and abs(x - floor) < SAME:
+            yield AxialLength(x, length, f"{size_text(length - x, False)}{OVER}")
+        elif x > FROM_RIGHT * length:
             yield AxialLength(x, length, size_text(length - x, False))
         else:
             yield AxialLength(0.0, x, size_text(x, False))
@@ -212,8 +235,26 @@ def _lengths(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iterat
         middle = edge.centre[0]
         if all(abs(middle - other) > SAME for other in (0.0, length, *places)):
             places.append(middle)
-            yield AxialLength(0.0, middle, f"{size_text(middle, True)} ±{digits(GROOVE_PLACE)}")
+            yield AxialLength(0.0, middle, symmetric_text(middle, GROOVE_PLACE))
 
 
+def _seat_floor(part: TurnedPart, edges: tuple[Edge, ...]) -> float | None:
+    """Place of the stop from which ring and cover reach to the open face; none where nothing is seated."""
+    for name in ("ring seat", "cover seat"):
+        seat = [x for edge in edges if edge.surface == name for x in (edge.start[0], edge.end[0])]
+        if seat and part.name != "cover":
+            return min(seat)
+    return None
+
+
+def _seated(part: TurnedPart) -> bool:
+    """Whether a part that is made lies in the depth of another; a bearing's ring has limits of its own."""
+    race = part.surface("race")
+    return part.name == "cover" or (part.name == "race ring" and (race is None or race.kind != "sphere"))
+
+
+UNDER: Final = " 0/-0.1"
+OVER: Final = " +0.1/0"
+"""Limits of a cover's thickness and of the depth of its seat [mm] (assumed)."""
 GROOVE_PLACE: Final = 0.05
 """Tolerance of the groove's middle along the axis [mm]: the balls run in one plane, free of web and cover."""

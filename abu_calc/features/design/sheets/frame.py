@@ -69,9 +69,10 @@ def title_block(block: TitleBlock) -> Iterator[Shape]:
          (30, "scale", f"{block.scale} (mm)"), (30, "projection", "")),
         ((40, "general tolerances", "ISO 2768-mK"), (70, "edges ISO 13715", "outside −0.3, inside +0.3"),
          (70, "general roughness", "")),
-        ((70, "file", block.file), (110, "checks", block.checks)),
+        ((180, "file", block.file),),
         ((180, "SHA-256 of the file", block.sha256),),
-        ((90, "date of issue", block.date), (45, "paper", "A3"), (45, "sheet", f"{block.sheet} / {block.sheets}")),
+        ((110, "checks", block.checks), (30, "date of issue", block.date), (16, "paper", "A3"),
+         (24, "sheet", f"{block.sheet} / {block.sheets}")),
     )  # fmt: skip
     high = BLOCK[1] / len(rows)
     for index, cells in enumerate(rows):

@@ -1,5 +1,6 @@
 """Grades, heat treatment, demands and notes of the parts: engineering practice (assumed) where the design has none."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -8,7 +9,8 @@ from abu_calc.features.design.sheets.dimension_plan import limits_text
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.reporting.drawings.shapes import digits
-from abu_calc.sizing.parts.housing_parts import TurnedPart
+from abu_calc.sizing.manufacture.cover import seat_growth
+from abu_calc.sizing.parts.housing_parts import HousingParts, TurnedPart
 from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Surface
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
 
@@ -105,20 +107,92 @@ def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
         return
     yield f"Material: {made.name}."
     if race:
-        yield (f"Heat treatment: {made.treatment} to {result.section.hardness}; hard to a depth of at least "
-               f"{digits(result.section.case_depth_mm)} mm below the ground race; no cracks, no burn.")  # fmt: skip
+        yield f"Heat treatment: {made.treatment} to {result.section.hardness}; no cracks, no burn."
         yield "Grind race, cover seat and bore in one set-up." if part.name == "body" else (
             "Grind race and outside in one set-up.")  # fmt: skip
         yield "No undercut in the race; dents and scratches are not permitted."
-        yield from (f"{line.feature}: {line.requirement}" for line in race_lines(result))
+        yield from (note_of(line) for line in race_lines(result))
+        yield from _pressed_beside(result, part)
     else:
         yield f"Heat treatment: {made.treatment}."
-    if any(segment.surface in ("cover seat", "ring seat") for segment in part.profile):
-        yield "Undercut at the stop of each seat: DIN 509 E 0.4 × 0.2 / GOST 8820; it stays inside the seat's length."
-    yield "Edges by ISO 13715 as in the title block; edges of seats 0.3 × 45° on the side of assembly."
+    yield from _stops(result, part)
+    yield "Edges by ISO 13715" + (
+        " as in the title block." if part.name == "cover" else "; bore and seats 0.3 × 45° on the side of assembly.")
     if part.name == "cover":
         yield "The hole leaves clearance to the hub; the cover is held at its outside alone."
-    yield "Sizes without tolerance: ISO 2768-mK / GOST 30893.1-m. Sizes in brackets follow from others."
+    yield "Sizes without tolerance: ISO 2768-mK / GOST 30893.1-m. Sizes in brackets: reference."
+
+
+def note_of(line: "DrawingLine") -> str:
+    """A line of the drawing table as a note: it begins with a capital and ends with a stop."""
+    return f"{line.feature[:1].upper()}{line.feature[1:]}: {line.requirement.rstrip('.')}."
+
+
+UNDERCUT: Final = to_si(2, "mm")
+"""Width of the undercut DIN 509 E 0.4 × 0.2 (HEIDENHAIN CNC PILOT 4290, user's manual: depth 0.2, width 2 mm)."""
+SEAT_LEFT: Final = 3
+"""A seat is at least so many undercuts long, or it has none."""
+CHAMFERS_MM: Final = (0.3, 0.2, 0.1)
+
+
+def corner_relief(parts: HousingParts) -> tuple[float, float] | None:
+    """Chamfer of the cover and largest radius [mm] of the corner in which it stops; None: an undercut, or no corner.
+
+    The chamfer takes half of the stop's height at most, and clears the radius, which is half of it.
+    """
+    size = parts.dimensions
+    if size.ring_end <= size.cover_start or size.web >= SEAT_LEFT * UNDERCUT:
+        return None
+    stop = from_si(size.seat_radius - size.shoulder_radius, "mm")
+    chamfer = next((each for each in CHAMFERS_MM if each <= stop / 2 + 1e-9), CHAMFERS_MM[-1])
+    return chamfer, chamfer / 2
+
+
+def _stops(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
+    """Corners at the stops of seats: an undercut where there is room, else a small radius and a chamfer."""
+    names, relief = {edge.surface for edge in part.profile}, corner_relief(result.parts)
+    threaded = result.parts.closure == "screwed"
+    if part.name == "cover":
+        if threaded:
+            yield "Turn the first turn of the thread, at the inner face, down to the core diameter."
+        elif relief:
+            yield (f"Chamfer {digits(relief[0])} × 45° between outside and inner face: it clears the corner of the "
+                   "seat.")  # fmt: skip
+        return
+    if "shoulder" in names and threaded:
+        yield "Thread up to one turn before the stop; no undercut."
+    elif "shoulder" in names and relief:
+        yield (f"Corner at the stop of the cover seat: radius {digits(relief[1])} at most, no undercut: the seat is "
+               f"{digits(from_si(result.parts.dimensions.web, 'mm'))} mm long; the cover's chamfer "
+               f"{digits(relief[0])} × 45° clears it.")  # fmt: skip
+    elif "shoulder" in names:
+        yield "Undercut at the stop of the cover seat: DIN 509 E 0.4 × 0.2 / GOST 8820, within the seat's length."
+    if "ring seat" in names:
+        yield "Undercut at the stop of the ring seat: DIN 509 E 0.4 × 0.2 / GOST 8820, within the seat's length."
+
+
+def _pressed_beside(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
+    """When the race's limits hold, and by how much a cover that is pressed in beside it widens it."""
+    seat, rim = part.surface("cover seat"), result.parts.cover.surface("outside")
+    if seat is None or rim is None or seat.limits is None or rim.limits is None:
+        return
+    growth = from_si(seat_growth(result.parts, rim.limits.upper - seat.limits.lower), "um")
+    yield (f"Measure size, circularity and run-out of the race before the cover is pressed in: the fit widens its "
+           f"edge by up to {growth:.2g} µm in diameter (free ring), alike all round if seat and cover are as round as "
+           "asked.")  # fmt: skip
+
+
+DEEPEST_FLAT_MM: Final = 1.0
+
+
+def _correction(result: "SizeResult") -> str:
+    """How the imbalance is corrected: hard steel is ground; the depth leaves two thirds of the wall."""
+    size, hard = result.parts.dimensions, result.parts.race_part.name == "body"
+    wall = from_si(size.outer_radius - (size.race_radius if hard else size.ring_radius), "mm")
+    depth = digits(max(0.1, min(DEEPEST_FLAT_MM, math.floor(10 * wall / 3 + 1e-9) / 10)))
+    if hard:
+        return f"Correct by grinding a flat at the rim's outside, {depth} mm deep at most; do not drill the hard body"
+    return f"Correct by drilling the rim's outside, {depth} mm deep at most"
 
 
 def assembly_notes(result: "SizeResult") -> Iterator[str]:
@@ -126,7 +200,7 @@ def assembly_notes(result: "SizeResult") -> Iterator[str]:
     abu = result.autobalancer
     close = "press on the cover evenly" if result.parts.closure == "pressed" else "screw on the cover"
     yield (f"Assembly: wash and oil the race, lay in {abu.ball_count} {abu.corrector}s of one lot before the cover, "
-           f"fill the oil, {close} to its stop; its face is flush with the body.")  # fmt: skip
+           f"fill the oil, {close} to its stop; its face never stands out of the body's.")  # fmt: skip
     yield f"Fits: {'; '.join(_fits(result))}."
     yield from _balance(result)
 
@@ -165,6 +239,5 @@ def _balance(result: "SizeResult") -> Iterator[str]:
     yield (
         f"Balance (ISO 21940-11): assembled, without {abu.corrector}s and oil; mass {digits(mass, 1)} g; highest speed "
         f"{from_si(speed, 'rpm'):.0f} rpm; grade {grade_name}; one tolerance plane, the middle of the race; "
-        f"permissible residual imbalance {permitted:.3g} g·mm about the bore (A). Correct by drilling the rim's "
-        "outside, ≤ 1 mm deep."
+        f"permissible residual imbalance {permitted:.3g} g·mm about the bore (A). {_correction(result)}."
     )

@@ -1,5 +1,6 @@
 """The sheet of one part: section with dimensions, the race's corner enlarged, notes, title block."""
 
+import hashlib
 from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Final
@@ -20,9 +21,10 @@ from abu_calc.features.design.sheets.frame import (
 )
 from abu_calc.features.design.sheets.manufacture import GENERAL_ROUGHNESS, demanded, grade, part_notes
 from abu_calc.features.design.sheets.part_views import detail_surfaces, part_section, race_detail
+from abu_calc.foundation.checks import verdict_codes
 from abu_calc.reporting.drawings.dimensions import extent, moved
 from abu_calc.reporting.drawings.shapes import SCALES, Arc, Drawing, Line, Point, Shape, Solid, Text, digits, plain
-from abu_calc.reporting.screen import many
+from abu_calc.reporting.parts import replaced_entries
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 
 if TYPE_CHECKING:
@@ -31,6 +33,8 @@ if TYPE_CHECKING:
 
 GAP: Final = 8.0
 """Distance between views, and between views and the frame, on paper [mm]."""
+CHANGED: Final = 70
+"""Most letters of replaced entries in the title block."""
 TWICE: Final = 1.9
 """The detail is drawn if it is so much larger than the section."""
 
@@ -58,25 +62,39 @@ def part_sheet(result: "SizeResult", part: TurnedPart, sheet: int, sheets: int) 
 
 
 def number(result: "SizeResult", sheet: int) -> str:
-    """Identification number: by the file's hash, so that another machine has another; 00 is the assembly."""
-    return f"ABU-{(result.provenance.sha256 or '0' * 8)[:8].upper()}-{sheet - 1:02d}"
+    """Identification number: by the hash of the file and of replaced entries, so another design has another.
+
+    00 is the assembly.
+    """
+    source = result.provenance
+    sign = source.sha256 or "0" * 8
+    if source.overrides:
+        changed = "\n".join(sorted(replaced_entries(source)))
+        sign = hashlib.sha256(f"{sign}\n{changed}".encode()).hexdigest()
+    return f"ABU-{sign[:8].upper()}-{sheet - 1:02d}"
 
 
 def origin(result: "SizeResult") -> dict[str, str]:
     """Fields of the title block that say what the sheet stands on."""
     source = result.provenance
     name = PurePath(source.file.replace("\\", "/")).name if source.file else "no file"
-    replaced = f", {many(len(source.overrides), 'entry', 'entries')} replaced" if source.overrides else ""
     return {"date": source.date, "creator": f"abu-calc {source.version}", "status": "design",
-            "file": f"{name}{replaced}", "sha256": source.sha256 or "–", "checks": verdict(result)}  # fmt: skip
+            "file": f"{name}{_changed(replaced_entries(source))}", "sha256": source.sha256 or "–",
+            "checks": verdict(result)}  # fmt: skip
+
+
+def _changed(entries: Sequence[str]) -> str:
+    """Replaced entries as the title block names them; of many, the first for which there is room."""
+    if not entries:
+        return ""
+    shown = next((count for count in range(len(entries), 1, -1) if len(", ".join(entries[:count])) <= CHANGED), 1)
+    more = f", … ({len(entries)} in all)" if shown < len(entries) else ""
+    return f", changed: {', '.join(entries[:shown])}{more}"
 
 
 def verdict(result: "Result") -> str:
-    """Verdict in a word, with the codes of the checks that stand in the way."""
-    if result.status == "pass":
-        return "PASS"
-    codes = dict.fromkeys(check.code for check in result.checks if check.status == result.status)
-    return f"{'FAIL' if result.status == 'fail' else 'NOT EVALUATED'}: {' '.join(codes)}"
+    """Verdict in words, with the codes of the checks that decide it."""
+    return verdict_codes(result.status, result.checks)
 
 
 def ratio(scale: float) -> str:

@@ -31,6 +31,8 @@ CUT: Final = 0.35
 """Depth of the detail below the shoulder of the race, as a share of its height above it."""
 THIN: Final = 0.7
 """A part whose bore is so large a share of its outside is a ring: its whole section is enlarged."""
+MARK: Final = 2.0
+"""Distance from the race's corner to the line about it, on paper [mm]."""
 NEAR: Final = 1e-5
 """A step [mm] to either side of a place."""
 Words = dict[tuple[str, bool], tuple[str, str]]
@@ -42,22 +44,22 @@ def part_section(part: TurnedPart, plan: DimensionPlan, scale: float, detailed: 
     """The section, its axis along y = 0 and its left face at x = 0; `detailed`: surfaces of the detail."""
     unit, outer = 1 / scale, max(edge.start[1] for edge in plan.edges)
     mark = tuple(detail_mark(plan, scale)) if detailed else ()
-    lowest = -extent(mark, scale)[0][1] if mark else outer
+    highest = extent(mark, scale)[1][1] if mark else outer
     shapes = [
         *_cut(part.name, plan.edges),
         *_behind(plan.edges),
         Line("centre", (-OVERHANG * unit, 0), (plan.length + OVERHANG * unit, 0)),
-        *_lengths(plan, outer, max(lowest - outer, 0.0), unit),
+        *_lengths(plan, outer, max(highest - outer, 0.0), unit),
         *mark,
     ]
     drawn, wordy = _diameter_lines(plan, unit)
     shapes += drawn
-    (left, _), (right, _) = extent(shapes, scale)
+    (left, _), (right, top) = extent(shapes, scale)
     for side in ("left", "right"):
         own = [each for each in _demands(part, plan.edges, frozenset(), detailed, wordy, _same)
                if (each.tip[0] < plan.length * 0.25) == (side == "left")]  # fmt: skip
         x = left - GAP * unit if side == "left" else right + GAP * unit
-        shapes += rising_column(own, x, outer + RISE / scale, side, scale)
+        shapes += rising_column(own, x, top, side, scale)
     return tuple(shapes)
 
 
@@ -101,16 +103,16 @@ def _walls(outline: Sequence[Point], x: float) -> Iterator[Point]:
     yield from zip(crossings[::2], crossings[1::2], strict=True)
 
 
-def _lengths(plan: DimensionPlan, outer: float, lower: float, unit: float) -> Iterator[Shape]:
+def _lengths(plan: DimensionPlan, outer: float, higher: float, unit: float) -> Iterator[Shape]:
     """Lengths from the left face above, from the right one below; the shortest nearest to the part."""
     above = sorted((each for each in plan.lengths if each.start < 1e-9), key=lambda each: each.end)
     below = sorted((each for each in plan.lengths if each.start >= 1e-9), key=lambda each: -each.start)
     for row, each in enumerate(above):
         start, end = (0.0, _top(plan.edges, 0.0)), (each.end, _top(plan.edges, each.end))
-        yield Length(start, end, outer + (STACK + STEP * row) * unit, each.text, beyond="start")
+        yield Length(start, end, outer + higher + (STACK + STEP * row) * unit, each.text, beyond="start")
     for row, each in enumerate(below):
         start, end = (each.start, -_top(plan.edges, each.start)), (each.end, -_top(plan.edges, each.end))
-        yield Length(start, end, -outer - lower - (STACK + STEP * row) * unit, each.text, beyond="end")
+        yield Length(start, end, -outer - (STACK + STEP * row) * unit, each.text, beyond="end")
 
 
 def _top(edges: Sequence[Edge], x: float) -> float:
@@ -125,10 +127,11 @@ def _diameter_lines(plan: DimensionPlan, unit: float) -> tuple[list[Shape], Word
     shapes, wordy = list[Shape](), Words()
     for side in ("left", "right"):
         own = sorted((each for each in plan.diameters if each.side == side), key=lambda each: each.value)
-        rows = 0.0
+        rows, least = 0.0, min(edge.start[1] for edge in plan.edges)
         for each in own:
             text = max(each.text, each.below, key=len)
-            if each.value / unit < 2 * (text_width(text, HEIGHT) + RISE):
+            # A text stands below the leaders, which start at the bore or farther from the axis.
+            if (each.value + least) / 2 / unit < text_width(text, HEIGHT) + RISE:
                 wordy[each.surface, each.reference] = each.text, each.below
                 continue
             rows += 0.6 if each.below and side == "left" else 0.0
@@ -156,7 +159,7 @@ def _demands(
         surface = part.surface(name)
         tip = place(edge_point(longest, 0.2))
         callout = Callout(tip) if surface is None else surface_callout(surface, tip)
-        text, below = wordy.get((name, False), ("", ""))
+        text, below = wordy.get((name, False), ("cover seat" if only and name == "cover seat" else "", ""))
         callout = callout._replace(text=" ".join(filter(None, (text, callout.text))), below=below)
         if callout.text or callout.rough or callout.frames or callout.datum:
             yield callout
@@ -256,14 +259,21 @@ def _above(points: Sequence[Point], floor: float) -> Iterator[Point]:
 
 
 def detail_mark(plan: DimensionPlan, scale: float) -> Iterator[Shape]:
-    """The circle about the race's corner in the section, and its letter."""
+    """The line about the race's corner in the upper half, which lies as the detail does, and its letter."""
     race = _race(plan.edges)
     if race is None:
         return
-    top = max(edge.start[1] for edge in plan.edges)
-    low = min(race.start[1], race.end[1])
-    radius = max(plan.length / 2, (top - low) / 2) * 1.08
-    centre = plan.length / 2, -(top + low) / 2
-    yield Arc("dimension", centre, radius)
-    at = centre[0] - 0.72 * radius - 5 / scale, min(centre[1] - 0.72 * radius, -top) - 6 / scale
-    yield Text(at, "Z", 1.4 * HEIGHT)
+    top, low = max(edge.start[1] for edge in plan.edges), min(race.start[1], race.end[1])
+    middle, half = (top + low) / 2, (top - low) / 2
+    radius = half + MARK / scale
+    inset = math.sqrt(radius**2 - half**2)
+    if plan.length <= 2 * inset:
+        radius = math.hypot(plan.length / 2, half) + MARK / scale
+        yield Arc("dimension", (plan.length / 2, middle), radius)
+    else:
+        right = plan.length - inset
+        yield Arc("dimension", (inset, middle), radius, 90.0, 270.0)
+        yield Arc("dimension", (right, middle), radius, 270.0, 450.0)
+        for y in (middle + radius, middle - radius):
+            yield Line("dimension", (inset, y), (right, y))
+    yield Text((plan.length + MARK / scale, middle + radius + 1 / scale), "Z", 1.4 * HEIGHT)
