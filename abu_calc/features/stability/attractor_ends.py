@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.scene import Scene, parted_angles
 from abu_calc.dynamics.stability.stuck_speeds import natural_frequencies, stuck_speeds
 from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.dynamics.trajectory import Samples, Sampling, Trajectory, Until, merged
@@ -192,7 +192,10 @@ class Follower:
         rates, races, first = state.end[2 * size + count :], [], 0
         for race in self.scene.races:
             own = slice(first, first + len(race.ball_masses))
-            races.append(replace(race, start_angles=tuple(angles[own].tolist()), start_speeds=tuple(rates[own])))
+            # Balls that touch are parted a little, as a disturbance may push one into its neighbour.
+            room = min(2 * touching(self.scene) + 2 * DISTURBED, math.tau / max(len(race.ball_masses), 1))
+            places = parted_angles(tuple(angles[own].tolist()), room)
+            races.append(replace(race, start_angles=places, start_speeds=tuple(rates[own])))
             first = own.stop
         return replace(
             self.scene, races=tuple(races), start_position=state.end[:size], start_velocity=state.end[size : 2 * size],

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 import abu_calc
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.stuck_speeds import stuck_speeds
-from abu_calc.features.stability.attractor_ends import EndState
+from abu_calc.features.stability.attractor_ends import EndState, Follower
 from abu_calc.features.stability.attractor_search import alike, grouped, search
 from abu_calc.features.stability.attractor_starts import designed_starts, drawn_starts, started
 from abu_calc.features.stability.attractors import attractors_of, interval
@@ -119,6 +120,15 @@ def test_balls_of_too_little_capacity_rest_off_balance() -> None:
     assert [group.kind for group in found.groups] == ["resting"]
     # Both balls opposite the imbalance leave 0.1 − 2·0.01.
     assert found.groups[0].example.residual == pytest.approx(0.08, rel=5e-3)
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e-13, -1e-13])
+def test_balls_that_touch_at_their_end_can_be_disturbed(shift: float) -> None:
+    scene = replace(straight_grinder(), effects=(BallContactEffect(0.008, 0.5),), duration=0.1)
+    follower, step = Follower.of(scene), 2 * math.asin(0.008 / scene.races[0].pitch_radius)
+    angles = tuple(1 + k * (step + shift) for k in range(4))
+    end = EndState(next(drawn_starts(scene, 1, 0)), "undecided", end=(0.0,) * 4 + angles + (0.0,) * 4)
+    assert 0 < follower.grows(end) < 1e4
 
 
 def test_shares_have_exact_intervals() -> None:
