@@ -10,8 +10,9 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -60,6 +61,26 @@ def side_by_side(
         finally:
             for future in futures:
                 future.cancel()
+
+
+def meanwhile(work: Callable[..., T], *given: Any, workers: int) -> Callable[[], T]:
+    """Begin a task in a thread of its own, and return the function that waits for its outcome, or raises its error.
+
+    One worker: the task is done when its outcome is asked for. An interrupted program does not wait for the thread.
+    """
+    if workers == 1:
+        return partial(work, *given)
+    future = Future[T]()
+
+    def run() -> None:
+        """Keep the outcome, or the error, for the thread that asks for it."""
+        try:
+            future.set_result(work(*given))
+        except BaseException as error:
+            future.set_exception(error)
+
+    threading.Thread(target=run, daemon=True).start()
+    return future.result
 
 
 def process_pool(count: int) -> "ProcessPoolExecutor":

@@ -89,7 +89,11 @@ class Early:
         if end not in self._responses:
             self._responses[end] = evaluate(replace(self.scene, duration=end), samples, self._course_until(samples))
         response = self._responses[end]
-        return response if creep == 0 else with_creep(response, self.scene, self._course_until(samples), creep)
+        if creep == 0:
+            return response
+        if (end, creep) not in self._creeping:
+            self._creeping[end, creep] = with_creep(response, self.scene, self._course_until(samples), creep)
+        return self._creeping[end, creep]
 
     def _course_until(self, samples: Samples) -> Course:
         """Residual history up to the end of these samples; those that were read before are not read again."""
@@ -111,6 +115,11 @@ class Early:
     @cached_property
     def _responses(self) -> dict[float, Response]:
         """Responses of the run up to each time at which it might end."""
+        return {}
+
+    @cached_property
+    def _creeping(self) -> dict[tuple[float, float], Response]:
+        """The same for each creep that was asked for."""
         return {}
 
     def enough(self, samples: Samples) -> bool:
@@ -150,8 +159,16 @@ class Early:
         """Path to where the balls balance if no verdict can change on it; None else, or if no way is known."""
         if self.way is None:
             return None
-        left = complex(self._left(samples.y[:, -1:])[0])
-        return self.way(left, lambda creep: self.response(samples, creep))
+        end = float(samples.t[-1])
+        if end not in self._paths:
+            left = complex(self._left(samples.y[:, -1:])[0])
+            self._paths[end] = self.way(left, lambda creep: self.response(samples, creep))
+        return self._paths[end]
+
+    @cached_property
+    def _paths(self) -> dict[float, BalancePath | None]:
+        """Harmless path found at each time at which the run might end."""
+        return {}
 
     def moving(self, samples: Samples) -> tuple[float, float]:
         """Possible further change of the residual imbalance [kg m] and recent rise of the level [dB].

@@ -52,7 +52,7 @@ And how many starts at the drag given may be without an answer until no others a
 
 MORE, MOST_MORE = 10, 24_000_000
 """Times the work that a start may take in a second run, where that of the first did not suffice, and the work of all
-second runs together: about half a minute of compiled code."""
+second runs together: about half a minute of compiled code. A run-up takes long, so its first run may take as much."""
 
 STARTS = 30
 """About how many starts and closer runs a machine has."""
@@ -89,7 +89,7 @@ def simulate_members(
     while undecided := deciding(results, design.case.drag):
         again = [(results[k].member, early_end) for k, early_end in undecided.items()]
         closer = within(progress, "closer")
-        runs = list(every_start(design, again, accuracy, TIGHTER * tolerance, closer, workers))
+        runs = list(every_start(design, again, accuracy, TIGHTER * tolerance, closer, workers, run_up_work=MORE * WORK))
         runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers)
         for k, rerun in zip(undecided, runs, strict=True):
             results[k] = worse(results[k], rerun)
@@ -247,7 +247,8 @@ def _found(
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(start, True) for start in starts if start.drag == design.case.drag]
     others = [(start, True) for start in starts if start.drag != design.case.drag]
-    with closing(every_start(design, [*first, *others], accuracy, tolerance, progress, workers)) as runs:
+    both, most = [*first, *others], MORE * WORK
+    with closing(every_start(design, both, accuracy, tolerance, progress, workers, run_up_work=most)) as runs:
         results = list(islice(runs, len(first)))
         results = _with_more(design, results, first, accuracy, tolerance, progress, workers)
         if sum(isinstance(result, Lost) for result in results) >= MOST_LOST:
@@ -261,10 +262,12 @@ def _with_more(
     tolerance: float, progress: Progress, workers: int,
 ) -> list[StartOutcome | Lost]:  # fmt: skip
     """Outcomes of the start cases; those that ran out of allowed work are tried once more with more of it."""
-    short = [k for k, outcome in enumerate(results) if isinstance(outcome, Lost) and outcome.short]
+    lost = [k for k, outcome in enumerate(results) if isinstance(outcome, Lost) and outcome.short]
+    short = [k for k in lost if results[k].work < MORE * WORK]
     if not short:
         return results
-    work = min(MORE * WORK, MOST_MORE // len(short))
+    long = sum(outcome.work > WORK for outcome in results if isinstance(outcome, StartOutcome))
+    work = min(MORE * WORK, MOST_MORE // (len(lost) + long))
     runs = every_start(
         design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work
     )
@@ -274,11 +277,18 @@ def _with_more(
 
 def every_start(
     design: Design, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
-    workers: int, work: int = WORK,
+    workers: int, work: int = WORK, run_up_work: int | None = None,
 ) -> Generator[StartOutcome | Lost, None, None]:  # fmt: skip
-    """Each start once, and whether it may end early."""
+    """Each start once, and whether it may end early.
+
+    `run_up_work`: work that a run-up may take; None: as much as any start.
+    """
     wanted = integrator_for(design, starts[0][0], accuracy, tolerance) if starts else "auto"
-    tasks = [(design, start, accuracy, tolerance, work, early_end, wanted) for start, early_end in starts]
+    long = work if run_up_work is None else run_up_work
+    tasks = [
+        (design, start, accuracy, tolerance, long if start.run_up else work, early_end, wanted)
+        for start, early_end in starts
+    ]
 
     return side_by_side(start_once, tasks, workers, counted(progress, "idle: {} of {} starts", len(tasks)))
 

@@ -6,7 +6,7 @@ from itertools import islice
 
 import pytest
 
-from abu_calc.foundation.parallel import side_by_side
+from abu_calc.foundation.parallel import meanwhile, side_by_side
 
 TASKS = [(k,) for k in range(12)]
 
@@ -70,3 +70,37 @@ def test_short_tasks_are_done_one_after_the_other(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("abu_calc.foundation.parallel.LONG", 60.0)
     threads = side_by_side(lambda _: threading.get_ident(), TASKS, 3, _nothing)
     assert set(threads) == {threading.get_ident()}
+
+
+def _broken() -> int:
+    raise ZeroDivisionError
+
+
+def test_a_task_goes_on_while_the_caller_does() -> None:
+    """Its outcome is there when it is asked for, twice, too."""
+    begun, free = threading.Event(), threading.Event()
+
+    def work(a: int, b: int) -> int:
+        begun.set()
+        assert free.wait(10)
+        return a * b
+
+    product = meanwhile(work, 6, 7, workers=2)
+    assert begun.wait(10)
+    free.set()
+    assert product() == product() == 42
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_the_error_of_a_task_is_that_of_its_outcome(workers: int) -> None:
+    outcome = meanwhile(_broken, workers=workers)
+    with pytest.raises(ZeroDivisionError):
+        outcome()
+
+
+def test_one_worker_does_a_task_when_its_outcome_is_asked_for() -> None:
+    done: list[int] = []
+    outcome = meanwhile(done.append, 1, workers=1)
+    assert not done
+    outcome()
+    assert done == [1]

@@ -19,6 +19,7 @@ from abu_calc.features.design.verification import MachineChange, changes, other_
 from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.inputs.duty import Motor
 from abu_calc.inputs.read_machine import read_machine
+from abu_calc.simulation import ensemble
 from abu_calc.simulation.design_scenes import simulated
 from abu_calc.simulation.ensemble import TOLERANCE, WORK, simulate_members, start_once
 from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check
@@ -228,6 +229,23 @@ def test_a_start_without_an_answer_is_not_done() -> None:
     assert checked(outcome(), lost=(replace(lost[0], member=Member("spread", 30.0)),))["ABU701"] == "warn"
     assert checked(outcome(imbalance=1.0), lost=lost)["ABU701"] == "fail"
     assert set(checked(lost=lost).values()) >= {"not-done"}
+
+
+def test_a_run_up_gets_its_work_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A start at full speed that runs short is tried again with more work; a run-up has had that much."""
+    tried: list[tuple[Member, int]] = []
+
+    def short(_: Design, member: Member, _accuracy: float, _tolerance: float, work: int, *_more: object) -> Lost:
+        tried.append((member, work))
+        return Lost(member, "more work than allowed", work, short=True)
+
+    monkeypatch.setattr(ensemble, "start_once", short)
+    found = simulate_members(design("msh-230"))
+    works = {member: [work for other, work in tried if other == member] for member, _ in tried}
+    run_ups, others = ([works[member] for member in works if bool(member.run_up) is slow] for slow in (True, False))
+    assert run_ups and others and not found.outcomes
+    assert all(len(work) == 1 and work[0] > WORK for work in run_ups)
+    assert all(len(work) == 2 and work[0] == WORK < work[1] for work in others)
 
 
 def test_balls_that_carry_too_little_are_not_done() -> None:

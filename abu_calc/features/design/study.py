@@ -5,7 +5,7 @@
 
 import math
 import statistics
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
@@ -35,7 +35,7 @@ from abu_calc.features.seats.records import SeatResult, seat_results
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
-from abu_calc.foundation.parallel import processors
+from abu_calc.foundation.parallel import meanwhile, processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.rows import Rows
@@ -244,14 +244,15 @@ def size(
         seats = _seats(tables)
         threads = processors() if workers is None else workers
         tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads, starts=starts)
-        design = tried.design
+        design, whole = tried.design, starts == FULL
+        gaps = meanwhile(data_gaps, design, tried.ensemble if whole else None, accuracy, workers=threads)
+        balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=threads)
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
-        whole = starts == FULL
         work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads) if whole else (work, None)
         seats = _with_lives(seats, design, tried.ensemble, tables)
         region = true_region(design, accuracy)
-    arm, moved = _arm(design, failures, accuracy, progress)
+    arm, moved = _arm(design, failures, accuracy, progress, balanced)
     stays = _on_work(design, runs, accuracy, progress)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
     lost = (not_simulated(fault.scene, fault.reason, answered=answered, mean=_mean(fault, work)) for fault in failures)
@@ -321,7 +322,7 @@ def size(
         ensemble=None
         if tried.ensemble is None
         else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
-        data_gaps=data_gaps(design, tried.ensemble, accuracy) if whole else (),
+        data_gaps=gaps(),
         simulation=tuple(
             SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
         ),
@@ -503,12 +504,21 @@ def _starts(loads: GrindingOutcomes, bare: float | None, *, stays: bool) -> Iter
         )
 
 
+def _balanced(design: Design) -> Check:
+    """Check of the balanced state on a swing arm."""
+    from abu_calc.features.swing_arm.verdict import balanced_check
+
+    return balanced_check(design)
+
+
 def _arm(
-    design: Design, failures: Sequence[SceneFailure], accuracy: float, progress: Progress
-) -> "tuple[ArmJudgement | None, ArmMotion | None]":
+    design: Design, failures: Sequence[SceneFailure], accuracy: float, progress: Progress,
+    balanced: Callable[[], Check] | None,
+) -> "tuple[ArmJudgement | None, ArmMotion | None]":  # fmt: skip
     """The swing arm judged, and its motion where it stands at the work; nothing of machines without one.
 
-    Where a scene of the arm gave no answer, also how much more joint damping would give one.
+    Where a scene of the arm gave no answer, also how much more joint damping would give one. `balanced` gives the check
+    of the balanced state, which has been begun.
     """
     if design.swing_arm is None:
         return None, None
@@ -517,7 +527,7 @@ def _arm(
     from abu_calc.features.swing_arm.verdict import judge_arm
     from abu_calc.simulation.scene_of_design import scene_of_design
 
-    judged = judge_arm(design, progress)
+    judged = judge_arm(design, progress, balanced)
     if judged is not None and judged.may_pass and any(failure.scene.startswith("swing-arm") for failure in failures):
         from abu_calc.features.swing_arm.scenes import damping_to_simulate
 

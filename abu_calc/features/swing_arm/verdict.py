@@ -1,7 +1,7 @@
 """A swing arm judged as a whole: its bounds, the balanced state on it, and a change that was tried if they fail."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final
 
@@ -47,16 +47,19 @@ class ArmJudgement:
         return bool(self.changes) or not any(_bad(check) for check in self.checks)
 
 
-def judge_arm(design: Design, progress: Progress = silent) -> ArmJudgement | None:
+def judge_arm(
+    design: Design, progress: Progress = silent, balanced: Callable[[], Check] | None = None
+) -> ArmJudgement | None:
     """Judge the swing arm of a sized machine; None if the machine has no swing arm.
 
-    Every advised change was tried: with it, every check of the arm passes.
+    Every advised change was tried: with it, every check of the arm passes. `balanced` gives the `balanced_check` of the
+    design if it was begun before.
     """
     table, bounds = design.case.table.swing_arm, design.swing_arm
     if table is None or bounds is None:
         return None
     borrowed = table.borrowed()
-    checks = (*bounds.checks, *doubted((balanced_check(design),), borrowed))
+    checks = (*bounds.checks, *doubted((balanced() if balanced else balanced_check(design),), borrowed))
     doubt = " It rests on example data." if borrowed else ""
     bad = {check.code for check in checks if _bad(check)}
     if not bad:

@@ -9,8 +9,7 @@ from abu_calc.formulas.two_races import Pair, lever_shares
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing import size
-from abu_calc.sizing.design import Design
+from abu_calc.sizing import RaceDesign, size_race
 from abu_calc.sizing.track import Track
 
 ROUNDS = 3
@@ -28,7 +27,7 @@ class SizedRace:
     need: float
     typical: float
     shares: tuple[float, ...]
-    design: Design
+    design: RaceDesign
 
     @property
     def capacity_ratio(self) -> float:
@@ -97,7 +96,7 @@ def _both(case: TwoRaceCase, ball_mm: float | None) -> tuple[SizedRace, SizedRac
     return first, second
 
 
-def _as_one_race(case: TwoRaceCase, race: int, need: float, ball_mm: float | None) -> Design:
+def _as_one_race(case: TwoRaceCase, race: int, need: float, ball_mm: float | None) -> RaceDesign:
     """Design of one race; checks that depend on the whole machine are left to it."""
     given = case.table.autobalancer[race].ball_diameter_mm
     try:
@@ -111,7 +110,7 @@ def _as_one_race(case: TwoRaceCase, race: int, need: float, ball_mm: float | Non
             found=f"it feels {felt_mass(case, race):.4g} kg and must carry {from_si(need, 'g_mm'):.4g} g·mm",
             remedy="Check masses, inertias, places and imbalances. A flat disc takes one race.",
         ) from None
-    design = size(machine)
+    design = size_race(machine)
     return replace(design, checks=tuple(check for check in design.checks if check.code in KEPT))
 
 

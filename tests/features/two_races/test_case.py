@@ -14,7 +14,7 @@ from abu_calc.features.two_races.case import (
     typical_needs,
 )
 from abu_calc.inputs.read_machine import read, read_machine
-from abu_calc.sizing import size
+from abu_calc.sizing import size, size_race
 
 TRUE = ("autobalancer.0.race_eccentricity_mm=0.0", "autobalancer.1.race_eccentricity_mm=0.0")
 
@@ -55,6 +55,17 @@ def test_the_machine_of_one_race_has_the_same_need() -> None:
     design = size(one_race_machine(case, 0, need))
     # The autobalancer's own mass adds to that which its race feels: M·Δ of half a kilogram, 5 g·mm.
     assert design.autobalancer.requirement.required == pytest.approx(need, rel=5e-3)
+
+
+def test_a_race_alone_is_that_of_its_machine() -> None:
+    """Balls, race and their checks, without what only its machine needs."""
+    case = case_of()
+    machine = one_race_machine(case, 0, capacity_needs(case)[0])
+    race, whole = size_race(machine), size(machine)
+    assert race.autobalancer == whole.autobalancer and race.track == whole.track
+    codes = {"ABU202", "ABU301", "ABU302", "ABU303", "ABU304"}
+    of_race, of_machine = ([check for check in checks if check.code in codes] for checks in (race.checks, whole.checks))
+    assert of_race == of_machine and len(of_race) >= 4
 
 
 def test_springs_are_two_bearings_that_do_not_couple(tmp_path: Path) -> None:

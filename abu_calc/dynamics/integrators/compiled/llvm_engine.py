@@ -77,7 +77,8 @@ def compiled(text: str) -> bytes:
         module.triple, module.data_layout = llvm.get_process_triple(), str(target.target_data)
         module.verify()
         options = llvm.create_pipeline_tuning_options(speed_level=LEVEL)
-        options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = False
+        options.loop_vectorization = options.loop_unrolling = False
+        options.slp_vectorization = True  # of straight-line code; it changes no rounding
         builder = llvm.create_pass_builder(target, options)
         builder.getModulePassManager().run(module, builder)
         code: bytes = target.emit_object(module)

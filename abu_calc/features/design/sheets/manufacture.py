@@ -117,7 +117,8 @@ def part_notes(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
         yield f"Heat treatment: {made.treatment}."
     yield from _stops(result, part)
     yield "Edges by ISO 13715" + (
-        " as in the title block." if part.name == "cover" else "; bore and seats 0.3 × 45° on the side of assembly.")
+        " as in the title block." if part.name == "cover" else "; bore and seats 0.3 × 45° on the side of assembly."
+    )
     if part.name == "cover":
         yield "The hole leaves clearance to the hub; the cover is held at its outside alone."
     yield "Sizes without tolerance: ISO 2768-mK / GOST 30893.1-m. Sizes in brackets: reference."
