@@ -20,7 +20,7 @@ from tests.inputs import scenes
 from tests.inputs.samples import BASIC, read, refused
 
 FREE = {
-    "Start.angles_deg",  # wherever they lie
+    "Start.angles_deg", "Start.speeds_rpm",  # wherever they lie
     "Oil.cold_temperature_C",  # above and below zero
     "Identified.rolling_drag_per_s", "Identified.rolling_friction_mm",  # as measured
     "Identified.race_eccentricity_mm",
