@@ -20,7 +20,7 @@ from abu_calc.inputs.reading.text import Part
 from abu_calc.inputs.two_races import RACES, TwoRaceFile
 from abu_calc.inputs.variation import Variants
 from abu_calc.simulation.scene_of_design import AHEAD
-from abu_calc.sizing.design import built
+from abu_calc.sizing.design import built_race
 
 PHASE: Final = "start.phase_{}_deg"
 """Key of the phase of a wheel's imbalance, by the number of the wheel."""
@@ -135,7 +135,7 @@ def built_two_races(design: TwoRaceDesign, table: TwoRaceFile) -> TwoRaceDesign:
         """A race of this machine, for the capacity that the design was made for."""
         race = design.races[index]
         machine = one_race_machine(case, index, race.need)
-        return SizedRace(case.races[index], race.need, race.typical, race.shares, built(race.design, machine))
+        return SizedRace(case.races[index], race.need, race.typical, race.shares, built_race(race.design, machine))
 
     return TwoRaceDesign(case, bare, (one(0), one(1)))
 
