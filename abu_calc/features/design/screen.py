@@ -410,7 +410,7 @@ def _late_ones(further: FurtherStarts | None, check: Check | None) -> list[tuple
     if further is None or check is None or check.limit is None:
         return []
     cases = [(f"Slowest of {many(further.members, 'further start case')}", further.settling_time_s),
-             ("One start case of 1000, by the tail of all", further.rare_settling_time_s)]  # fmt: skip
+             ("One start case of 1000, estimated", further.rare_settling_time_s)]  # fmt: skip
     return [(label, time) for label, time in cases if time is None or time > check.limit][:1]
 
 

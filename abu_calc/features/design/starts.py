@@ -231,8 +231,8 @@ class RepeatedStart(Record):
 class FurtherStarts(Record):
     """Start cases at the given drag rate beside the listed ones, looked for where they are worst; they only warn.
 
-    A time of None: it never settles. `rare_settling_time_s`: one start case of 1000 takes longer, by the tail of all
-    settling times.
+    A time of None: it never settles. `rare_settling_time_s`: one start case of 1000 takes longer, by the tail of the
+    settling times of those that no result chose.
     """
 
     members: Annotated[int, Quantity("further start cases")]

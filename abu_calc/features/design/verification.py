@@ -268,10 +268,8 @@ def _with_search(proof: Proven, accuracy: float, progress: Progress, workers: in
     """Add the result of further start cases, or a warning if they would take too long."""
     if proof.ensemble is not None and proof.ensemble.work > MOST_SEARCHED and not patience.given():
         return replace(proof, warnings=(*proof.warnings, NOT_SEARCHED))
-    searched = search(proof.design, accuracy, progress, workers)
-    return replace(
-        proof, searched=searched if proof.ensemble is None else replace(searched, listed=proof.ensemble.given)
-    )
+    listed = () if proof.ensemble is None else proof.ensemble.given
+    return replace(proof, searched=search(proof.design, accuracy, progress, workers, listed))
 
 
 def _carries(design: Design) -> bool:

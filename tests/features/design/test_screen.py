@@ -216,7 +216,7 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
         (0.3, 0.9, None),
         (1.05, 2.0, ("Slowest of 36 further start cases", "1.05", "1.00", "WARN 1")),
         (None, None, ("Slowest of 36 further start cases", "never", "1.00", "WARN 1")),
-        (0.3, 1.67, ("One start case of 1000, by the tail of all", "1.67", "1.00", "WARN 1")),
+        (0.3, 1.67, ("One start case of 1000, estimated", "1.67", "1.00", "WARN 1")),
     ],
 )
 def test_late_further_start_cases_stand_in_the_table(
