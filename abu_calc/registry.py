@@ -124,6 +124,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("growth", "growth rates over more than one speed are known"),
             Known("eigenvalues", "there are such"),
             Known("multipliers", "the support is not isotropic"),
+            Known("attractors", "attractors were searched"),
         ),
         group="Simulate",
     ),

@@ -1,10 +1,10 @@
 """Duties of the machine besides idling: grinding, run-up, work on a motor or on a swing arm."""
 
-from typing import Annotated, ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal, Self
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, model_validator
 
-from abu_calc.inputs.reading.table import Table, usual, whole
+from abu_calc.inputs.reading.table import Table, problem, usual, whole
 
 STIFFNESS: Final = "contact_stiffness_N_per_m"
 JOINT: Final = ("arm_length_mm", "moment_of_inertia_kg_m2", "joint_stiffness_N_per_m", "joint_damping_N_s_per_m")
@@ -74,6 +74,23 @@ class Start(Table):
         min_length=1,
         max_length=200,
     )
+    speeds_rpm: Annotated[tuple[Annotated[float, Field(ge=-1e6, le=1e6)], ...], Field(strict=False)] | None = Field(
+        default=None,
+        description="Speed of each ball at the start, against the race, at full speed [rpm]; as many as angles_deg, "
+        "each -1000000 … 1000000. Without it: at rest in the race.",
+        examples=[[0.0, 0.0, 0.0, 0.0]],
+        min_length=1,
+        max_length=200,
+    )
+
+    @model_validator(mode="after")
+    def _a_speed_for_each_angle(self) -> Self:
+        if self.speeds_rpm is not None and len(self.speeds_rpm) != len(self.angles_deg):
+            raise problem(
+                "one value for each ball of angles_deg", "speeds_rpm", found=str(len(self.speeds_rpm)),
+                allowed=str(len(self.angles_deg)),
+            )  # fmt: skip
+        return self
 
 
 class RunUp(Table):

@@ -28,6 +28,21 @@ if TYPE_CHECKING:
     from abu_calc.inputs.two_races import TwoRaceFile
 
 
+OTHERS: Final = "`abu size`, `abu simulate`, `abu stability`, `abu sweep` and `abu compare` take it."
+ONE_RACE_ONLY: Final = {
+    "declare": (
+        "the type test of ISO 28927-4 is one of a hand-held machine with one test wheel and one race",
+        "Use `abu size`: it gives levels at places of the spindle. A machine on a stand declares no such value.",
+    ),
+    "grinding": (
+        "forces of a workpiece are modelled on one race",
+        "Describe the machine as a scene with a tilting support, two [[scene.race]], and effects.grinding_contact with "
+        "plane_offset_mm at the wheel that is pressed; `abu simulate SCENE` runs it.",
+    ),
+}
+"""Why commands refuse a file with two races, and what to do."""
+
+
 def read_file(source: str, overrides: Sequence[str] = ()) -> FileReading:
     """Reads a file of any kind, or a preset by its name, entries replaced; raises as the reader of its kind."""
     return read_document(open_document(source), overrides)
@@ -91,10 +106,9 @@ class Machine(FileReading):
     def whole(self, command: str | None = None) -> "MachineFile":
         """The tables of a machine with one race; raises InputError, naming the command, for any other file."""
         if self.two_races is not None:
+            reason, remedy = ONE_RACE_ONLY.get(command or "", ("this command knows one", OTHERS))
             raise InputError(
-                "this file has two races, and this command knows one",
-                place=Place(self.file, key="autobalancer"),
-                remedy="`abu size`, `abu simulate`, `abu stability` and `abu compare` take it.",
+                f"this file has two races, and {reason}", place=Place(self.file, key="autobalancer"), remedy=remedy
             )
         if not isinstance(self.tables, BearingFile):
             return self.tables  # type: ignore[return-value]

@@ -14,6 +14,7 @@ from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Speed
 from abu_calc.inputs.duty import RunUp
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
+from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import QUANTITIES, Wheel
 
 MOST_WHEELS: Final = 20
@@ -62,6 +63,24 @@ class PlacedAutobalancer(Autobalancer):
     plane_mm: float = Field(
         description=PLANE, examples=[300.0], ge=-10_000, le=10_000, json_schema_extra=usual(1, 3000)
     )
+
+    plane_range_mm: Annotated[tuple[Place, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
+        default=None,
+        description="Stretch of the spindle on which the race may stand, with plane_mm in it [mm]; {range}. The place "
+        "is searched there that leaves the loudest place least, and needs the smallest capacity. Without it: plane_mm.",
+        examples=[[280.0, 320.0]],
+    )
+
+    @model_validator(mode="after")
+    def _place_within_its_stretch(self) -> Self:
+        if self.plane_range_mm is not None:
+            low, high = self.plane_range_mm
+            if not low <= self.plane_mm <= high:
+                raise problem(
+                    "the stretch must ascend and contain plane_mm", "plane_range_mm",
+                    found=f"[{low:g}, {high:g}] with plane_mm = {self.plane_mm:g}",
+                )  # fmt: skip
+        return self
 
     @model_validator(mode="after")
     def _place_from_the_centre_of_mass(self) -> Self:
@@ -225,7 +244,25 @@ class TwoRaceFile(Table):
         default=(), description="Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
     )
     limits: Limits = Field(default_factory=Limits)
+    sweep: Sweep | None = None
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_many_as_there_must_be(cls, given: object) -> object:
+        races = given.get("autobalancer") if isinstance(given, dict) else None
+        if isinstance(races, dict) or (isinstance(races, (list, tuple)) and len(races) == 1):
+            raise problem(
+                "two wheels need two autobalancers", "autobalancer", found="one", allowed="two [[autobalancer]]",
+                remedy="write [[autobalancer]] twice, each with plane_mm; for one race give one [wheel]",
+            )  # fmt: skip
+        if isinstance(races, (list, tuple)) and len(races) > RACES:
+            raise problem(
+                "too many autobalancers on one spindle", "autobalancer", found=f"{len(races)}",
+                allowed="two [[autobalancer]]",
+                remedy="two races balance a rigid spindle: keep the two that stand farthest apart",
+            )  # fmt: skip
+        return given
 
     @model_validator(mode="after")
     def _two_planes(self) -> Self:

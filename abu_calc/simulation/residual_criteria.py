@@ -1,5 +1,8 @@
 """Criteria by which the balls of a run count as balancing, for one run and for many."""
 
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance
+from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.motion import HARDLY, SETTLED
 from abu_calc.simulation.response import Response
 from abu_calc.sizing.design import Design
@@ -31,6 +34,24 @@ def allowed_imbalance(design: Design, moved: float, felt: float | None = None) -
     tenth = SETTLED * max(moved, HARDLY * autobalancer.static_moment) + mass * budget.race_eccentricity
     worst = max((each.upright.rolling_friction for each in design.worst), default=0.0)
     return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))
+
+
+def allowed_of_scene(scene: Scene, ball_angles: tuple[float, ...]) -> float:
+    """Allowed residual imbalance [kg m] of a scene given outright, for balls that rest at these angles [rad].
+
+    A tenth of the imbalance, and what eccentricity and dry friction leave; with friction at most half of it.
+    """
+    mass = scene.support.felt_mass
+    eccentric, rolling = scene.effect("race_eccentricity"), scene.effect("dry_rolling_friction")
+    tenth = SETTLED * reference_imbalance(scene) + mass * getattr(eccentric, "magnitude", 0.0)
+    if rolling is None:
+        return tenth
+    arm, radius = getattr(rolling, "lever_arm", 0.0), getattr(rolling, "ball_radius", 1.0)
+    first, held = 0, 0.0
+    for race in scene.races:
+        angles = ball_angles[first : first + len(race.ball_masses)]
+        held, first = max(held, friction_band(arm, race.pitch_radius, radius, angles)), first + len(angles)
+    return max(tenth, min(tenth + mass * held, HALF * scene.imbalance))
 
 
 def balances(left: float, allowed: float, slipping: float) -> bool:

@@ -77,7 +77,7 @@ STARTS: Final[dict[Start, str]] = {
     "spread": "balls at rest in the race, evenly round it, the first 20° ahead of the imbalance",
     "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of the imbalance",
     "settled": "balls at rest in the race, evenly fanned where they balance at idle",
-    "placed": "balls at rest in the race, where start.angles_deg of the file has them",
+    "placed": "balls where start.angles_deg of the file has them, at start.speeds_rpm, or at rest in the race",
 }
 
 SCENES: Final[dict[str, str | None]] = {
@@ -231,13 +231,16 @@ def _race(design: Design, start: Start, *, turning: bool) -> Race:
     """The race with its balls; a rotor that does not turn yet has them at rest, however they start."""
     case, autobalancer = design.case, design.autobalancer
     back = -case.speed if start == "standstill" and turning else 0.0
+    speeds = (back,) * autobalancer.ball_count
+    if start == "placed" and turning and case.table.start is not None and case.table.start.speeds_rpm is not None:
+        speeds = tuple(to_si(speed, "rpm") for speed in case.table.start.speeds_rpm)
     return Race(
         pitch_radius=autobalancer.pitch_radius,
         ball_masses=(autobalancer.ball_mass,) * autobalancer.ball_count,
         drag=case.drag,
         inertia_factor=case.inertia_factor,
         start_angles=_start_angles(design, start),
-        start_speeds=(back,) * autobalancer.ball_count,
+        start_speeds=speeds,
         ball_radius=autobalancer.ball_diameter / 2,
     )
 

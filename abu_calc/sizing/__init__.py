@@ -7,12 +7,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from abu_calc.foundation.checks import Check
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.sizing.design import Design
+from abu_calc.sizing.design import Design, RaceDesign
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.handles import body_bands, handle_checks
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
@@ -20,7 +19,7 @@ from abu_calc.sizing.manufacture.construction import construct
 from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.oil import value_sources, with_oil
 from abu_calc.sizing.operating_speed import frequency_region, region_check
-from abu_calc.sizing.track import Track, track, track_checks
+from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.type_test import declared_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
 
@@ -28,15 +27,6 @@ if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 __all__ = ["Design", "RaceDesign", "instead", "size", "size_race"]
-
-
-@dataclass(frozen=True)
-class RaceDesign:
-    """Balls and race alone, with their own checks: what is known of a race without its machine's vibration."""
-
-    autobalancer: Candidate
-    track: Track
-    checks: tuple[Check, ...]
 
 
 def size(machine: MachineFile) -> Design:
@@ -51,7 +41,7 @@ def size(machine: MachineFile) -> Design:
 
 
 def size_race(machine: MachineFile) -> RaceDesign:
-    """Balls and race that `size` gives for a machine, without levels, drawings and advice.
+    """Balls and race that `size` gives for a machine, without levels, requirements of the drawing and advice.
 
     These take most of the time of `size` if the race has many balls.
     """
@@ -59,7 +49,10 @@ def size_race(machine: MachineFile) -> RaceDesign:
     best = choose_for_motor(case, find_imbalance(case).value).best
     case = with_oil(case, best)
     race = track(case, best, frequency_region(case, best.ball_mass, best.mass).natural_frequencies)
-    return RaceDesign(best, race, (*candidate_checks(case, best), *track_checks(case, best, race)))
+    eccentricity = split_eccentricity(case, best)
+    construction = construct(case, best, eccentricity)
+    checks = (*candidate_checks(case, best), *track_checks(case, best, race))
+    return RaceDesign(case, best, race, eccentricity, construction, checks)
 
 
 def instead(design: Design, candidate: Candidate, why: str) -> Design:

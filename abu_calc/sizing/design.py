@@ -63,6 +63,39 @@ class Design:
         return self.case.body.mass + self.autobalancer.mass
 
 
+@dataclass(frozen=True)
+class RaceDesign:
+    """Balls, race and its parts with their own checks: what is known of a race without its machine's vibration."""
+
+    case: Case
+    autobalancer: Candidate
+    track: Track
+    eccentricity: EccentricitySplit
+    construction: Construction
+    checks: tuple[Check, ...]
+
+
+def built_race(design: RaceDesign, machine: MachineFile) -> RaceDesign:
+    """The race as it came out in one machine, whose file may pin the balls and the race that were made."""
+    case, chosen = read_case(machine), design.autobalancer
+    made = _made(case, find_imbalance(case).value, chosen)
+    case = with_oil(case, made)
+    race = track(case, made, frequency_region(case, made.ball_mass, made.mass).natural_frequencies)
+    return replace(design, case=case, autobalancer=made, track=race, checks=())
+
+
+def _made(case: Case, imbalance: float, chosen: Candidate) -> Candidate:
+    """The autobalancer with the balls and the race that a file pins, else with those of the choice."""
+    own = case.autobalancer
+    return evaluate(
+        case,
+        imbalance,
+        chosen.ball_count if own.ball_count is None else own.ball_count,
+        chosen.ball_diameter if own.ball_diameter_mm is None else to_si(own.ball_diameter_mm, "mm"),
+        chosen.race_radius if own.race_radius_mm is None else to_si(own.race_radius_mm, "mm"),
+    )
+
+
 def built(design: Design, machine: MachineFile) -> Design:
     """The design as it came out in one machine, whose file may pin the balls and the race that were made.
 
@@ -70,14 +103,8 @@ def built(design: Design, machine: MachineFile) -> Design:
     arrangement of balls, too, which takes longer than all the rest: see `with_worst`.
     """
     case = read_case(machine)
-    imbalance, chosen, own = find_imbalance(case), design.autobalancer, case.autobalancer
-    made = evaluate(
-        case,
-        imbalance.value,
-        chosen.ball_count if own.ball_count is None else own.ball_count,
-        chosen.ball_diameter if own.ball_diameter_mm is None else to_si(own.ball_diameter_mm, "mm"),
-        chosen.race_radius if own.race_radius_mm is None else to_si(own.race_radius_mm, "mm"),
-    )
+    imbalance = find_imbalance(case)
+    made = _made(case, imbalance.value, design.autobalancer)
     case = with_oil(case, made)
     frequency = frequency_region(case, made.ball_mass, made.mass)
     return replace(

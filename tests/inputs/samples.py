@@ -131,7 +131,7 @@ FULL: dict[str, dict[str, str]] = {
         "rotation_sense": "-1",
     },
     "[run_up]": {"time_s": "1.0", "run_down_s": "3.0"},
-    "[start]": {"angles_deg": "[-30.0, 0.0, 30.0, 60.0]"},
+    "[start]": {"angles_deg": "[-30.0, 0.0, 30.0, 60.0]", "speeds_rpm": "[0.0, 0.0, 0.0, 0.0]"},
     "[motor]": {"stall_torque_N_m": "3.0", "no_load_speed_rpm": "6000.0", "rotor_inertia_kg_m2": "2e-3"},
     "[swing_arm]": {
         "arm_length_mm": "350.0",

@@ -28,6 +28,7 @@ def test_example_defaults_are_keys_with_defaults(table: type[Grinding | Motor | 
 @pytest.mark.parametrize(("table", "given"), [
     (Grinding, {"rotation_sense": 0}), (Grinding, {"cutting_coefficient": 1.6}), (Grinding, {"press_force_N": 0.0}),
     (RunUp, {"time_s": 0.0}), (Start, {"angles_deg": []}), (Start, {"angles_deg": [361.0]}),
+    (Start, {"angles_deg": [1.0], "speeds_rpm": [0.0, 0.0]}), (Start, {"speeds_rpm": [2e6], "angles_deg": [1.0]}),
     (Motor, {"stall_torque_N_m": -1.0}), (SwingArm, {"contact_angle_deg": 181.0}),
 ])  # fmt: skip
 def test_what_no_machine_does_is_refused(table: type[Grinding], given: dict[str, object]) -> None:

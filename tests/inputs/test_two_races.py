@@ -90,3 +90,36 @@ def test_two_wheels_and_one_race_are_refused(tmp_path: Path) -> None:
     file.write_text(text.rpartition("[[autobalancer]]")[0] + "[limits]\n", encoding="utf-8")
     with pytest.raises(InputError, match="autobalancer"):
         read(file)
+
+
+TABLE = """
+[[autobalancer]]
+plane_mm = 0.0
+max_outer_diameter_mm = 160.0
+max_width_mm = 40.0
+bore_diameter_mm = 30.0
+"""
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda text: text.replace("[[autobalancer]]", "[autobalancer]"), "write \\[\\[autobalancer\\]\\] each time"),
+        (lambda text: text.replace("[[wheel]]", "[wheel]"), "write \\[\\[wheel\\]\\] each time"),
+        (lambda text: text.replace("[limits]", TABLE + "\n[limits]"), "too many autobalancers"),
+        (lambda text: text[: text.rindex("[[autobalancer]]")] + text[text.index("[limits]") :], "two wheels need two"),
+    ],
+)
+def test_hints_of_tables_that_stand_wrongly(change, words: str) -> None:
+    text = Path(__file__).parents[2].joinpath("presets", f"{PRESET}.toml").read_text(encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        read(change(text))
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [("declare", "hand-held machine"), ("grinding", "effects.grinding_contact"), ("size", "abu sweep")],
+)
+def test_commands_that_take_one_race_say_why_and_what_to_do(command: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        read_machine(PRESET).whole(command)

@@ -50,7 +50,8 @@ def design_of(designs: dict[str, Design], name: str) -> Design:
     return designs[name]
 
 
-GRINDERS = [name for name in presets.names() if not {"knife", "rig", "pedestal", "125"} & set(name.split("-"))]
+OTHERS = {"knife", "rig", "pedestal", "washing", "125"}
+GRINDERS = [name for name in presets.names() if not OTHERS & set(name.split("-"))]
 
 
 @pytest.mark.parametrize("which", SCENES)

@@ -79,7 +79,7 @@ def _bounds(scene: Scene, race: Race, half_angle: float, speed: float, *, weight
     support = scene.support.small_motion(speed).carrying(scene.balls)
     rates = np.asarray(np.linalg.eigvals(support.motion), dtype=complex)
     natural = _natural(support, rates, speed)
-    resonance = _at_a_resonance(_driven(scene, race, half_angle), support, rates, natural, speed)
+    resonance = _at_a_resonance(driven(scene, race, half_angle), support, rates, natural, speed)
     sizes = np.abs(rates)
     heavy = sizes[(sizes > 0) & (sizes < speed) & (-rates.real >= HEAVY * sizes)]
     damped = _above_one(scene, race, support, (float(heavy.min()), speed)) if len(heavy) else 0.0
@@ -99,7 +99,7 @@ Driven = tuple[float, list[tuple[float, float]]]
 """Place z [m] of a race, and those of all races, each with the n·m·σ² [kg] that brakes the balls of the first."""
 
 
-def _driven(scene: Scene, race: Race, half_angle: float) -> Driven:
+def driven(scene: Scene, race: Race, half_angle: float) -> Driven:
     """Balls of other radii R brake by R over the race's own."""
     each = []
     for scene_race in scene.races:
@@ -124,14 +124,14 @@ def _at_a_resonance(
     grid = np.concatenate([np.geomspace(natural[0] / 4, top, GRID), peaks, natural])
     grid, best, place = merged(grid[(grid > 0) & (grid <= top)]), 0.0, 0.0
     for _ in range(TIMES):
-        values = resonance_drag(_lost(driven, support, grid), grid, speed)
+        values = resonance_drag(lost_by(driven, support, grid), grid, speed)
         k = int(values.argmax())
         best, place = float(values[k]), float(grid[k])
         grid = np.linspace(grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)], ZOOM)
     return best, place
 
 
-def _lost(driven: Driven, support: SmallMotion, frequencies: Array) -> Array:
+def lost_by(driven: Driven, support: SmallMotion, frequencies: Array) -> Array:
     """Σ n·m·σ²·(−Im[h_xx + h_yy]) [kg m/N] by forces that go round with the rotor at these frequencies.
 
     Where x and y are coupled, as by gyroscopic moments, −Im[h_xx + h_yy + i(h_yx − h_xy)].

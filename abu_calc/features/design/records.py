@@ -19,7 +19,7 @@ from abu_calc.simulation.records import StabilityBoundary, finite, stability_bou
 from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import WHEEL_PLANE
-from abu_calc.sizing.design import Design
+from abu_calc.sizing.design import Design, RaceDesign
 from abu_calc.sizing.drawing_requirements import hardness_text
 from abu_calc.sizing.handles import BodyBands
 from abu_calc.sizing.housing import RULES
@@ -447,7 +447,7 @@ class Section(Record):
     parts: tuple[SectionPart, ...]
 
     @classmethod
-    def of(cls, design: "Design") -> Self:
+    def of(cls, design: "Design | RaceDesign") -> Self:
         """Record of a design."""
         built = design.construction
         parts, quality, fit, seat = built.parts, built.quality, design.eccentricity.fit, built.seat
@@ -483,7 +483,7 @@ class Section(Record):
         )
 
 
-def _designation(design: "Design") -> str | None:
+def _designation(design: "Design | RaceDesign") -> str | None:
     """The bearing whose outer ring is the race; None for other designs."""
     ring = ring_of(design.case, design.autobalancer.race_radius)
     return None if ring is None else ring.designation

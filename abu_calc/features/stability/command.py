@@ -44,6 +44,18 @@ def stability(
         bool,
         typer.Option("--crossings", help="Also list every crossing of an eigenvalue."),
     ] = False,
+    attractors: Annotated[
+        bool,
+        typer.Option("--attractors", help="Also simulate many starts, and list every state in which they end."),
+    ] = False,
+    starts: Annotated[
+        int | None,
+        typer.Option("--starts", metavar="N", help="Starts drawn by lot for --attractors; default 64."),
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Seed of the starts drawn for --attractors.")] = 0,
+    only: Annotated[
+        str | None, typer.Option("--only", metavar="START", help="Follow this one start of --attractors: drawn-7.")
+    ] = None,
 ) -> Outcome:
     """Find whether the balanced state is stable, and at which speeds.
 
@@ -56,7 +68,7 @@ def stability(
     with progress(how) as tell:
         result = study(
             read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings,
-            progress=tell,
+            attractors=attractors, starts=starts, seed=seed, only=only, progress=tell,
         )  # fmt: skip
     return outcome_of(result)
 

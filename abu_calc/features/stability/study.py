@@ -14,6 +14,7 @@ from abu_calc.dynamics.stability.boundaries import Boundary, boundaries, crossin
 from abu_calc.dynamics.stability.stall import HangingBounds, hanging_bounds
 from abu_calc.dynamics.stability.verdict import Stability, critical_damping
 from abu_calc.dynamics.stability.verdict import stability as judged
+from abu_calc.features.stability.attractors import Attractor, AttractorSearch, attractors_of
 from abu_calc.features.stability.disturbed import DISTURBANCE, Consequence
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
 from abu_calc.foundation.checks import Check, verdict
@@ -116,6 +117,9 @@ FASTEST_RPM: Final = 1e6
 SPEEDS: Final = f"LOW:HIGH in rpm, above 0, ascending, up to {FASTEST_RPM:g}"
 """The range of speeds that can be asked for, in words."""
 
+DRAWN: Final = 64
+"""Starts that are drawn in a search for attractors unless a number is given."""
+
 SLOWEST, FASTEST = 0.1, 2.0
 """Range in which crossings are looked for unless one is given, in multiples of the scene's own speed."""
 
@@ -149,7 +153,7 @@ class StabilityResult(Result):
     command: ClassVar[str] = "stability"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
     optional: ClassVar[frozenset[str]] = frozenset(
-        {"arm_advice", "swing_arm", "arm_motion", "growth_by_speed", "consequence"}
+        {"arm_advice", "swing_arm", "arm_motion", "growth_by_speed", "consequence", "attractors", "attractor_search"}
     )
 
     model: SceneModel
@@ -174,6 +178,9 @@ class StabilityResult(Result):
     """Growth rates over the speeds asked for, of the arrangement that is worst at each."""
     consequence: ArrangementEnd | None = None
     """Outcome of balls in the worst arrangement, if it grows and others do not."""
+    attractors: tuple[Attractor, ...] | None = None
+    """All attractors that starts reach, if they were asked for."""
+    attractor_search: AttractorSearch | None = None
     searched_rpm: tuple[float, float] | None
     """The range of speeds that boundaries were looked for in."""
 
@@ -181,25 +188,35 @@ class StabilityResult(Result):
 @checked
 def stability(
     source: Source, scene: str | None = None, *, speeds_rpm: tuple[float, float] | None = None,
-    arrangement: str = "worst", crossings: bool = False, progress: Progress = silent,
+    arrangement: str = "worst", crossings: bool = False, attractors: bool = False, starts: int | None = None,
+    seed: int = 0, only: str | None = None, progress: Progress = silent,
 ) -> StabilityResult:  # fmt: skip
     """Judge the balanced state of a scene by eigenvalues or Floquet multipliers, and say whether balls may hang.
 
     `scene`: of a machine, see `SCENES`. With `speeds_rpm`, low and high, also every speed between them where stability
     changes; with `crossings` too, every speed where an eigenvalue crosses, though others grow already, without a range
     from a tenth to twice the scene's speed. `arrangement` of more than two balls in a race: the "worst" of all that
-    balance, the even "fan", or that to which they go from the "start" angles. Raises InputError, and
+    balance, the even "fan", or that to which they go from the "start" angles. `attractors` adds where starts end:
+    designed ones and `starts` (64) drawn by `seed`, or of these the one named `only`. Raises InputError, and
     NotTrustworthyError where multipliers do not settle.
     """
     one_of("scene", scene, SCENES)
     one_of("arrangement", arrangement, ARRANGEMENTS)
     _check_speeds(speeds_rpm)
+    if starts is not None and not attractors:
+        raise InputError("starts are followed for attractors alone", place=Place(key="starts"), found=str(starts),
+                         remedy="Add --attractors, Python: attractors=True.")  # fmt: skip
     way = next(name for name in ARRANGEMENTS if name == arrangement)
     subject = _subject(source, scene)
     if crossings and speeds_rpm is None:
         rated = from_si(subject.scene.speed, "rpm")
         speeds_rpm = SLOWEST * rated, min(FASTEST * rated, FASTEST_RPM)
     pressed = grinds(subject.scene)
+    if attractors and pressed:
+        raise InputError(
+            "the wheel is pressed to its workpiece: there is no balanced state to end at",
+            place=Place(key="attractors"), remedy="Leave grinding_contact out of the file, or ask for another --scene.",
+        )  # fmt: skip
     progress("balanced state")
     judgement = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.
@@ -207,10 +224,11 @@ def stability(
         progress(f"speeds from {speeds_rpm[0]:g} to {speeds_rpm[1]:g} rpm")
     limits = _limits(subject, speeds_rpm, way) if speeds_rpm and judgement.reason is None else None
     arm = _on_arm(subject, progress)
+    ends = attractors_of(subject, DRAWN if starts is None else starts, seed, progress, only) if attractors else None
     return StabilityResult.read(
         subject,
         judgement,
-        checks=(_check(judgement, way, pressed=pressed),),
+        checks=(_check(judgement, way, pressed=pressed), *(ends[2:] if ends else ())),
         warnings=(*subject.warnings, *stability_warnings(judgement, subject.scene, way), *arm.warnings),
         model=SceneModel.of(subject.scene),
         eigenvalues=_pairs(judgement.eigenvalues),
@@ -228,6 +246,8 @@ def stability(
         arm_motion=arm.motion,
         growth_by_speed=None if limits is None or speeds_rpm is None else _growth(subject, speeds_rpm, limits, way),
         consequence=_consequence(subject, judgement, way, progress),
+        attractors=ends[0] if ends else None,
+        attractor_search=ends[1] if ends else None,
         searched_rpm=speeds_rpm,
     )
 

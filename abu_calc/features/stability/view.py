@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from abu_calc.features.explain.steps import STEPS, Step, step_blocks
+from abu_calc.features.stability.attractors_view import attractor_blocks, attractor_figure
 from abu_calc.features.stability.study import Crossing, GrowthAt, Hanging, StabilityResult
 from abu_calc.features.swing_arm.view import BOUNDS, arm_bounds, arm_line, motion_blocks, printed_otherwise
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
@@ -55,6 +56,7 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
         *_crossings(result.crossings_rpm),
         *check_blocks(result.checks),
         *notices(result),
+        *(attractor_blocks(result) if result.attractors is not None else ()),
         Heading("Model", "model"),
         Paragraph(FORBIDDEN),
         *(printed_otherwise() if result.arm_motion else []),
@@ -152,7 +154,7 @@ RIM: Final = tuple((math.cos(math.tau * k / 90), math.sin(math.tau * k / 90)) fo
 
 def stability_extras(result: StabilityResult) -> Extras:
     """Figures, and the calculation note."""
-    figures = (*_over_speeds(result), *_eigenvalues(result), *_multipliers(result))
+    figures = (*_over_speeds(result), *_eigenvalues(result), *_multipliers(result), *attractor_figure(result))
     keys = (*FORMULAS, *(STEPS["swing-arm"].keys if result.swing_arm else ()))
     step = Step("Stability of the balanced state", keys)
     return Extras(figures, tuple(step_blocks(step, _numbers(result))))

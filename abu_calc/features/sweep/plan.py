@@ -12,14 +12,27 @@ from typing import Any, Final
 from abu_calc.features.sweep.columns import TEMPERATURE
 from abu_calc.features.sweep.samples import Builds, Designs, Scenes, SweepStudy
 from abu_calc.features.sweep.sampling import Factor, Sample
+from abu_calc.features.sweep.two_races import (
+    PHASE,
+    TwoRaceBuilds,
+    TwoRaceDesigns,
+    TwoRaceVariants,
+    phase_keys,
+    wheel_scatter,
+)
+from abu_calc.features.two_races.case import TwoRaceCase
+from abu_calc.features.two_races.case import read_case as read_two_races
+from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneDescription, SceneFile
+from abu_calc.inputs.two_races import MOST_WHEELS, TwoRaceFile
 from abu_calc.inputs.variation import MOST_RUNS, NOT_OF_THE_MACHINE, Sweep, Variants, Variation, path_of, variation
 from abu_calc.inputs.variation import RUNS as USUAL
 from abu_calc.simulation.arguments import one_of
@@ -91,7 +104,9 @@ NAMES: Final = ("runs", "what", "tolerances", "grid", "sensitivity", "sampling",
 
 
 def _given(source: Machine | SceneDescription) -> Sweep | None:
-    return source.sweep if isinstance(source, SceneDescription) else source.whole("sweep").sweep
+    if isinstance(source, SceneDescription):
+        return source.sweep
+    return source.whole("sweep").sweep if source.two_races is None else source.two_races.sweep
 
 
 def _table(source: Machine | SceneDescription) -> Sweep:
@@ -219,6 +234,13 @@ KEYS: Final = {
     "build": ("start.kind", "start.angle_deg", "start.eccentricity_deg", "start.temperature_C"),
     "design": (),
     "scene": ("start.angle_deg", "start.temperature_C"),
+    "two races": (
+        "start.kind",
+        "start.angle_deg",
+        "start.eccentricity_deg",
+        "start.temperature_C",
+        *(PHASE.format(number) for number in range(1, MOST_WHEELS + 1)),
+    ),
 }
 """Keys of the start, which no file has."""
 CHECKED: Final = 50
@@ -237,6 +259,8 @@ class Plan:
     design: Design | None
     grid: tuple[str, str] | None
     warnings: tuple[str, ...]
+    limits: Limits | None = None
+    """Limits of the file, if there is no design of one race."""
 
 
 def planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: float) -> Plan:
@@ -252,6 +276,8 @@ def planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: flo
 def _planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: float) -> Plan:
     if isinstance(source, SceneDescription):
         return _of_scene(source, ask, accuracy)
+    if source.two_races is not None:
+        return _of_two_races(source, source.two_races, ask, accuracy)
     tables = source.whole("sweep")
     with source.located():
         design = sized(tables)
@@ -269,6 +295,67 @@ def _planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: fl
         )
     study = Builds(sample, accuracy, ask.time_limit, variants, design)
     return Plan(study, variants.content, design, _grid(ask, sample), warnings)
+
+
+def _of_two_races(source: Machine, tables: TwoRaceFile, ask: SweepRequest, accuracy: float) -> Plan:
+    """The study of a machine with two races."""
+    with source.located():
+        design = choose_both(read_two_races(tables))
+    variants, building = TwoRaceVariants(Variants.of(source, TwoRaceFile).content, TwoRaceFile), ask.what == "build"
+    ways = dict(two_race_tolerances(design, building=building)) if ask.tolerances else {}
+    ways |= dict(ask.vary)
+    if building:
+        ways |= dict(two_race_starts(design.case, frozenset(ways)))
+    sample = _sample(ways, ask, "two races" if building else ask.what)
+    known = {key for key in ways if key.startswith(PHASE[:12])} - set(phase_keys(design.case))
+    if known:
+        raise InputError(
+            "the phase of this imbalance is known, or it is the one that others are measured from",
+            place=Place(key=f"vary {min(known)}"), allowed=", ".join(phase_keys(design.case)) or "none",
+        )  # fmt: skip
+    study: SweepStudy
+    if building:
+        study = TwoRaceBuilds(sample, accuracy, ask.time_limit, variants, design)
+    else:
+        study = TwoRaceDesigns(sample, accuracy, ask.time_limit, source)
+    return Plan(study, variants.content, None, _grid(ask, sample), _tried(variants, sample), tables.limits)
+
+
+def two_race_starts(case: TwoRaceCase, varied: frozenset[str]) -> Iterator[tuple[str, Variation]]:
+    """Start, unknown phases of the imbalances, drag and the side to which the races stand off, unless these vary."""
+    turn = "uniform(-180, 180)"
+    ways = {"start.kind": f"choice({','.join(KINDS)})", "start.angle_deg": turn}
+    ways |= dict.fromkeys(phase_keys(case), turn)
+    if case.eccentricity > 0 or "autobalancer.race_eccentricity_mm" in varied:
+        ways["start.eccentricity_deg"] = turn
+    if not any(key == WARMTH or key.endswith("rolling_drag_per_s") for key in varied) and min(case.drags) > 0:
+        alike = case.drags[0] == case.drags[1]
+        ways |= {DRAG: f"lognormal({case.drags[0]!r}, {WARM})"} if alike else {WARMTH: _warmth(None)}
+    yield from _scatter_ways({key: way for key, way in ways.items() if key not in varied})
+
+
+def two_race_tolerances(design: TwoRaceDesign, *, building: bool) -> Iterator[tuple[str, Variation]]:
+    """Balls and races as the drawing permits them; eccentricity, friction, wheels, springs and oil as is usual."""
+    case, tables, ways = design.case, design.case.table, dict[str, str]()
+    if building:
+        diameter = from_si(design.races[0].design.autobalancer.ball_diameter, "mm")
+        ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
+        for number, race in enumerate(design.races):
+            radius = from_si(race.design.autobalancer.race_radius, "mm")
+            ways[f"autobalancer.{number}.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
+        ways[WARMTH] = _warmth(None)
+    abu = tables.autobalancer[0]
+    if (off := abu.race_eccentricity_mm) > 0:
+        ways["autobalancer.race_eccentricity_mm"] = f"triangular(0, {off / 3!r}, {off!r})"
+    if (arm := abu.rolling_friction_mm) > 0:
+        ways["autobalancer.rolling_friction_mm"] = f"lognormal({arm!r}, {ROUGH})"
+    ways |= dict(wheel_scatter(case, WORN))
+    if (frequency := tables.suspension.natural_frequencies_hz) is not None:
+        ways["suspension.natural_frequencies_hz"] = f"lognormal({frequency!r}, {HELD})"
+    low, high = tables.machine.speed_range
+    if low < high:
+        ways["machine.speed_rpm"] = f"uniform({low!r}, {high!r})"
+    yield from _scatter_ways(ways)
 
 
 def _of_scene(source: SceneDescription, ask: SweepRequest, accuracy: float) -> Plan:
@@ -322,7 +409,7 @@ def _path(key: str, what: str) -> tuple[str | int, ...]:
     return path_of(key)
 
 
-def _tried(variants: Variants[MachineFile] | Variants[SceneFile], sample: Sample) -> tuple[str, ...]:
+def _tried(variants: Variants[MachineFile] | Variants[SceneFile] | TwoRaceVariants, sample: Sample) -> tuple[str, ...]:
     """Puts the ends of each value into the file, one at a time; notes of entries whose place they take."""
     notes: list[str] = []
     for factor in sample.factors:

@@ -13,14 +13,11 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.features.design.study import size
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, What, drag_ratio
 from abu_calc.features.sweep.sampling import Sample
 from abu_calc.features.sweep.time_limit import Overtime, limited
-from abu_calc.formulas.friction_band import friction_band
-from abu_calc.formulas.motion import SETTLED
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
@@ -32,7 +29,7 @@ from abu_calc.inputs.scene import SceneFile
 from abu_calc.inputs.variation import Variants
 from abu_calc.simulation.ensemble import WORK, outcome_of
 from abu_calc.simulation.ensemble_results import StartOutcome
-from abu_calc.simulation.residual_criteria import HALF, allowed_imbalance, balances, slip
+from abu_calc.simulation.residual_criteria import HALF, allowed_imbalance, allowed_of_scene, balances, slip
 from abu_calc.simulation.response import Response, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import scene_from
@@ -226,23 +223,8 @@ def scene_once(scene: Scene, tolerance: float) -> SceneOutcome:
     scene, _ = with_parted_balls(scene)
     response = _response(scene, tolerance, MOST_EVALUATIONS)
     slipping = slip(response, abs(response.final.speed) or scene.speed)
-    balanced = balances(response.residual_imbalance, _allowed(scene, response), slipping)
+    balanced = balances(response.residual_imbalance, allowed_of_scene(scene, response.ball_angles), slipping)
     return SceneOutcome(response, slipping, balanced)
-
-
-def _allowed(scene: Scene, response: Response) -> float:
-    """A tenth of the imbalance, and what eccentricity and dry friction leave; with friction at most half of it."""
-    mass = scene.support.felt_mass
-    eccentric, rolling = scene.effect("race_eccentricity"), scene.effect("dry_rolling_friction")
-    tenth = SETTLED * reference_imbalance(scene) + mass * getattr(eccentric, "magnitude", 0.0)
-    if rolling is None:
-        return tenth
-    arm, radius = getattr(rolling, "lever_arm", 0.0), getattr(rolling, "ball_radius", 1.0)
-    first, held = 0, 0.0
-    for race in scene.races:
-        angles = response.ball_angles[first : first + len(race.ball_masses)]
-        held, first = max(held, friction_band(arm, race.pitch_radius, radius, angles)), first + len(angles)
-    return max(tenth, min(tenth + mass * held, HALF * scene.imbalance))
 
 
 def _response(scene: Scene, tolerance: float, work: int) -> Response:

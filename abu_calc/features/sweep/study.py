@@ -226,7 +226,7 @@ def _answered(
     failing = () if study.what != "build" or late else failed_limits(store, sample, met, limits)
     given, many = ((), 0) if not isinstance(source, Machine) else advice(plan, ask, source, failing, store, again)
     quantities = answers.spreads(store, study.what)
-    tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
+    tables = source.scene if isinstance(source, SceneDescription) else source.tables.machine
     return SweepResult(
         title=getattr(tables, "name", Path(source.file).name),
         checks=(_numbers(failed, late, store.runs), _unless(late, _share(met, ask.least_share))),
@@ -301,9 +301,9 @@ def _share(met: MeetsLimits, least: float | None) -> Check:
 
 def _limits(plan: Plan) -> dict[str, float]:
     """Limits on the numbers that the file limits."""
-    if plan.design is None:
+    limits = plan.limits if plan.design is None else plan.design.case.table.limits
+    if limits is None:
         return {}
-    limits = plan.design.case.table.limits
     level = limits.vibration_level_db
     return {"level_db": level, "level_after_db": level, "settling_time_s": limits.settling_time_s}
 

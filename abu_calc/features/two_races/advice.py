@@ -1,6 +1,6 @@
-"""A change of the file that makes all start cases pass, found by simulating them: another drag rate, heavier balls."""
+"""Changes of the file that mend a check, each tried first: simulated, or calculated for the checks of a race."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import Final, NamedTuple
 
@@ -11,13 +11,20 @@ from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, to_si
 from abu_calc.standards.balls import stock_diameters
 
 FACTORS: Final = (2.0, 0.5, 3.0)
 """Factors on the given viscous drag rates that are tried."""
 LARGER: Final = (1.2, 1.45, 1.75)
 """Least factors on the diameter of the balls that are tried."""
+TRUER: Final = (0.5, 0.25)
+"""Factors on race eccentricity and rolling friction that are tried."""
+ROOM: Final = ("max_outer_diameter_mm", "max_width_mm")
+ROOMIER: Final = (1.25, 1.6)
+"""Factors on the room of both autobalancers that are tried."""
+HEAVIER: Final = (0.08, 0.15)
+"""Shares of the machine's mass that are tried for each autobalancer."""
 
 
 class Change(NamedTuple):
@@ -31,40 +38,102 @@ class Change(NamedTuple):
         """The entries as a sentence begins with them."""
         return " and ".join(f"{key} = {value:g}" for key, value in self.entries.items())
 
+    @property
+    def overrides(self) -> tuple[str, ...]:
+        """The entries as `--set` takes them."""
+        return tuple(f"autobalancer.{race}.{key}={value:g}" for race in (0, 1) for key, value in self.entries.items())
 
-def changed(design: TwoRaceDesign, entries: dict[str, float]) -> Change | None:
-    """The machine sized anew with these entries in both tables; None if it then breaks a limit, or cannot be made."""
+
+def failing(design: TwoRaceDesign) -> frozenset[tuple[str, int]]:
+    """Codes and races of the checks of capacity, mass and the races by themselves that do not pass."""
+    table, broken = design.case.table, set[tuple[str, int]]()
+    for index, (race, room) in enumerate(zip(design.races, table.autobalancer, strict=True)):
+        if race.design.autobalancer.mass > room.max_mass_fraction * table.machine.mass_kg:
+            broken.add(("ABU203", index))
+        if race.design.autobalancer.capacity < race.need * room.capacity_margin * (1 - 1e-9):
+            broken.add(("ABU201", index))
+        broken |= {(check.code, index) for check in race.design.checks if check.status != "pass"}
+    return frozenset(broken)
+
+
+def changed(
+    design: TwoRaceDesign, entries: dict[str, float], allowed: frozenset[tuple[str, int]] | None = None
+) -> Change | None:
+    """The machine sized anew with these entries in both tables; None if it cannot be made, or then breaks a limit.
+
+    `allowed`: checks that may fail; None: those that fail without the change.
+    """
     tables = tuple(race.model_copy(update=entries) for race in design.bare.table.autobalancer)
     table = design.bare.table.model_copy(update={"autobalancer": tables})
-    case = replace(design.bare, table=table)
+    eccentricity, friction = entries.get("race_eccentricity_mm"), entries.get("rolling_friction_mm")
+    case = replace(
+        design.bare,
+        table=table,
+        eccentricity=design.bare.eccentricity if eccentricity is None else to_si(eccentricity, "mm"),
+        friction_arm=design.bare.friction_arm if friction is None else to_si(friction, "mm"),
+    )
     try:
         sized = choose_both(case)
     except InputError:
         return None
-    for race, room in zip(sized.races, tables, strict=True):
-        light = race.design.autobalancer.mass <= room.max_mass_fraction * table.machine.mass_kg
-        carries = race.design.autobalancer.capacity >= race.need * room.capacity_margin * (1 - 1e-9)
-        if not (light and carries and all(check.status == "pass" for check in race.design.checks)):
-            return None
+    if not failing(sized) <= (failing(design) if allowed is None else allowed):
+        return None
     return Change(sized, entries)
 
 
-def _changes(design: TwoRaceDesign) -> Iterator[Change]:
+def _quicker(design: TwoRaceDesign) -> Iterator[Change]:
     """Drag rates first, then larger balls of the stock, with the given drag rate and twice that."""
     drag = max(design.case.drags)
     for factor in FACTORS:
         if change := changed(design, {"rolling_drag_per_s": _rounded(drag * factor)}):
             yield change
-    diameter = design.races[0].design.autobalancer.ball_diameter
-    stock = stock_diameters(design.case.table.autobalancer[0].ball_sizes)
-    for factor in LARGER:
-        larger = next((size for size in stock if size >= factor * diameter), None)
-        if larger is None:
-            return
-        ball = {"ball_diameter_mm": round(from_si(larger, "mm"), 6)}
+    for larger in _larger(design):
+        ball = {"ball_diameter_mm": larger}
         for entries in (ball, {**ball, "rolling_drag_per_s": _rounded(2 * drag)}):
             if change := changed(design, entries):
                 yield change
+
+
+def _larger(design: TwoRaceDesign) -> Iterator[float]:
+    """Diameters [mm] of larger balls in stock."""
+    diameter = design.races[0].design.autobalancer.ball_diameter
+    stock = stock_diameters(design.case.table.autobalancer[0].ball_sizes)
+    for factor in LARGER:
+        if larger := next((size for size in stock if size >= factor * diameter), None):
+            yield round(from_si(larger, "mm"), 6)
+
+
+def _quieter(design: TwoRaceDesign) -> Iterator[Change]:
+    """Truer races, cleaner races, both; then other drag rates."""
+    given = design.bare.table.autobalancer[0]
+    keys = [key for key in ("race_eccentricity_mm", "rolling_friction_mm") if getattr(given, key) > 0]
+    for factor in TRUER:
+        for chosen in (*((key,) for key in keys), tuple(keys)):
+            entries = {key: _rounded(getattr(given, key) * factor) for key in chosen}
+            if entries and (change := changed(design, entries)):
+                yield change
+    for factor in FACTORS:
+        if change := changed(design, {"rolling_drag_per_s": _rounded(max(design.case.drags) * factor)}):
+            yield change
+
+
+def _sturdier(design: TwoRaceDesign) -> Iterator[Change]:
+    """Truer and cleaner races, the next larger ball, more room, a larger share of the mass; then all of them."""
+    tables = design.bare.table.autobalancer
+    larger = next(_larger(design), None)
+    truer = [
+        {key: _rounded(getattr(tables[0], key) * factor) for key in ("race_eccentricity_mm", "rolling_friction_mm")}
+        for factor in TRUER
+    ]
+    rooms = [
+        {key: _rounded(max(getattr(table, key) for table in tables) * factor) for key in ROOM} for factor in ROOMIER
+    ]
+    heavier = [{"max_mass_fraction": share} for share in HEAVIER]
+    balls = [] if larger is None else [{"ball_diameter_mm": larger}]
+    together = [{**room, **heavier[-1]} for room in rooms] + [{**truer[0], **rooms[0]}]
+    for entries in (*truer, *balls, *rooms, *heavier, *together):
+        if change := changed(design, entries, frozenset()):
+            yield change
 
 
 def _rounded(value: float) -> float:
@@ -79,21 +148,69 @@ def tried_change(
     `late`: the slowest start case, which is tried first, `before`: its settling time [s] if it settles.
     """
     limit = design.case.table.limits.settling_time_s
-    for change in _changes(design):
-        first = run_of(change.design, late, accuracy)
-        if not isinstance(first, TwoRaceRun) or first.settling_time is None or first.settling_time > limit:
+
+    def in_time(run: TwoRaceRun) -> bool:
+        """True if the run balances within the limit."""
+        return run.balances and run.settling_time is not None and run.settling_time <= limit
+
+    mended = _mended(_quicker(design), late, in_time, accuracy, progress, workers)
+    if mended is None or (slow := slowest(mended[1])) is None:
+        return None
+    change, runs = mended
+    was = "" if before is None else f"from {before:.2f} "
+    return Action(
+        f"Set {change.text} in both [[autobalancer]] tables: the slowest start case falls {was}to {slow[0]:.2f} s "
+        f"(simulated). All {len(runs)} start cases, hot and cold oil included, then pass.",
+        change.overrides,
+    )
+
+
+def quieter_change(
+    design: TwoRaceDesign, loud: TwoRaceRun, accuracy: float, progress: Progress, workers: int
+) -> Action | None:
+    """The first change at which every start case balances below the level limit; None if none of those tried does."""
+    limits = design.case.table.limits
+
+    def quiet(run: TwoRaceRun) -> bool:
+        """True if the run balances below the limit."""
+        return run.balances and run.level <= limits.vibration_level_db
+
+    mended = _mended(_quieter(design), loud.case, quiet, accuracy, progress, workers)
+    if mended is None:
+        return None
+    change, runs = mended
+    return Action(
+        f"Set {change.text} in both [[autobalancer]] tables: the loudest start case falls from {loud.level:.1f} to "
+        f"{max(run.level for run in runs):.1f} dB (simulated, {len(runs)} start cases, hot and cold oil included).",
+        change.overrides,
+    )
+
+
+def sturdier_change(design: TwoRaceDesign) -> Action | None:
+    """The first change at which capacity, mass and the own checks of both races pass, calculated; None: none does."""
+    change = next(_sturdier(design), None)
+    if change is None:
+        return None
+    return Action(
+        f"Set {change.text} in both [[autobalancer]] tables: capacity, mass and strength of both races then pass "
+        "(calculated).",
+        change.overrides,
+    )
+
+
+def _mended(
+    changes: Iterable[Change], first: StartCase, passes: Callable[[TwoRaceRun], bool], accuracy: float,
+    progress: Progress, workers: int,
+) -> tuple[Change, list[TwoRaceRun]] | None:  # fmt: skip
+    """The first change at which every start case passes, with its runs; the start case `first` is tried before all."""
+    for change in changes:
+        run = run_of(change.design, first, accuracy)
+        if not isinstance(run, TwoRaceRun) or not passes(run):
             continue
         tasks = [(change.design, start, accuracy) for start in start_cases(change.design)]
         counting = counted(progress, f"{change.text}: {{}} of {{}} starts", len(tasks))
         runs = list(side_by_side(run_of, tasks, workers, counting))
-        known = [run for run in runs if isinstance(run, TwoRaceRun) and run.balances]
-        slow = slowest(known) if len(known) == len(runs) else None
-        if slow is None or slow[0] > limit:
-            continue
-        was = "" if before is None else f"from {before:.2f} "
-        return Action(
-            f"Set {change.text} in both [[autobalancer]] tables: the slowest start case falls {was}to {slow[0]:.2f} s "
-            f"(simulated). All {len(runs)} start cases, hot and cold oil included, then pass.",
-            tuple(f"autobalancer.{race}.{key}={value:g}" for race in (0, 1) for key, value in change.entries.items()),
-        )
+        known = [run for run in runs if isinstance(run, TwoRaceRun) and passes(run)]
+        if len(known) == len(runs):
+            return change, known
     return None

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from abu_calc.features.two_races.places import best_races
 from abu_calc.formulas.balls import INERTIA_FACTORS
 from abu_calc.formulas.two_races import (
     Bearing,
@@ -75,6 +76,13 @@ class TwoRaceCase:
         missing = sum(angle is None for angle in self.angles)
         return missing - 1 if missing == len(self.angles) else missing
 
+    def with_races(self, races: Pair) -> "TwoRaceCase":
+        """The machine with its races at these places [m]; levels that are wanted at the races go with them."""
+        own = {f"race {number}": place for number, place in enumerate(races, 1)}
+        at_races = not self.table.machine.handle and self.table.suspension.model != "bearings"
+        places = tuple(replace(held, place=own[held.name]) if at_races else held for held in self.places)
+        return replace(self, races=races, places=places)
+
     def carrying(self, masses: Pair) -> "TwoRaceCase":
         """The machine with autobalancers of these masses [kg] at their races, the centre of mass kept in its place."""
         added = sum(mass * place**2 for mass, place in zip(masses, self.races, strict=True))
@@ -107,7 +115,7 @@ def read_case(table: TwoRaceFile) -> TwoRaceCase:
     first, second = (to_si(race.plane_mm, "mm") for race in table.autobalancer)
     abu = table.autobalancer[0]
     low, high = machine.speed_range
-    return TwoRaceCase(
+    case = TwoRaceCase(
         table=table,
         rotor=rotor,
         wheels=wheels,
@@ -120,6 +128,25 @@ def read_case(table: TwoRaceFile) -> TwoRaceCase:
         inertia_factor=INERTIA_FACTORS[abu.corrector],
         places=_places(table),
     )
+    return _placed(case)
+
+
+def _placed(case: TwoRaceCase) -> TwoRaceCase:
+    """The case with its races at the best places of the stretches that the file allows."""
+    stretches = (_stretch(case.table.autobalancer[0]), _stretch(case.table.autobalancer[1]))
+    if stretches == (None, None):
+        return case
+    own = case.table.machine.handle or case.table.suspension.model == "bearings"
+    places = [held.place for held in case.places] if own else []
+    races = best_races(case.races, stretches, places, lambda pair: capacity_needs(replace(case, races=pair)))
+    return case.with_races(races)
+
+
+def _stretch(race: PlacedAutobalancer) -> Pair | None:
+    if race.plane_range_mm is None:
+        return None
+    low, high = race.plane_range_mm
+    return to_si(low, "mm"), to_si(high, "mm")
 
 
 def _bearings(table: TwoRaceFile) -> tuple[Bearing, ...]:
@@ -161,14 +188,25 @@ def felt_mass(case: TwoRaceCase, race: int) -> float:
 
 
 def capacity_needs(case: TwoRaceCase) -> Pair:
-    """Largest resultants [kg m] that the balls of each race must have, over all phases that are not known."""
+    """Largest resultants [kg m] that the balls of each race must have, over unknown phases and the speed range."""
+    by_speed = [_needs_at(case, speed) for speed in dict.fromkeys((case.speed, *case.speed_range))]
+    return max(needs[0] for needs in by_speed), max(needs[1] for needs in by_speed)
+
+
+def _needs_at(case: TwoRaceCase, speed: float) -> Pair:
+    """Largest resultants [kg m] at one speed [rad/s]."""
     spread = (case.eccentricity, case.eccentricity)
-    worst = worst_resultants(case.rotor, case.races, case.wheels, spread, case.speed)
+    worst = worst_resultants(case.rotor, case.races, case.wheels, spread, speed)
     if case.unknown_phases:
         return worst
     exact = balancing_resultants(case.races, case.turned(()))
-    off = [worst_resultants(case.rotor, case.races, (), spread, case.speed)[race] for race in (0, 1)]
+    off = eccentric_needs(case, speed)
     return abs(exact[0]) + off[0], abs(exact[1]) + off[1]
+
+
+def eccentric_needs(case: TwoRaceCase, speed: float) -> Pair:
+    """Largest resultants [kg m] that the eccentricity of both races asks for at a speed [rad/s]."""
+    return worst_resultants(case.rotor, case.races, (), (case.eccentricity, case.eccentricity), speed)
 
 
 def typical_needs(case: TwoRaceCase) -> Pair:
@@ -193,7 +231,7 @@ def one_race_machine(case: TwoRaceCase, race: int, need: float, ball_mm: float |
     abu, machine, limits = case.table.autobalancer[race], case.table.machine, case.table.limits
     mass = felt_mass(case, race)
     wheel = min(0.1 * mass, case.table.wheel[0].mass_kg)
-    given = abu.model_dump(exclude={"plane_mm", "plane_offset_mm"}, exclude_unset=True)
+    given = abu.model_dump(exclude={"plane_mm", "plane_offset_mm", "plane_range_mm"}, exclude_unset=True)
     share = abu.max_mass_fraction * machine.mass_kg / (mass - wheel)
     frequency = max((*case.rotor.critical_speeds(), 1e-3))
     return MachineFile.model_validate(

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.records import OneRace, TwoRaceVibration
-from abu_calc.features.two_races.start_cases import STILL, LostRun, TwoRaceRun, level_of
+from abu_calc.features.two_races.start_cases import LostRun, TwoRaceRun
 from abu_calc.formulas.two_races import two_races_balance
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
@@ -62,7 +62,10 @@ def stability_check(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> 
     )  # fmt: skip
 
 
-def capacity_checks(design: TwoRaceDesign) -> Iterator[Check]:
+NO_OTHER_MAKE = "No larger ball, room, share of mass, or truer race that was tried helps. Reduce the imbalances."
+
+
+def capacity_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator[Check]:
     """ABU201 for each race: its balls carry the required capacity times the margin."""
     for number, race in enumerate(design.races, 1):
         table = design.case.table.autobalancer[number - 1]
@@ -73,20 +76,20 @@ def capacity_checks(design: TwoRaceDesign) -> Iterator[Check]:
             f"{race.design.autobalancer.ball_count} balls must carry the required capacity of the worst phase times "
             f"the margin {table.capacity_margin:g}", from_si(race.design.autobalancer.capacity, "g_mm"),
             from_si(needed, "g_mm"), "g·mm",
-            None if passed else f"Increase max_outer_diameter_mm or max_width_mm of [[autobalancer]] {number}.",
+            None if passed else action or NO_OTHER_MAKE,
             "least", of=f"race {number}",
         )  # fmt: skip
 
 
-def race_checks(design: TwoRaceDesign) -> Iterator[Check]:
-    """Checks of each race by itself; their actions were tried on one race, so they are left out here."""
+def race_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator[Check]:
+    """Checks of each race by itself; their actions were tried on one race, so `action` of both takes their place."""
     for number, race in enumerate(design.races, 1):
         for check in race.design.checks:
-            remedy = None if check.status == "pass" else "Change the keys of that [[autobalancer]]; see `abu explain`."
-            yield replace(check, name=f"{check.name}, race {number}", remedy=remedy, overrides=())
+            bare = replace(check, name=f"{check.name}, race {number}", remedy=None, overrides=())
+            yield bare if check.status == "pass" else bare.with_action(action or NO_OTHER_MAKE)
 
 
-def mass_checks(design: TwoRaceDesign) -> Iterator[Check]:
+def mass_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator[Check]:
     """ABU203 for each autobalancer: its share of the mass of the machine."""
     machine = design.case.table.machine.mass_kg
     for number, (race, table) in enumerate(zip(design.races, design.case.table.autobalancer, strict=True), 1):
@@ -95,28 +98,32 @@ def mass_checks(design: TwoRaceDesign) -> Iterator[Check]:
         yield coded(
             "ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",
             100 * share, 100 * table.max_mass_fraction, "%",
-            None if passed else f"Balance the wheels better, or raise max_mass_fraction of [[autobalancer]] {number}.",
+            None if passed else action or NO_OTHER_MAKE,
             of=f"race {number}",
         )  # fmt: skip
 
 
-def level_checks(design: TwoRaceDesign, vibration: TwoRaceVibration, runs: Sequence[TwoRaceRun]) -> Iterator[Check]:
-    """ABU401 and ABU402: levels of the loudest place against the limit, and against those without autobalancers."""
+NO_QUIETER = "No smaller eccentricity, friction, or other drag rate that was tried helps. Balance the wheels."
+
+
+def level_checks(
+    design: TwoRaceDesign, vibration: TwoRaceVibration, runs: Sequence[TwoRaceRun], action: Action | None = None
+) -> Iterator[Check]:
+    """ABU401 and ABU402: levels of the loudest place against the limit, and against those without autobalancers.
+
+    `action`: one that was tried and brings all start cases below the limit.
+    """
     limit = design.case.table.limits.vibration_level_db
     if vibration.level_after_db is None:
         yield coded("ABU401", "not-done", "No start case balances, so no level is known", remedy="See ABU701.")
         return
-    given = max(
-        level_of(max(run.displacements), design.case.speed) for run in runs if run.case.drag_factor == 1
-    )  # fmt: skip
-    # What eccentricity leaves is a displacement: it is loudest at the top of the speed range.
-    loudest = max(level_of(max(run.displacements), max(design.case.speed_range)) for run in runs)
+    given, loudest = max(run.level for run in runs if run.case.drag_factor == 1), max(run.level for run in runs)
     passed, safe = given <= limit, loudest <= limit
     yield coded(
         "ABU401", verdict(passed, safe),
         "Level at the loudest place with the autobalancers, loudest start case at the given drag rate"
-        + ("" if safe else f"; in any oil, at the highest speed {loudest:.1f} dB"), given, limit, "dB",
-        None if passed and safe else "Reduce race_eccentricity_mm and rolling_friction_mm of both races.",
+        + ("" if safe else f"; in any oil {loudest:.1f} dB"), given, limit, "dB",
+        None if passed and safe else action or NO_QUIETER,
     )  # fmt: skip
     lowered = vibration.level_after_db < vibration.level_before_db
     yield coded(
@@ -138,8 +145,10 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
     lost = [run for run in runs if isinstance(run, LostRun)]
     if lost:
         text = f"{len(lost)} of {len(runs)} start cases gave no answer: {lost[0].reason}"
+        hurried = any("--patience" in run.reason for run in lost)
+        remedy = "Allow more time: --patience." if hurried else "Specify a coarser --accuracy."
         for code in ("ABU701", "ABU702", "ABU704"):
-            yield coded(code, "not-done", text, remedy="Allow more time: --patience.")
+            yield coded(code, "not-done", text, remedy=remedy)
         return
     known = [run for run in runs if isinstance(run, TwoRaceRun)]
     given, limit = [run for run in known if run.case.drag_factor == 1], design.case.table.limits.settling_time_s
@@ -161,7 +170,7 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
         + ("" if all_in_time or slow_anywhere is None else f"; in hot or cold oil {slow_anywhere[0]:.2f} s"),
         None if slow is None else slow[0], limit, "s", None if in_time and all_in_time else action or OTHERWISE,
     )  # fmt: skip
-    stalled = [run for run in known if run.slip > STILL]
+    stalled = [run for run in known if run.stalls]
     at_given = [run for run in stalled if run.case.drag_factor == 1]
     yield coded(
         "ABU704", verdict(not at_given, not stalled), "Start cases that leave balls stalled"

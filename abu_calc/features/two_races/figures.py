@@ -1,7 +1,8 @@
-"""Figures of a machine with two races: displacement against speed, without autobalancers and balanced."""
+"""Figures of a machine with two races: section of both, displacement against speed in closed form and in a run-up."""
 
 from collections.abc import Iterator
 
+from abu_calc.features.two_races.drawing import both_sections
 from abu_calc.features.two_races.records import TwoRaceSizeResult
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
@@ -11,7 +12,37 @@ SECTION = "vibration"
 
 def two_race_extras(result: TwoRaceSizeResult) -> Extras:
     """Figures of the page."""
-    return Extras(tuple(_over_speed(result)))
+    return Extras((*_section(result), *_over_speed(result), *_run_up(result)))
+
+
+def _section(result: TwoRaceSizeResult) -> Iterator[Figure]:
+    drawing = both_sections(result)
+    drawn = f"{drawing.scale:g}:1" if drawing.scale >= 1 else f"1:{1 / drawing.scale:g}"
+    yield Figure("section", "make", drawing, f"Sections through the axis, drawn to scale {drawn}, sizes in mm.")
+
+
+def _run_up(result: TwoRaceSizeResult) -> Iterator[Figure]:
+    """Amplitude against speed of the simulated run-up."""
+    points = result.run_up
+    if not points:
+        return
+    without = [(point.speed_rpm, point.without_um) for point in points]
+    balls = [(point.speed_rpm, point.with_um) for point in points if point.with_um is not None]
+    lines = [Curve(without, "without autobalancers")]
+    lines += [Curve(balls, "with balls", 2)] if balls else []
+    across = Axis.around("speed [rpm]", (speed for speed, _ in without))
+    up = Axis.around("displacement, 0–peak [µm]", [0.0, *(value for _, value in (*without, *balls))])
+    highest = max((value for _, value in balls), default=0.0)
+    text = (
+        f"Largest displacement in the run-up: {max(value for _, value in without):.0f} µm without autobalancers, "
+        f"{highest:.0f} µm with balls; at the end {without[-1][1]:.1f} and {balls[-1][1] if balls else 0.0:.1f} µm."
+    )
+    caption = (
+        "Simulated run-up: largest displacement of any place in each revolution against speed, imbalances of unknown "
+        "phase in phase, balls together at the start. Balls do not help below the critical speeds. At full speed they "
+        "settle: the curve falls there."
+    )
+    yield Figure("run-up", SECTION, Plot("Run-up", text, across, up, lines), caption)
 
 
 def _over_speed(result: TwoRaceSizeResult) -> Iterator[Figure]:
@@ -19,7 +50,7 @@ def _over_speed(result: TwoRaceSizeResult) -> Iterator[Figure]:
     without = [(point.speed_rpm, point.without_um) for point in response]
     balanced = [(point.speed_rpm, point.balanced_um) for point in response if point.balanced_um is not None]
     lines = [Curve(without, "without autobalancers")]
-    lines += [Curve(balanced, "balanced, closed form")] if balanced else []
+    lines += [Curve(balanced, "balanced, closed form", 2)] if balanced else []
     across = Axis.around("speed [rpm]", (speed for speed, _ in without))
     up = Axis.around("displacement, 0–peak [µm]", [0.0, *(value for _, value in (*without, *balanced))])
     speeds = ", ".join(f"{speed:.0f}" for speed in result.frequency.critical_speeds_rpm)

@@ -2,7 +2,7 @@
 
 from typing import Annotated, ClassVar, Self
 
-from abu_calc.features.design.records import AutobalancerRecord
+from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
@@ -119,6 +119,15 @@ class TwoRaceResponse(Record):
 
 
 @record
+class TwoRaceRunUp(Record):
+    """Largest displacement of any place in one revolution of the simulated run-up, imbalances in phase."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    without_um: Annotated[float, Quantity("displacement without autobalancers", "w")]
+    with_um: Annotated[float | None, Quantity("displacement with balls", "w", 4, "null: no trustworthy run")]
+
+
+@record
 class TwoRaceSizeResult(Result):
     """A design of two autobalancers on one spindle, its checks, and simulated start cases."""
 
@@ -130,7 +139,10 @@ class TwoRaceSizeResult(Result):
     required_capacity_g_mm: Annotated[float, Quantity("required capacity of the first race", "V_1")]
     autobalancer: TwoRaceAutobalancer
     autobalancers: tuple[TwoRaceAutobalancer, ...]
+    eccentricities: tuple[Eccentricity, ...]
+    sections: tuple[Section, ...]
     one_race: OneRace | None
     vibration: TwoRaceVibration
     ensemble: TwoRaceEnsemble | None
     response: tuple[TwoRaceResponse, ...]
+    run_up: tuple[TwoRaceRunUp, ...]

@@ -18,12 +18,14 @@ from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.dynamics.trajectory import Samples
+from abu_calc.features.two_races.case import TwoRaceCase
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.motion import HARDLY, SETTLED
+from abu_calc.formulas.two_races import PlacedImbalance
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import level_from_velocity
+from abu_calc.foundation.units import from_si, level_from_velocity
 from abu_calc.simulation.response import amplitude_window
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.simulate import simulate
@@ -47,23 +49,34 @@ SMALLEST: Final = 1e-12
 """Displacement [m] that counts as none."""
 PER_TURN: Final = 16
 """Samples of a revolution."""
+ACCURACY: Final = 0.05
+"""Accuracy of a start case: many of them are simulated."""
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class StartCase:
-    """One start: where the balls are, factor on the drag, phases of the imbalances of unknown phase [rad]."""
+    """One start: where the balls are, factor on the drag, phases of the imbalances of unknown phase [rad].
+
+    `speed` [rad/s]: the full one, None: the rated speed. `ahead` [rad]: middle of bunched balls, or the first of balls
+    spread, from what the race has to balance. `race_centre` [rad]: side of the race centres, from the resultant of
+    the imbalances.
+    """
 
     start: Start
     drag_factor: float = 1.0
     phases: tuple[float, ...] = ()
+    speed: float | None = None
+    ahead: float | None = None
+    race_centre: float = 0.0
 
     @property
     def name(self) -> str:
         """Start case in words."""
         phase = f", phase {', '.join(f'{math.degrees(each):.0f}°' for each in self.phases)}" if self.phases else ""
-        return f"{self.start}{phase}"
+        speed = "" if self.speed is None else f", {from_si(self.speed, 'rpm'):.6g} rpm"
+        return f"{self.start}{phase}{speed}"
 
 
 @dataclass(frozen=True)
@@ -81,6 +94,19 @@ class TwoRaceRun:
     settling_time: float | None
     slip: float
     balances: bool
+    speed: float
+    residuals: tuple[float, float] = (0.0, 0.0)
+    """Residual imbalance [kg m] of each race at the end."""
+
+    @property
+    def stalls(self) -> bool:
+        """True if balls stall."""
+        return self.slip > STILL
+
+    @property
+    def level(self) -> float:
+        """Velocity level [dB] of the loudest place, at the speed of the run."""
+        return level_of(max(self.displacements), self.speed)
 
 
 @dataclass(frozen=True)
@@ -94,22 +120,38 @@ class LostRun:
 def start_cases(design: TwoRaceDesign) -> Iterator[StartCase]:
     """All start cases: at the drag given over all phases, at hot and cold oil where imbalances are in and out of phase.
 
-    Several imbalances of unknown phase turn together: each by the phase times its number.
+    Several imbalances of unknown phase turn together: each by the phase times its number. Both ends of a speed range
+    are tried with imbalances in and out of phase: at the lowest speed balls stall first and settle latest, at the
+    highest they are loudest.
     """
     unknown = design.case.unknown_phases
     turned = [tuple(phase * k for k in range(1, unknown + 1)) for phase in PHASES] if unknown else [()]
-    for factor in DRAGS:
-        for phases in turned if factor == 1 else turned[:: max(1, len(turned) // 2)]:
-            yield from (StartCase(start, factor, phases) for start in STARTS)
+    few = turned[:: max(1, len(turned) // 2)]
+    for speed in (None, *speed_ends(design.case)):
+        for factor in DRAGS:
+            for phases in turned if factor == 1 and speed is None else few:
+                yield from (StartCase(start, factor, phases, speed) for start in STARTS)
+
+
+def speed_ends(case: TwoRaceCase) -> tuple[float, ...]:
+    """Ends of the speed range [rad/s] other than the rated speed."""
+    return tuple(end for end in dict.fromkeys(case.speed_range) if not math.isclose(end, case.speed))
+
+
+def at_speed(design: TwoRaceDesign, speed: float | None) -> TwoRaceDesign:
+    """The design with this speed as the rated one [rad/s]; None: as it is."""
+    return design if speed is None else replace(design, case=replace(design.case, speed=speed))
 
 
 def scene_of(design: TwoRaceDesign, start: StartCase) -> Scene:
     """The scene of a start case, with gravity (horizontal spindle), friction, ball contact and race eccentricity.
 
-    The race centres are off toward the resultant of the imbalances, which asks the balls of both races for more.
+    The race centres are off toward the resultant of the imbalances, which asks the balls of both races for more,
+    unless the start case gives another side.
     """
+    design = at_speed(design, start.speed)
     case = design.case
-    wheels = case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    wheels = _wheels(design, start)
     static = sum((wheel.imbalance for wheel in wheels), 0j)
     couple = sum((wheel.place * wheel.imbalance for wheel in wheels), 0j)
     bearings = case.rotor.bearings
@@ -132,9 +174,20 @@ def scene_of(design: TwoRaceDesign, start: StartCase) -> Scene:
         start_velocity=freedoms,
         couple=abs(couple),
         couple_angle=cmath.phase(couple) if couple else 0.0,
-        effects=in_order(_effects(design, run_up, cmath.phase(static) if static else 0.0)),
+        effects=in_order(_effects(design, run_up, race_centre(design, start))),
     )
     return with_parted_balls(scene)[0]
+
+
+def race_centre(design: TwoRaceDesign, start: StartCase) -> float:
+    """Angle [rad] of the race centres from the zero mark in this start case."""
+    static = sum((wheel.imbalance for wheel in _wheels(design, start)), 0j)
+    return start.race_centre + (cmath.phase(static) if static else 0.0)
+
+
+def _wheels(design: TwoRaceDesign, start: StartCase) -> tuple[PlacedImbalance, ...]:
+    """Imbalances at the phases of this start case."""
+    return design.case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
 
 
 def _first_is_unknown(design: TwoRaceDesign) -> bool:
@@ -143,7 +196,7 @@ def _first_is_unknown(design: TwoRaceDesign) -> bool:
 
 def wheels_share(design: TwoRaceDesign, race: int, start: StartCase) -> complex:
     """Imbalance [kg m] that a race has to balance in this start case."""
-    wheels = design.case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    wheels = _wheels(design, start)
     shares = design.races[race].shares
     return sum((share * wheel.imbalance for share, wheel in zip(shares, wheels, strict=True)), 0j)
 
@@ -170,12 +223,14 @@ def _race(design: TwoRaceDesign, race: int, start: StartCase, imbalance: complex
     sized = design.races[race]
     abu = sized.design.autobalancer
     count, heavy = abu.ball_count, cmath.phase(imbalance) if imbalance else 0.0
+    ahead = AHEAD if start.ahead is None else start.ahead
     beta = half_angle(abu.ball_diameter / 2, abu.pitch_radius) * (1 + 1e-9)
     if start.start == "spread":
-        angles = [heavy + 2 * math.pi * k / count for k in range(count)]
+        first = heavy + (0.0 if start.ahead is None else start.ahead)
+        angles = [first + 2 * math.pi * k / count for k in range(count)]
     else:
         # A run-up of a horizontal spindle begins with the balls at the bottom of the race.
-        middle = -math.pi / 2 if start.start == "run-up" and design.case.horizontal else heavy + AHEAD
+        middle = -math.pi / 2 if start.start == "run-up" and design.case.horizontal else heavy + ahead
         angles = [middle + beta * (2 * k - count + 1) for k in range(count)]
     standing = start.start == "standstill"
     return Race(
@@ -192,28 +247,30 @@ def _race(design: TwoRaceDesign, race: int, start: StartCase, imbalance: complex
 
 def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceRun | LostRun:
     """One start case simulated to an accuracy, and what came of both races."""
-    scene = scene_of(design, start)
+    design, scene = at_speed(design, start.speed), scene_of(design, start)
     times = revolution_times(scene)
     try:
         run = simulate(scene, accuracy, times)
     except NotTrustworthyError as error:
         return LostRun(start, str(error).splitlines()[0])
     case = design.case
-    wheels = case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    wheels = _wheels(design, start)
     bare = [abs(case.rotor.whirl(place, wheels, case.speed)) for place in case.races]
     window = amplitude_window(scene).times
     ends = [_amplitude(scene, run.trajectory, window, place) for place in case.races]
     speeds = run.response.final.ball_speeds
     slip = max(map(abs, speeds), default=0.0) / case.speed
+    states, needs = run.trajectory.at(times), (wheels_share(design, 0, start), wheels_share(design, 1, start))
+    left = residual_imbalances(scene, states, needs)
     return TwoRaceRun(
         case=start,
         race_displacements=(ends[0], ends[1]),
         displacements=tuple(_amplitude(scene, run.trajectory, window, held.place) for held in case.places),
         displacements_without=tuple(abs(case.rotor.whirl(held.place, wheels, case.speed)) for held in case.places),
-        settling_time=settling_time(
-            scene, run.trajectory.at(times), (wheels_share(design, 0, start), wheels_share(design, 1, start))
-        ),
+        settling_time=settling_time(scene, states, needs),
         slip=slip,
+        speed=case.speed,
+        residuals=(_end(left[0]), _end(left[1])),
         balances=slip <= STILL and all(
             end <= max(without / 2, allowed_displacement(design, k))
             for k, (end, without) in enumerate(zip(ends, bare, strict=True))
@@ -250,18 +307,29 @@ def settling_time(scene: Scene, states: Array, needs: tuple[complex, complex]) -
     That is |S_i + Σ m·R_p·e^{iθ}|, S_i what the race has to balance [kg m]. The race has settled when it stays below
     its mean over the last twentieth plus a tenth of S_i, or of a hundredth of what its balls could carry.
     """
-    first, last = 2 * len(scene.support.names), 0
-    for race, need in zip(scene.races, needs, strict=True):
-        count = len(race.ball_masses)
-        moments = np.array(race.ball_masses) * race.pitch_radius
-        residual = np.abs(need + moments @ np.exp(1j * states[first : first + count]))
-        first += count
-        end = residual[-max(1, len(residual) // 20) :].mean()
-        limit = end + SETTLED * max(abs(need), HARDLY * race.static_moment)
+    last = 0
+    for race, need, residual in zip(scene.races, needs, residual_imbalances(scene, states, needs), strict=True):
+        limit = _end(residual) + SETTLED * max(abs(need), HARDLY * race.static_moment)
         above = np.flatnonzero(residual > limit)
         last = max(last, int(above[-1]) + 1 if len(above) else 0)
     time = last * scene.revolution / PER_TURN
     return time if time <= 0.95 * (scene.duration - scene.full_speed) else None
+
+
+def residual_imbalances(scene: Scene, states: Array, needs: tuple[complex, complex]) -> tuple[Array, Array]:
+    """Residual imbalance [kg m] of each race at these states: |S_i + Σ m·R_p·e^{iθ}|."""
+    first, found = 2 * len(scene.support.names), []
+    for race, need in zip(scene.races, needs, strict=True):
+        count = len(race.ball_masses)
+        moments = np.array(race.ball_masses) * race.pitch_radius
+        found.append(np.abs(need + moments @ np.exp(1j * states[first : first + count])))
+        first += count
+    return found[0], found[1]
+
+
+def _end(residual: Array) -> float:
+    """Mean over the last twentieth."""
+    return float(residual[-max(1, len(residual) // 20) :].mean())
 
 
 def every_run(design: TwoRaceDesign, accuracy: float) -> Iterator[TwoRaceRun | LostRun]:

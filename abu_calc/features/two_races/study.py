@@ -6,8 +6,9 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.dynamics.stability.verdict import stability
-from abu_calc.features.two_races.advice import tried_change
-from abu_calc.features.two_races.case import TwoRaceCase, read_case
+from abu_calc.features.design.records import Eccentricity, Section
+from abu_calc.features.two_races.advice import quieter_change, sturdier_change, tried_change
+from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, read_case
 from abu_calc.features.two_races.checks import (
     SpeedStability,
     capacity_checks,
@@ -20,6 +21,7 @@ from abu_calc.features.two_races.checks import (
     start_checks,
 )
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.two_races.places import arms
 from abu_calc.features.two_races.records import (
     OneRace,
     PlaceOnSpindleLevel,
@@ -27,13 +29,15 @@ from abu_calc.features.two_races.records import (
     TwoRaceEnsemble,
     TwoRaceFrequency,
     TwoRaceResponse,
+    TwoRaceRunUp,
     TwoRaceSizeResult,
     TwoRaceSpread,
     TwoRaceVibration,
 )
+from abu_calc.features.two_races.run_up import run_up_amplitudes
 from abu_calc.features.two_races.start_cases import (
+    ACCURACY,
     PHASES,
-    STILL,
     LostRun,
     TwoRaceRun,
     level_of,
@@ -50,21 +54,21 @@ from abu_calc.formulas.two_races import (
     two_races_balance,
 )
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Action
+from abu_calc.foundation.checks import Action, Check
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.parallel import processors, side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.result import Provenance
 
 ONE_RACE_PLACES: Final = 9
 """Places of a single race that are tried between both races."""
+RUN_UP_ACCURACY: Final = 0.01
+"""Accuracy of the run-up that is drawn."""
 RESPONSE_TO: Final = 1.1
 RESPONSE_STEPS: Final = 200
 """Top of the speeds of the response over the highest working speed, and their number."""
-ACCURACY: Final = 0.05
-"""Accuracy of a start case: many of them are simulated."""
 
 
 def size_two_races(
@@ -94,10 +98,8 @@ def size_two_races(
         checks=(
             region_check(design, one),
             *stability_check(design, judged),
-            *capacity_checks(design),
-            *race_checks(design),
-            *mass_checks(design),
-            *level_checks(design, vibration, known),
+            *_made(design),
+            *level_checks(design, vibration, known, _quieter(design, known, accuracy, progress, threads)),
             *start_checks(design, runs, _advice(design, known, accuracy, progress, threads)),
         ),
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
@@ -108,10 +110,13 @@ def size_two_races(
         required_capacity_g_mm=from_si(design.races[0].need, "g_mm"),
         autobalancer=TwoRaceAutobalancer.of_race(design, 0),
         autobalancers=tuple(TwoRaceAutobalancer.of_race(design, index) for index in (0, 1)),
+        eccentricities=tuple(Eccentricity.of(race.design.eccentricity) for race in design.races),
+        sections=tuple(Section.of(race.design) for race in design.races),
         one_race=one,
         vibration=vibration,
         ensemble=_ensemble(runs),
         response=tuple(_response(design.case)),
+        run_up=tuple(_run_up(design, progress)),
     )
 
 
@@ -131,11 +136,22 @@ def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
         )
 
 
+def _run_up(design: TwoRaceDesign, progress: Progress) -> Iterator[TwoRaceRunUp]:
+    """Displacements of the simulated run-up; none if the time of --patience is over."""
+    if patience.over():
+        return
+    progress("run-up, with and without balls")
+    for point in run_up_amplitudes(design, RUN_UP_ACCURACY):
+        yield TwoRaceRunUp(
+            speed_rpm=from_si(point.speed, "rpm"),
+            without_um=from_si(point.without, "um"),
+            with_um=None if point.with_balls is None else from_si(point.with_balls, "um"),
+        )
+
+
 def _off(case: TwoRaceCase) -> float:
     """Displacement [m] of the place that moves most while both races rotate about their eccentric centres."""
-    first, second = case.races
-    arms = ((abs(held.place - second) + abs(held.place - first)) / abs(first - second) for held in case.places)
-    return case.eccentricity * max(arms)
+    return case.eccentricity * arms([held.place for held in case.places], case.races)
 
 
 def _advice(
@@ -149,6 +165,26 @@ def _advice(
     slow = slowest(runs)
     first = slow[1] if slow is not None else next((run for run in late if run.settling_time is None), late[0])
     return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers)
+
+
+def _made(design: TwoRaceDesign) -> Iterator[Check]:
+    """Checks of what is made: capacity, the races by themselves, mass; a change is tried if one does not pass."""
+    checks = (*capacity_checks(design), *race_checks(design), *mass_checks(design))
+    if all(check.status == "pass" for check in checks) or patience.over():
+        yield from checks
+        return
+    action = sturdier_change(design)
+    yield from (*capacity_checks(design, action), *race_checks(design, action), *mass_checks(design, action))
+
+
+def _quieter(
+    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int
+) -> Action | None:
+    """A truer or cleaner race that was tried, if a start case is too loud."""
+    loud = max(runs, key=lambda run: run.level, default=None)
+    if loud is None or loud.level <= design.case.table.limits.vibration_level_db or patience.over():
+        return None
+    return quieter_change(design, loud, accuracy, progress, workers)
 
 
 def _runs(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int) -> Iterator[TwoRaceRun | LostRun]:
@@ -183,7 +219,7 @@ def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
 
 def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibration:
     """Levels at every place: without autobalancers at the worst of the phases, with them over the start cases."""
-    given = [run for run in runs if run.case.drag_factor == 1 and run.balances]
+    given = [run for run in runs if run.case.drag_factor == 1 and run.case.speed is None and run.balances]
     rows = []
     for index, held in enumerate(case.places):
         without = sum(abs(case.rotor.whirl(held.place, [wheel], case.speed)) for wheel in case.wheels)
@@ -195,9 +231,7 @@ def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibratio
                 name=held.name,
                 level_before_db=level_of(without, case.speed),
                 level_after_db=level_of(statistics.median(medians), case.speed) if medians else None,
-                level_after_worst_db=level_of(max(run.displacements[index] for run in runs), case.speed)
-                if runs
-                else None,
+                level_after_worst_db=_largest([level_of(run.displacements[index], run.speed) for run in runs]),
             )
         )
     before = max(row.level_before_db for row in rows)
@@ -225,7 +259,7 @@ def _ensemble(runs: Sequence[TwoRaceRun | LostRun]) -> TwoRaceEnsemble | None:
     return TwoRaceEnsemble(
         members=len(runs),
         balanced=sum(run.balances for run in known),
-        hanging=sum(run.slip > STILL for run in known),
+        hanging=sum(run.stalls for run in known),
         lost=len(runs) - len(known),
         settling_time_s=TwoRaceSpread(
             typical=statistics.median(settled) if len(settled) == len(times) else None,
@@ -283,7 +317,31 @@ def _one_race(design: TwoRaceDesign) -> OneRace | None:
     )
 
 
+def _search_notes(design: TwoRaceDesign) -> Iterator[str]:
+    """Places that were searched, with the displacement and capacities that they and the given ones ask for."""
+    case = design.bare
+    given = first, second = [to_si(race.plane_mm, "mm") for race in case.table.autobalancer]
+    if all(race.plane_range_mm is None for race in case.table.autobalancer):
+        return
+    before = case.with_races((first, second))
+    needs, needs_before = capacity_needs(case), capacity_needs(before)
+    for number, (race, place, old) in enumerate(zip(case.table.autobalancer, case.races, given, strict=True), 1):
+        if race.plane_range_mm is not None:
+            low, high = race.plane_range_mm
+            kept = " as given" if place == old else f", not {from_si(old, 'mm'):.4g} mm"
+            yield (
+                f"Race {number} stands at {from_si(place, 'mm'):.4g} mm{kept}, chosen within {low:g} … {high:g} mm. "
+                f"Required capacity, without the autobalancers' own mass: from "
+                f"{from_si(needs_before[number - 1], 'g_mm'):.4g} to {from_si(needs[number - 1], 'g_mm'):.4g} g·mm"
+            )
+    yield (
+        f"Race eccentricity at the loudest place: {from_si(_off(before), 'um'):.3g} µm as given, "
+        f"{from_si(_off(case), 'um'):.3g} µm as chosen (calculated)"
+    )
+
+
 def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
+    yield from _search_notes(design)
     limit = design.case.table.limits.vibration_level_db
     if one is not None and one.enough:
         yield (
@@ -297,7 +355,5 @@ def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
                 f"Race {number} carries {max(outside, key=abs):.2f} times the imbalance of a wheel that lies outside "
                 "both races: move the races apart"
             )
-    if len(set(design.case.speed_range)) > 1:
-        yield "Start cases run at the rated speed alone; the level is scaled to the highest speed"
     yield "Housings of both autobalancers are taken to leave the centre of mass in its place"
     yield "Grinding, hands, and levels off the spindle axis are not modelled with two races"

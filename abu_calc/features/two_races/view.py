@@ -2,6 +2,7 @@
 
 from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.parts import (
     check_blocks,
@@ -16,7 +17,16 @@ from abu_calc.reporting.screen import one_screen, verdict_line
 
 def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
     """Outcome of the command: screen and whole report."""
-    return Outcome.of(result, lambda: two_race_blocks(result), lambda: two_race_screen(result))
+    return Outcome.of(
+        result, lambda: two_race_blocks(result), lambda: two_race_screen(result), lambda: _drawings(result)
+    )
+
+
+def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
+    """The section of both autobalancers."""
+    from abu_calc.features.two_races.drawing import both_sections
+
+    return (both_sections(result),)
 
 
 def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
@@ -33,7 +43,7 @@ def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
         *_make(result),
         Heading("Vibration and settling", "vibration"),
         *_numbers(result),
-        *(block for index, race in enumerate(result.autobalancers, 1) for block in _race(index, race)),
+        *(block for index in range(len(result.autobalancers)) for block in _race(result, index)),
         Heading("Speeds", "frequency"),
         facts(result.frequency, *result.frequency.entries()),
         *_single(result),
@@ -95,8 +105,14 @@ def _or_dash(value: float | None, digits: int = 4) -> str:
     return "–" if value is None else number(value, digits)
 
 
-def _race(index: int, race: TwoRaceAutobalancer) -> list[Block]:
-    return [Heading(f"Race {index}", f"race-{index}"), facts(race, *race.entries())]
+def _race(result: TwoRaceSizeResult, index: int) -> list[Block]:
+    race, parts = result.autobalancers[index], result.eccentricities[index]
+    return [
+        Heading(f"Race {index + 1}", f"race-{index + 1}"),
+        facts(race, *race.entries()),
+        Heading(f"Eccentricity of race {index + 1}", f"eccentricity-{index + 1}"),
+        facts(parts, *parts.entries()),
+    ]
 
 
 def _single(result: TwoRaceSizeResult) -> list[Block]:

@@ -215,6 +215,8 @@ def reworded(text: str, file: str, error: ValueError | RecursionError) -> InputE
     if twice:
         kind = "table" if twice.header else "key"
         remedy = "merge the two" if kind == "table" else "keep one of the two"
+        if twice.path in (("wheel",), ("autobalancer",)):
+            remedy = f"merge the two; for several on one spindle write [[{twice.path[0]}]] each time, with plane_mm"
         return InputError(f"the {kind} stands twice, first in line {twice.line}", place=place, remedy=remedy)
     excerpt, fault, change = _seen(rows[line - 1].strip() if line <= len(rows) else "")
     plain = _WHERE.sub("", message).strip() or "not TOML"

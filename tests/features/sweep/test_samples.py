@@ -9,7 +9,8 @@ import pytest
 
 import abu_calc
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
-from abu_calc.features.sweep.samples import Builds, _allowed, scene_once
+from abu_calc.features.sweep.samples import Builds, scene_once
+from abu_calc.simulation.residual_criteria import allowed_of_scene
 from tests.dynamics.scenes import dimensionless
 from tests.features.sweep.conftest import Sweeps
 
@@ -93,6 +94,6 @@ def test_dry_friction_and_eccentricity_widen_what_is_allowed() -> None:
     """A tenth of the imbalance, and M·Δ of a race that is off by Δ."""
     scene = dimensionless(3.0, 0.1, 0.1, 0.3, 0.05, (1.5, -1.7), 3.0)
     response = SimpleNamespace(ball_angles=(2.0, -2.0))
-    plain = _allowed(scene, response)  # type: ignore[arg-type]
+    plain = allowed_of_scene(scene, response.ball_angles)
     off = replace(scene, effects=(RaceEccentricityEffect(1e-3, 0.0),))
-    assert _allowed(off, response) - plain == pytest.approx(scene.support.felt_mass * 1e-3)  # type: ignore[arg-type]
+    assert allowed_of_scene(off, response.ball_angles) - plain == pytest.approx(scene.support.felt_mass * 1e-3)

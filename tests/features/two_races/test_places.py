@@ -1,0 +1,80 @@
+"""Places of the races searched on the spindle, against displacements and levers written out here."""
+
+import pytest
+
+from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, read_case
+from abu_calc.features.two_races.choice import choose_both
+from abu_calc.features.two_races.places import arms, best_races
+from abu_calc.features.two_races.study import _search_notes
+from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.read_machine import read_machine
+
+TRUE = tuple(f"autobalancer.{k}.race_eccentricity_mm=0.0" for k in (0, 1))
+
+
+def case_of(*overrides: str) -> TwoRaceCase:
+    tables = read_machine("pedestal-grinder", overrides).two_races
+    assert tables is not None
+    return read_case(tables)
+
+
+def test_without_a_stretch_the_given_places_stand() -> None:
+    assert case_of().races == (0.3, -0.3)
+    assert not list(_search_notes(choose_both(case_of())))
+
+
+def test_true_races_go_where_the_larger_capacity_is_least() -> None:
+    """Beyond its wheel race 1 carries less than 2500 g·mm, and race 2 more: 2166 g·mm at 340 and -259 mm."""
+    case = case_of(
+        *TRUE, "autobalancer.0.plane_range_mm=[220.0, 340.0]", "autobalancer.1.plane_range_mm=[-340.0, -220.0]"
+    )
+    chosen = max(capacity_needs(case))
+    grid = [(z1 / 1e3, -z2 / 1e3) for z1 in range(220, 341, 10) for z2 in range(220, 341, 10)]
+    needs = [
+        max(
+            sum(abs((place - z2 if race == 0 else z1 - place) / (z1 - z2)) * size for place, size in WHEELS)
+            for race in (0, 1)
+        )
+        for z1, z2 in grid
+    ]
+    assert chosen == pytest.approx(min(needs), rel=0.005)  # the search steps by 3 mm
+    first, second = case.races
+    assert chosen == pytest.approx(
+        (0.26 - second) / (first - second) * 2500e-6 + abs(-0.26 - second) / (first - second) * 1800e-6
+    )
+
+
+WHEELS = ((0.26, 2500e-6), (-0.26, 1800e-6))
+
+
+def test_races_go_outside_the_places_that_must_be_still() -> None:
+    """A handle at 400 mm: races at ±z leave it Δ·max(1, 0.4/z) off; at 400 mm and beyond no more than Δ."""
+    handle = 'machine.handle=[{name="h", from_center_of_mass_mm=400.0}]'
+    wide = ("autobalancer.0.plane_range_mm=[250.0, 450.0]", "autobalancer.1.plane_range_mm=[-450.0, -250.0]")
+    case = case_of(handle, *wide)
+    assert case.races[0] >= 0.4 - 1e-9
+    assert arms((0.4,), case.races) == pytest.approx(1.0)
+    assert arms((0.4,), (0.3, -0.3)) == pytest.approx(0.8 / 0.6)
+    notes = list(_search_notes(choose_both(case)))
+    assert "race eccentricity at the loudest place: 13.3 µm as given, 10 µm as chosen" in notes[-1].lower()
+
+
+@pytest.mark.parametrize(("first", "second"), [(0.1, -0.2), (0.05, 0.3), (-0.3, 0.2)])
+def test_the_choice_is_the_best_of_the_grid(first: float, second: float) -> None:
+    def needs(races: tuple[float, float]) -> tuple[float, float]:
+        return abs(races[0] - first), abs(races[1] - second)
+
+    stretches = ((first - 0.1, first + 0.1), None)
+    races = best_races((first + 0.07, second), stretches, (), needs)
+    assert races == pytest.approx((first, second), abs=1e-9)
+
+
+def test_races_that_may_touch_stay_apart() -> None:
+    races = best_races((0.1, -0.1), ((-0.1, 0.1), (-0.1, 0.1)), (0.0,), lambda pair: (abs(pair[0] - pair[1]), 0.0))
+    assert abs(races[0] - races[1]) > 1e-3
+
+
+@pytest.mark.parametrize("stretch", ["[310.0, 340.0]", "[340.0, 280.0]", "[300.0]", '["a", "b"]'])
+def test_a_stretch_without_its_place_is_refused(stretch: str) -> None:
+    with pytest.raises(InputError):
+        case_of(f"autobalancer.0.plane_range_mm={stretch}")
