@@ -23,7 +23,7 @@ from typing import Any, Final
 
 import numpy as np
 
-import abu_calc
+from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.benchmarks.measuring import keep, machine
@@ -95,11 +95,12 @@ def horizontal_machine(seed: int, path: Path) -> tuple[str, Design, float]:
 
     The lever arm follows the balls that are chosen with it, for three steps. The number is near the one drawn.
     """
-    drawn = float(np.exp(np.random.default_rng(seed + 77).uniform(*map(math.log, FRICTION_NUMBERS))))
+    low, high = map(math.log, FRICTION_NUMBERS)
+    drawn = math.exp(np.random.default_rng(seed + 77).uniform(low, high))
     text = held_text(seed).replace('spindle_axis = "vertical"', 'spindle_axis = "horizontal"')
     for steps_left in (3, 2, 1, 0):
         path.write_text(text, encoding="utf-8")
-        design = size(abu_calc.read(str(path)).tables)
+        design = size(read_machine(str(path)).whole("size"))
         balls, case = design.autobalancer, design.case
         unit = balls.ball_diameter / 2 * GRAVITY / (balls.pitch_radius * case.speed**2)
         if not steps_left or math.isclose(drawn * unit, case.friction_arm, rel_tol=1e-3):
