@@ -102,7 +102,7 @@ class EndState:
 
 
 @dataclass(frozen=True)
-class Window:
+class HalfWindow:
     """Means of a half of the window: ball speeds and their rms variation [rad/s], residual [kg m], velocity [m/s]."""
 
     speeds: Array
@@ -111,7 +111,7 @@ class Window:
     velocity: float
 
     @classmethod
-    def of(cls, scene: Scene, states: Array) -> "Window":
+    def of(cls, scene: Scene, states: Array) -> "HalfWindow":
         """Means of some states, equally spaced in time."""
         size, count = len(scene.support.names), len(scene.ball_masses)
         angles, rates = states[2 * size : 2 * size + count], states[2 * size + count : 2 * size + 2 * count]
@@ -120,7 +120,7 @@ class Window:
         velocity = float(np.sqrt((scene.axis_velocity(states) ** 2).mean(axis=1)).max())
         return cls(means[order], variation[order], float(np.abs(scene.total_imbalance(angles)).mean()), velocity)
 
-    def like(self, other: "Window", speed: float, reference: float, strict: float) -> bool:
+    def like(self, other: "HalfWindow", speed: float, reference: float, strict: float) -> bool:
         """True if the motion is steady: two halves of a window differ by no more than allowed, times `strict`."""
         apart = float(np.abs(self.speeds - other.speeds).max(initial=0.0)) / speed
         varied = float(np.abs(self.variation - other.variation).max(initial=0.0)) / speed
@@ -219,13 +219,13 @@ class Follower:
         times[-1] = end
         return times
 
-    def _kind(self, scene: Scene, samples: Samples) -> tuple[Kind, Window, float | None]:
+    def _kind(self, scene: Scene, samples: Samples) -> tuple[Kind, HalfWindow, float | None]:
         """Kind of the end, means of its second half, and the natural frequency of stuck balls [rad/s]."""
         end = float(samples.t[-1])
         turns = min(round(WINDOW * end / scene.revolution), WIDEST)
         half = turns * PER_TURN // 2
         states = samples.y[:, -2 * half :]
-        first, last = Window.of(scene, states[:, :half]), Window.of(scene, states[:, half:])
+        first, last = HalfWindow.of(scene, states[:, :half]), HalfWindow.of(scene, states[:, half:])
         speed, reference = scene.speed, reference_imbalance(scene)
         slip = float(np.abs(last.speeds).max(initial=0.0)) / speed
         size, count = len(scene.support.names), len(scene.ball_masses)

@@ -33,7 +33,7 @@ ORDER: Final[tuple[Kind, ...]] = ("balanced", "stuck", "limit-cycle", "chaotic",
 
 
 @dataclass(frozen=True)
-class Group:
+class EndGroup:
     """Ends that are one attractor; `example`: the one to show, `confirmed` if a closer run ends in the group, too."""
 
     kind: Kind
@@ -48,10 +48,10 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Found:
+class FoundAttractors:
     """Groups in the order of `ORDER`; `undecided` ends belong to none."""
 
-    groups: tuple[Group, ...]
+    groups: tuple[EndGroup, ...]
     undecided: tuple[EndState, ...]
     drawn: int
     designed: int
@@ -64,7 +64,7 @@ class Found:
 
 def search(
     scene: Scene, number: int, seed: int, progress: Progress = silent, *, designed: bool = True, only: str | None = None
-) -> Found:
+) -> FoundAttractors:
     """Follow `number` drawn starts, and the designed ones, and group their ends. The scene has no run-up.
 
     `only`: name of the one start that is followed. Raises InputError for a name that these starts do not have.
@@ -84,7 +84,7 @@ def search(
     report = counted(progress, "attractors: {} of {} confirmed", max(len(parts), 1))
     groups = list(side_by_side(_confirmed, [(follower, part) for part in parts], processors(), report))
     groups.sort(key=lambda group: (ORDER.index(group.kind), -len(group.ends)))
-    return Found(tuple(groups), undecided, drawn, len(starts) - drawn)
+    return FoundAttractors(tuple(groups), undecided, drawn, len(starts) - drawn)
 
 
 def grouped(scene: Scene, ends: Sequence[EndState]) -> list[tuple[EndState, ...]]:
@@ -120,7 +120,7 @@ def _ended(follower: Follower, start: BallStart) -> EndState:
     return end
 
 
-def _confirmed(follower: Follower, ends: tuple[EndState, ...]) -> Group:
+def _confirmed(follower: Follower, ends: tuple[EndState, ...]) -> EndGroup:
     """The group with an example whose closer run ends alike; cycles that amplify a disturbance are chaotic."""
     kind = ends[0].kind
     middle = sorted(ends, key=lambda end: end.velocity)[len(ends) // 2]
@@ -128,11 +128,11 @@ def _confirmed(follower: Follower, ends: tuple[EndState, ...]) -> Group:
     if kind == "limit-cycle" and follower.grows(middle) > CHAOTIC:
         kind = "chaotic"
     if kind == "chaotic":
-        return Group(kind, ends, middle, True)
+        return EndGroup(kind, ends, middle, True)
     for end in order[:TRIED]:
         if patience.over():
             break
         closer = follower.end_of(end.start, CLOSER)
         if closer.kind == end.kind and alike(follower.scene, closer, end):
-            return Group(kind, ends, end, True)
-    return Group(kind, ends, order[0], False)
+            return EndGroup(kind, ends, end, True)
+    return EndGroup(kind, ends, order[0], False)

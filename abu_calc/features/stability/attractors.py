@@ -17,7 +17,7 @@ from abu_calc.features.stability.attractor_ends import (
     STILL,
     EndState,
 )
-from abu_calc.features.stability.attractor_search import ALIKE_LEVEL, ALIKE_SPEED, Found, Group, search
+from abu_calc.features.stability.attractor_search import ALIKE_LEVEL, ALIKE_SPEED, EndGroup, FoundAttractors, search
 from abu_calc.features.stability.attractor_starts import touching
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.errors import InputError, Place
@@ -167,7 +167,7 @@ def interval(met: int, count: int) -> tuple[float, float]:
     return float(bounds.low), float(bounds.high)
 
 
-def _record(subject: Subject, scene: Scene, group: Group, drawn: int, lot: tuple[int, int]) -> Attractor:
+def _record(subject: Subject, scene: Scene, group: EndGroup, drawn: int, lot: tuple[int, int]) -> Attractor:
     """Record of a group; `lot`: how many starts were drawn by which seed."""
     levels = [level for end in group.ends if (level := _level(subject, end)) is not None]
     low, high = interval(group.drawn, drawn)
@@ -207,7 +207,7 @@ def _level(subject: Subject, end: EndState) -> float | None:
     return level_at_loudest(design.case, design.autobalancer, amplitude)
 
 
-def _in_words(scene: Scene, group: Group) -> str:
+def _in_words(scene: Scene, group: EndGroup) -> str:
     kind, frequency, speeds = group.kind, group.example.frequency, group.example.ball_speeds
     stuck = sum(abs(speed - scene.speed) > SLIPPING * scene.speed for speed in speeds)
     balls = f"{stuck} of {len(speeds)} balls"
@@ -282,7 +282,7 @@ def _toml(value: object) -> str:
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
-def _check(found: Found) -> Check:
+def _check(found: FoundAttractors) -> Check:
     """ABU804: do all decided starts end balanced?"""
     total = found.drawn + found.designed
     others = sum(len(group.ends) for group in found.groups if group.kind != "balanced")

@@ -39,7 +39,7 @@ BESIDE: Final = 1.4
 
 
 @dataclass(frozen=True)
-class TongueEdge:
+class EdgeDamping:
     """Damping of the joint [N·s/m] on the edge of the tongue at one speed [rad/s]."""
 
     speed: float
@@ -72,7 +72,7 @@ class ForcedArmMotion:
     parametric_rates: tuple[float, float]
     perturbation: Harmonics
     simulated: SimulatedArmMotion | None
-    tongue: tuple[TongueEdge, ...]
+    tongue: tuple[EdgeDamping, ...]
 
 
 def arm_motion(scene: Scene) -> ForcedArmMotion | str | None:
@@ -105,7 +105,7 @@ def arm_motion(scene: Scene) -> ForcedArmMotion | str | None:
     )
 
 
-def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) -> list[TongueEdge]:
+def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) -> list[EdgeDamping]:
     """Edge of the instability region at evenly spaced ω₀/Ω about its middle, ½ − 13κ²/32.
 
     `mass` 2J_O/l² converts h to damping.
@@ -114,7 +114,7 @@ def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) ->
     ratios = middle - np.linspace(-1, 1, columns) * BESIDE * kappa / 4
     unit = mass * kappa * natural
     return [
-        TongueEdge(natural / ratio, unit * averaged_edge(kappa, ratio), unit * floquet_edge(kappa, ratio))
+        EdgeDamping(natural / ratio, unit * averaged_edge(kappa, ratio), unit * floquet_edge(kappa, ratio))
         for ratio in sorted(ratios.tolist(), reverse=True)
     ]
 

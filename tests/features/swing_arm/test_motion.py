@@ -18,7 +18,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.floquet import arm_growth, floquet_edge
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
-from abu_calc.features.swing_arm.motion import ForcedArmMotion, TongueEdge, arm_motion, tongue
+from abu_calc.features.swing_arm.motion import EdgeDamping, ForcedArmMotion, arm_motion, tongue
 from abu_calc.formulas.swing_arm import averaged_edge, contact_gain, forced_harmonics, free_rates, lifting_angle
 from abu_calc.foundation.errors import RangeError
 
@@ -296,7 +296,7 @@ def test_no_motion_where_there_is_none() -> None:
 def test_the_tongue_in_speeds_and_damping() -> None:
     """h = σκω₀ at ω = ω₀/k, h_sh = 2J h/l²."""
     edges = tongue(0.02, 150.0, 2 * 0.62 / 0.35**2, 9)
-    assert all(isinstance(one, TongueEdge) for one in edges)
+    assert all(isinstance(one, EdgeDamping) for one in edges)
     assert [one.speed for one in edges] == sorted(one.speed for one in edges)
     middle = edges[4]
     assert middle.speed == pytest.approx(150 / (0.5 - 13 * 0.02**2 / 32))

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from abu_calc.features.swing_arm.motion import ForcedArmMotion, SimulatedArmMotion, TongueEdge
+from abu_calc.features.swing_arm.motion import EdgeDamping, ForcedArmMotion, SimulatedArmMotion
 from abu_calc.features.swing_arm.records import ArmChange, ArmMotion, SwingArmRecord
 from abu_calc.sizing.swing_arm import ArmRepair
 from tests.features.swing_arm.test_verdict import judged
@@ -16,7 +16,7 @@ def moved(simulated: SimulatedArmMotion | None) -> ForcedArmMotion:
     return ForcedArmMotion(
         length=0.5, speed=100.0, modulation=0.01, natural_frequency=40.0, decay=2.0, joint_damping=7.0,
         parametric_rates=(-1.8, -2.2),
-        perturbation=(3e-3 + 4e-3j, 1e-5 + 0j, 0j), simulated=simulated, tongue=(TongueEdge(80.0, 1.0, 1.1),),
+        perturbation=(3e-3 + 4e-3j, 1e-5 + 0j, 0j), simulated=simulated, tongue=(EdgeDamping(80.0, 1.0, 1.1),),
     )  # fmt: skip
 
 
