@@ -26,7 +26,7 @@ from abu_calc.reporting.parts import unlike
 from abu_calc.reporting.screen import many, verdict_line
 
 ENTRIES: Final = Paragraph(
-    "The lines below an action are entries of the machine file: the table, a point, the key and its value."
+    "The lines below an action are entries of the machine file, each behind the table in which it stands."
 )
 
 

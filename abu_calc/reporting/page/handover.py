@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import tomllib
 from collections.abc import Iterable, Iterator
 from typing import Final
 
@@ -35,15 +36,36 @@ def handed_over(blocks: Iterable[Block]) -> list[Block]:
 
 
 def entries(options: str) -> Iterator[Paragraph]:
-    """Entries of a file that options of a command line replace, each on a line.
+    """Entries of a file that options of a command line replace, each on a line behind its table.
 
     >>> [entry.text for entry in entries("--set wheel.mass_kg=0.5 --set machine.name='My grinder'")]
-    ['wheel.mass_kg = 0.5', 'machine.name = My grinder']
+    ['[wheel]  mass_kg = 0.5', '[machine]  name = "My grinder"']
+    >>> [entry.text for entry in entries("--set bearing.1.shaft_fit=m6")]
+    ['[[bearing]] number 2:  shaft_fit = "m6"']
     """
     for word in shlex.split(options):
         if word != ENTRY.strip():
             key, _, value = word.partition("=")
-            yield Paragraph(f"{key} = {value}", ENTRIES)
+            yield Paragraph(f"{_table(key)}{key.rpartition('.')[2]} = {_toml(value)}", ENTRIES)
+
+
+def _table(key: str) -> str:
+    """The table that holds a key, as its header in the file; nothing for a key of the file itself."""
+    *parts, _ = key.split(".")
+    numbers = [int(part) + 1 for part in parts if part.isdecimal()]
+    name = ".".join(part for part in parts if not part.isdecimal())
+    if numbers:
+        return f"[[{name}]] number {numbers[-1]}:  "
+    return f"[{name}]  " if name else ""
+
+
+def _toml(value: str) -> str:
+    """The value as a file has it: a text that is no TOML value stands in quotes."""
+    try:
+        tomllib.loads(f"value = {value}")
+    except tomllib.TOMLDecodeError:
+        return f'"{value}"'
+    return value
 
 
 def _block(block: Block) -> Iterator[Block]:

@@ -35,8 +35,9 @@ def test_lines_to_paste_become_entries_of_the_file() -> None:
         Paragraph("Last."),
     )
     assert [(line.text, line.mark) for line in handed_over(lines) if isinstance(line, Paragraph)] == [
-        ("Reduce the friction.", "warn"), ("autobalancer.ball_count = 4", ENTRIES),
-        ("machine.name = My grinder", ENTRIES), ("bearing.0.shaft_fit = m6", ENTRIES), ("Last.", None),
+        ("Reduce the friction.", "warn"), ("[autobalancer]  ball_count = 4", ENTRIES),
+        ('[machine]  name = "My grinder"', ENTRIES), ('[[bearing]] number 1:  shaft_fit = "m6"', ENTRIES),
+        ("Last.", None),
     ]  # fmt: skip
 
 
