@@ -60,7 +60,7 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
     checks = (
         filling_check(parts, roomier),
         overspeed_check(parts, force, top, stronger),
-        cover_check(parts, closed, lambda: _screwed(case, candidate, closed)),
+        cover_check(parts, closed, lambda: _other_closure(case, candidate, closed)),
         *torque_check(case, parts, split.fit),
         burst_check(parts, force, top, stronger),
         *containment_check(case, parts, top),
@@ -85,10 +85,10 @@ def _strong(case: Case, candidate: Candidate) -> bool:
     return stress <= PROOF_SHARE * material.strength and _burst(case, candidate) >= BURST_RATIO
 
 
-def _screwed(case: Case, candidate: Candidate, hold: Cover) -> Action:
-    """A screwed cover, if it holds with the same balls and the residual displacement stays permitted."""
-    changed = {"autobalancer.closure": "screwed"}
-    after = followed(case, {**changed, **pins(candidate)}) if case.autobalancer.closure == "pressed" else None
+def _other_closure(case: Case, candidate: Candidate, hold: Cover) -> Action:
+    """A cover of the other kind, if it holds with the same balls and the residual displacement stays permitted."""
+    changed = {"autobalancer.closure": "screwed" if case.autobalancer.closure == "pressed" else "pressed"}
+    after = followed(case, {**changed, **pins(candidate)})
     if after is not None and after.candidate.budget.within:
         force, top = after.candidate.strength.ball_force, after.case.speed_range[1]
         other = choose_cover(after.case, housing_parts(after.case, after.candidate), force, top)

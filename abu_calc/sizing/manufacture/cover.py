@@ -62,13 +62,20 @@ def choose_cover(case: Case, parts: HousingParts, ball_force: float, top: float)
     needed = COVER_FACTOR * _axial_load(parts, OVERSPEED**2 * ball_force)
     size = parts.dimensions
     if parts.closure == "screwed":
-        pitch = next((to_si(p, "mm") for p in THREAD_PITCHES_MM if to_si(p, "mm") * LEAST_TURNS <= size.web), None)
+        pitches = () if ring_fills_thread(parts) else THREAD_PITCHES_MM
+        pitch = next((to_si(p, "mm") for p in pitches if to_si(p, "mm") * LEAST_TURNS <= size.web), None)
         strength = MATERIALS[parts.cover.density].strength
         shear = 0.5 * 2 * math.pi * size.seat_radius * size.web * 0.58 * strength * PROOF_SHARE
         return Cover(None, pitch, shear if pitch else 0.0, needed)
     fits = [*_standard_fits(2 * size.seat_radius), _own_fit(case, parts, needed, top)]
     holding = (_pressed(case, parts, fit, needed, top) for fit in fits)
     return next((each for each in holding if each.holds), None) or _pressed(case, parts, fits[-1], needed, top)
+
+
+def ring_fills_thread(parts: HousingParts) -> bool:
+    """True if a screwed cover's thread has the diameter of a ring behind it, which does not pass its minor diameter."""
+    size = parts.dimensions
+    return parts.closure == "screwed" and size.ring_end <= size.cover_start and size.seat_radius <= size.ring_radius
 
 
 def _standard_fits(diameter: float) -> Iterator[Fit]:
@@ -171,7 +178,8 @@ def seat_name(parts: HousingParts, hold: Cover) -> str:
     """The cover's fit or thread, as a drawing writes it."""
     if parts.closure == "screwed":
         diameter = from_si(2 * parts.dimensions.seat_radius, "mm")
-        return f"M{diameter:.6g}×{from_si(hold.pitch, 'mm'):g}" if hold.pitch else "no thread of three turns"
+        none = "no thread lets the ring pass" if ring_fills_thread(parts) else "no thread of three turns"
+        return f"M{diameter:.6g}×{from_si(hold.pitch, 'mm'):g}" if hold.pitch else none
     fit = hold.fit
     assert fit is not None
     if fit.bore_class:

@@ -111,3 +111,12 @@ def test_the_ring_stays_tight_in_aluminium_at_every_temperature(hot: float) -> N
 
 def test_too_wide_a_range_of_temperature_overstresses_the_body() -> None:
     assert check(sized("design=light", "temperature_range_C=[-40, 200]"), "ABU311").status == "fail"
+
+
+def test_a_ring_of_a_bearing_does_not_pass_a_thread_of_its_own_diameter() -> None:
+    """The core of M62 × 0.5 is 62 − 1.08·0.5 = 61.5 mm wide, the ring 62 mm."""
+    screwed = check(sized("design=bearing-ring", "closure=screwed"), "ABU307")
+    assert screwed.status == "fail" and "no thread lets the ring pass" in screwed.message
+    pressed = check(sized("design=bearing-ring", "closure=pressed"), "ABU307")
+    assert pressed.status == "pass" or "screwed" not in (pressed.remedy or "")
+    assert screwed.overrides == () or "autobalancer.closure=pressed" in screwed.overrides
