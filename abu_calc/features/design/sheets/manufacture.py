@@ -34,8 +34,8 @@ GENERAL_ROUGHNESS: Final = "Ra 3.2"
 FACE_RUNOUT: Final = to_si(0.01, "mm")
 """Run-out and perpendicularity of the mounting face."""
 HUB: Final = "h7"
-HOLE: Final = "H8"
-"""Tolerance classes of the hub and of the hole in the cover."""
+HOLE: Final = "F8"
+"""Tolerance classes of the hub and of the hole in the cover, which closes by micrometres as the cover is pressed in."""
 
 
 def grade(part: TurnedPart, race: bool) -> Grade:

@@ -88,7 +88,7 @@ def test_another_file_has_another_number() -> None:
 def test_the_assembly_says_closure_fits_and_balance(name: str) -> None:
     sized = result(name)
     shown = " ".join(texts(section_sheet(sized)))
-    assert "Fits: cover Ø" in shown and "H8/h7" in shown
+    assert "Fits: cover Ø" in shown and "F8/h7" in shown
     assert ("race ring Ø" in shown) == (len(sized.parts.turned) > 2)
     for item in range(1, len(sized.parts.turned) + 2):
         assert texts(section_sheet(sized)).count(str(item)) >= 2, "in the list and in a balloon"
