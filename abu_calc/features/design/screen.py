@@ -479,12 +479,12 @@ MOST_UNUSUAL: Final = 2
 """Most such warnings on the first screen."""
 
 
-def unusual_values(result: SizeResult) -> list[Block]:
-    """Values that may be slips of a unit stand beside the verdict that they decide."""
+def unusual_values(result: SizeResult, most: int | None = MOST_UNUSUAL) -> list[Block]:
+    """Values that may be slips of a unit, which stand beside the verdict that they decide; `most` None: all of them."""
     texts = [text for text in result.warnings if UNUSUAL in text]
-    shown: list[Block] = [Paragraph(f"! {text}", "warn", hang=2) for text in texts[:MOST_UNUSUAL]]
-    more = len(texts) - MOST_UNUSUAL
-    return [*shown, Paragraph(f"! {many(more, 'more unusual value')}: see Warnings.", "warn")] if more > 0 else shown
+    shown: list[Block] = [Paragraph(f"! {text}", "warn", hang=2) for text in texts[:most]]
+    more = len(texts) - len(shown)
+    return [*shown, Paragraph(f"! {many(more, 'more unusual value')}: --full.", "warn")] if more else shown
 
 
 def starts_and_defaults(result: SizeResult) -> str:

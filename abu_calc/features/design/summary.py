@@ -58,7 +58,7 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     tables = numbers_that_matter(result)
     changed = any(check.overrides for check in result.checks if check.status != "pass")
     body: list[Block] = [
-        *unusual_values(result),
+        *unusual_values(result, most=None),
         *small_benefit(result),
         *arm_change(result),
         *make(result),

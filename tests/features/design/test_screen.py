@@ -312,3 +312,12 @@ def test_one_total_beside_the_readings_of_a_handle() -> None:
         assert handle["shown_after"]["total_m_per_s2"] == pytest.approx(handle["a_hv_after_m_per_s2"])
         squares = sum(axis["a_h_after_m_per_s2"] ** 2 for axis in handle["axes"])
         assert handle["a_hv_after_m_per_s2"] == pytest.approx(squares**0.5)
+
+
+def test_values_that_may_be_slips_of_a_unit_stand_under_the_verdict(sized: SizeResult) -> None:
+    odd = [f"{key} = 1900 is unusual, 0.3 … 150 kg is usual." for key in ("machine.mass_kg", "wheel.mass_kg", "third")]
+    text = as_text(size_screen(replace(sized, warnings=(*sized.warnings, *odd))), 80)
+    under = flat(text.split("\n  Make\n")[0])
+    assert all(under.count(words) == 1 for words in odd[:2]) and "third" not in text
+    assert "1 more unusual value: --full." in under
+    assert "unusual" not in as_text(size_screen(sized), 80)
