@@ -7,7 +7,6 @@ import importlib
 import inspect
 import json
 import re
-from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -68,49 +67,21 @@ def commands() -> str:
 
 def keys(kind: str) -> str:
     """Tables and keys of one kind of file, from its schema."""
+    from abu_calc.features.explain.keys import file_tables, meaning
+
     title, opening = KINDS[kind]
     schema = json.loads(run(f"schema {kind}").stdout)
     lines = [f"# {title}", "", f"{opening} `abu schema {kind}` prints the JSON Schema that this page is made from.", ""]
-    for path, table in tables(schema):
-        lines += [f"## {path}", "", _escaped(table.get("description", "")), "", "| key | meaning |", "|---|---|"]
+    for path, table in file_tables(schema):
+        lines += [f"## `{path}`", "", _escaped(table.get("description", "")), "", "| key | meaning |", "|---|---|"]
         required = set(table.get("required", ()))
         for key, entry in table["properties"].items():
             if "x-canonical-key" in entry:
                 continue  # the page on units lists these
             needed = " (required)" if key in required else ""
-            lines.append(f"| `{key}`{needed} | {_cell(_described(entry, schema))} |")
+            lines.append(f"| `{key}`{needed} | {_cell(meaning(entry, schema))} |")
         lines.append("")
     return "\n".join(lines)
-
-
-def tables(schema: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """Tables of a schema in the order of a file, with their headers as TOML writes them."""
-    entries = schema.get("anyOf") or schema["allOf"]
-    seen = set[str]()
-
-    def below(name: str, path: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
-        table = schema["definitions"][name]
-        if path and path not in seen:
-            seen.add(path)
-            yield f"`{path}`", table
-        for key, entry in table["properties"].items():
-            found = re.search(r"#/definitions/(\w+)", json.dumps(entry))
-            if found:
-                inner = f"{path.strip('[]')}.{key}".strip(".")
-                yield from below(found[1], f"[[{inner}]]" if '"array"' in json.dumps(entry) else f"[{inner}]")
-
-    for entry in entries:
-        yield from below(entry["$ref"].rsplit("/", 1)[1], "")
-
-
-def _described(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
-    text = entry.get("description", "")
-    found = re.search(r"#/definitions/(\w+)", json.dumps(entry))
-    if not text and found:
-        text = schema["definitions"][found[1]].get("description", "")
-    if "enum" in entry and not all(str(value) in text for value in entry["enum"]):
-        text += " One of: " + ", ".join(map(str, entry["enum"])) + "."
-    return text
 
 
 def checks() -> str:

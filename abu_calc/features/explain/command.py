@@ -1,6 +1,7 @@
-"""`abu explain [STEP|CODE|EFFECT]`: formulas of a step, question of a check, or an effect, without a machine."""
+"""`abu explain [STEP|CODE|EFFECT|KEY]`: a step's formulas, a check's question, an effect, or a key of machine files."""
 
-from typing import Annotated
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -10,14 +11,17 @@ from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.screen import BLANK
 
+if TYPE_CHECKING:
+    from abu_calc.features.explain.keys import FileKey
+
 What = Annotated[
     str | None,
-    typer.Argument(metavar="STEP|CODE|EFFECT", help="Sizing step, code of a check, or effect."),
+    typer.Argument(metavar="STEP|CODE|EFFECT|KEY", help="Step, code of a check, effect, or key of a machine file."),
 ]
 
 
 def explain(step: What = None) -> Outcome:
-    """Explain a sizing step, a check or an effect.
+    """Explain a sizing step, a check, an effect or a key of a machine file.
 
     Without an argument, the command lists them.
     """
@@ -36,10 +40,20 @@ def explain(step: What = None) -> Outcome:
     effects = dict(REGISTRY)
     if step in effects:
         return _effect(step, effects[step].kind, effects[step].about, effects[step].detail)
-    near = nearest(step, (*STEPS, *CHECK_CODES, *effects))
-    allowed = ", ".join(STEPS) + ", the code of a check, such as ABU201, or an effect, such as ball_contact"
+    from abu_calc.features.explain.keys import keys_with, machine_keys
+
+    if keys := machine_keys(step):
+        return _keys(keys)
+    near = " or ".join(keys_with(step)) or nearest(step, (*STEPS, *CHECK_CODES, *effects))
+    allowed = (
+        ", ".join(STEPS) + ", the code of a check, such as ABU201, an effect, such as ball_contact, or a key of a "
+        "machine file, such as rolling_drag_per_s"
+    )
     raise InputError(
-        "no such step, check or effect", found=step, allowed=allowed, remedy=f'Did you mean "{near}"?' if near else None
+        "no such step, check, effect or key",
+        found=step,
+        allowed=allowed,
+        remedy=f"Did you mean {near}?" if near else None,
     )
 
 
@@ -94,6 +108,13 @@ def _effect(name: str, kind: str, about: str, detail: str) -> Outcome:
     texts = (f"{about}.", detail) if detail else (f"{about}.",)
     blocks: list[Block] = [Heading(f"{name}: {kind}"), *(Paragraph(text) for text in texts)]
     return Outcome("explain", {"effect": name, "kind": kind, "about": about, "detail": detail}, tuple(blocks))
+
+
+def _keys(keys: "Sequence[FileKey]") -> Outcome:
+    blocks: list[Block] = []
+    for key in keys:
+        blocks += [Heading(f"{key.header} {key.name}"), Paragraph(key.meaning or "A table of its own.")]
+    return Outcome("explain", {"keys": {key.path: key.meaning for key in keys}}, tuple(blocks))
 
 
 def _code(code: str) -> Outcome:

@@ -40,6 +40,6 @@ def test_a_step_has_each_of_its_formulas() -> None:
 
 def test_an_unknown_step_is_refused_with_those_there_are() -> None:
     seen = abu("explain", "capacitie")
-    assert seen.status == 2 and 'Did you mean "capacity"?' in seen.err
+    assert seen.status == 2 and "Did you mean capacity?" in seen.err
     assert all(step in seen.err for step in STEPS)
     assert "Did you mean" not in abu("explain", "qqqqqqqq").err

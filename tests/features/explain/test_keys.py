@@ -1,0 +1,32 @@
+"""Keys of machine files, explained from the schema."""
+
+import json
+
+import pytest
+
+from abu_calc.features.explain.keys import file_tables, keys_with, machine_keys
+from abu_calc.inputs.reading.schema import machine_schema
+from tests.cli.runner import abu
+
+
+@pytest.mark.parametrize("asked", ["rolling_drag_per_s", "autobalancer.rolling_drag_per_s", "rolling_drag"])
+def test_a_key_is_explained_by_each_of_its_names(asked: str) -> None:
+    key = next(key for key in machine_keys(asked) if key.path == "autobalancer.rolling_drag_per_s")
+    assert "Viscous drag" in key.meaning and "[1/s]" in key.meaning
+    seen = abu("explain", asked, "--json")
+    assert json.loads(seen.out)["result"]["keys"][key.path] == key.meaning
+
+
+def test_every_key_of_every_table_is_found_by_its_path() -> None:
+    """A key that a file may have has words that `abu explain` prints."""
+    for header, table in file_tables(machine_schema()):
+        for name in table["properties"]:
+            path = f"{header.strip('[]')}.{name}"
+            assert any(key.header.strip("[]") == header.strip("[]") for key in machine_keys(path)), path
+
+
+def test_a_word_of_a_key_names_the_keys() -> None:
+    assert keys_with("drag") == ["rolling_drag_per_s"]
+    seen = abu("explain", "drag")
+    assert seen.status == 2 and "Did you mean rolling_drag_per_s?" in seen.err
+    assert machine_keys("nonsense") == [] and keys_with("nonsense") == []
