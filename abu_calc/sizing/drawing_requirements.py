@@ -224,7 +224,7 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
         DrawingRequirement(
             "oil",
             f"one that gives a viscous drag rate of {case.drag:g} 1/s, which the design assumes{optimum}. Specify "
-            "grade and volume under [oil], or record starts by abu measure-plan and evaluate them by abu identify"
+            "grade and volume under [oil], or identify the rate from recorded starts"
             if case.table.oil is None
             else f"{case.table.oil.fill_ml:g} ml of {oil_name(case.table.oil)}, for a viscous drag rate of about "
             f"{case.drag:.3g} 1/s{optimum} at {case.table.oil.temperature_C:g} °C",

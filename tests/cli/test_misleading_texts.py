@@ -70,7 +70,8 @@ def test_no_uncertainty_of_nothing_is_told() -> None:
 def test_the_sheet_counts_one_entry_as_one(tmp_path: Path) -> None:
     drawing = tmp_path / "section.svg"
     assert abu("size", "avtovaz-707-370", "--set", "machine.mass_kg=5.4", "--output", str(drawing)).status == 0
-    assert "1 entry replaced" in drawing.read_text(encoding="utf-8")
+    text = drawing.read_text(encoding="utf-8")
+    assert "changed: machine.mass_kg = 5.4" in text and "1 entries" not in text
 
 
 @pytest.mark.parametrize(("name", "told"), [("msh-230", False), ("avtovaz-707-222", True)])

@@ -5,13 +5,25 @@ import statistics
 
 import pytest
 
+from abu_calc.simulation.model_level import WIDEST, offer
 from abu_calc.simulation.nonconvergence import amplitude, angles, level, settling
-from tests.studies.rungs import Ladder, cost, ladder, machines, table
+from abu_calc.simulation.response import needed_times
+from tests.studies.rungs import Ladder, cost, ladder, machines, smooth, table
+
+REFUSED = {"washing-machine"}
+"""Presets whose balls are not slow against the gap of frequencies, and whose soft suspension still swings at the end."""
 
 
-@pytest.fixture(scope="module", params=machines())
+@pytest.fixture(scope="module", params=[name for name in machines() if name not in REFUSED])
 def one(request) -> Ladder:
     return ladder(request.param)
+
+
+@pytest.mark.parametrize("name", sorted(REFUSED))
+def test_the_envelope_is_not_offered_where_it_would_be_wrong(name: str) -> None:
+    scene = smooth(name)
+    refused = offer(scene, WIDEST, needed_times(scene))
+    assert refused.trajectory is None and (refused.error is None or refused.error > WIDEST)
 
 
 def test_the_envelope_is_as_near_as_it_says(one):
@@ -43,7 +55,7 @@ def test_the_closed_form_tells_the_end_and_no_less_than_the_time(one):
 @pytest.mark.hard
 def test_the_envelope_takes_a_tenth_of_the_time():
     """CPU time for one per cent, the best of interleaved pairs; the least of the presets, and in the middle."""
-    ladders = [ladder(name) for name in machines()]
+    ladders = [ladder(name) for name in machines() if name not in REFUSED]
     ratios = [long / quick for quick, long in (cost(one) for one in ladders)]
     assert statistics.median(ratios) >= 10, ratios
     lines = table(ladders[:1])
