@@ -11,7 +11,7 @@ from abu_calc.simulation.response import needed_times
 from tests.studies.rungs import Ladder, cost, ladder, machines, smooth, table
 
 REFUSED = {"washing-machine"}
-"""Presets whose balls are not slow against the gap of frequencies, and whose soft suspension still swings at the end."""
+"""Presets whose balls are too quick to be averaged, and whose soft suspension still swings at the end."""
 
 
 @pytest.fixture(scope="module", params=[name for name in machines() if name not in REFUSED])
