@@ -205,8 +205,10 @@ def test_summary_stands_first_with_the_numbers_of_the_screen(written: Any) -> No
 def test_actions_on_the_page_give_entries_of_the_file(written: Any) -> None:
     text, document, _ = written("size")
     entries = re.findall(r'<p class="entries"><code>(.*?)</code></p>', text)
-    overrides = [entry for check in document["checks"] for entry in check["overrides"]]
-    assert overrides and {entry.replace("=", " = ", 1) for entry in overrides} == set(entries)
+    overrides = {entry for check in document["checks"] for entry in check["overrides"]}
+    # On the page the table stands before its key as a machine file writes it.
+    rewritten = {re.sub(r"^\[(\S+)\] +(\S+) = ", r"\1.\2=", entry) for entry in entries}
+    assert overrides and rewritten == overrides
 
 
 GRINDERS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
