@@ -1,0 +1,139 @@
+"""Charts of the atlas as data: axes, fixed numbers, definition, and the cells that were computed."""
+
+import csv
+import tomllib
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.resources import files
+from typing import Final
+
+from abu_calc.foundation.frozen import dataclass
+
+PLACE: Final = "abu_calc.features.atlas"
+CELLS: Final = "cells.csv"
+"""File of the package that holds the cells of all charts: chart, across, up, value, low, high."""
+
+
+@dataclass(frozen=True)
+class ChartAxis:
+    """Axis of a chart: a dimensionless number of machines, and the values of the cells."""
+
+    name: str
+    symbol: str
+    number: str
+    values: tuple[float, ...]
+
+    @property
+    def label(self) -> str:
+        """Name with symbol, as figures show it."""
+        return f"{self.name}, {self.symbol}"
+
+
+@dataclass(frozen=True)
+class FixedNumber:
+    """A number that is the same in all cells; a machine has it within the relative tolerance, a text exactly."""
+
+    name: str
+    number: str
+    value: float | str
+    tolerance: float = 0.0
+
+    def fits(self, value: float | str) -> bool:
+        """True if a machine's number is this one."""
+        if isinstance(value, str) or isinstance(self.value, str):
+            return value == self.value
+        return abs(value - self.value) <= self.tolerance * abs(self.value) + 1e-9
+
+    @property
+    def text(self) -> str:
+        """Name, value and tolerance in words."""
+        value = self.value if isinstance(self.value, str) else f"{self.value:g}"
+        return f"{self.name} {value}" + (f" (± {self.tolerance:.0%})".replace("%", " %") if self.tolerance else "")
+
+
+@dataclass(frozen=True)
+class AtlasChart:
+    """One chart; `share`: its values are shares of starts, `bounds`: edges of the five classes of values."""
+
+    name: str
+    letter: str
+    file: str
+    title: str
+    panel: str
+    quantity: str
+    definition: str
+    confidence: str
+    across: ChartAxis
+    up: ChartAxis
+    fixed: tuple[FixedNumber, ...]
+    bounds: tuple[float, ...]
+    share: bool
+
+    def class_of(self, value: float) -> int:
+        """Class of a value, 0 to 4: the number of bounds that it reaches."""
+        return sum(value >= bound - 1e-12 for bound in self.bounds)
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The five classes in words."""
+        shown = [f"{100 * bound:g} %" if self.share else f"{bound:g}" for bound in self.bounds]
+        between = [f"{low} to {high}" for low, high in zip(shown[:-1], shown[1:], strict=True)]
+        last = "all" if self.share and self.bounds[-1] == 1.0 else f"{shown[-1]} or more"
+        return (f"below {shown[0]}", *between, last)
+
+
+@cache
+def charts() -> tuple[AtlasChart, ...]:
+    """All charts of the atlas, in the order of their letters."""
+    content = tomllib.loads(files(PLACE).joinpath("charts.toml").read_text("utf-8"))
+    return tuple(_chart(family, panel) for family in content["chart"] for panel in family["panel"])
+
+
+def _chart(family: Mapping[str, object], panel: Mapping[str, object]) -> AtlasChart:
+    both = (*_tables(family.get("fixed", ())), *_tables(panel.get("fixed", ())))
+    texts = {key: str(family[key]) for key in ("letter", "file", "title", "quantity", "definition", "confidence")}
+    return AtlasChart(
+        name=str(panel["name"]),
+        panel=str(panel["title"]),
+        across=_axis(family["across"]),
+        up=_axis(family["up"]),
+        fixed=tuple(FixedNumber(**each) for each in both),
+        bounds=_numbers(family["bounds"]),
+        share=bool(family.get("share", False)),
+        **texts,
+    )
+
+
+def _axis(table: object) -> ChartAxis:
+    assert isinstance(table, Mapping)
+    return ChartAxis(table["name"], table["symbol"], table["number"], _numbers(table["values"]))
+
+
+def _numbers(values: object) -> tuple[float, ...]:
+    assert isinstance(values, Sequence)
+    return tuple(float(value) for value in values)
+
+
+def _tables(values: object) -> Sequence[dict[str, object]]:
+    assert isinstance(values, Sequence)
+    return values
+
+
+Place = tuple[str, str, str]
+"""Chart, and the values across and up as the cells' file writes them."""
+
+
+def place(chart: str, across: float, up: float) -> Place:
+    """The place of a cell."""
+    return chart, f"{across:g}", f"{up:g}"
+
+
+@cache
+def cells() -> Mapping[Place, tuple[float, float, float]]:
+    """Value of each computed cell with the ends of its interval."""
+    with files(PLACE).joinpath(CELLS).open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {
+        (row["chart"], row["across"], row["up"]): (float(row["value"]), float(row["low"]), float(row["high"]))
+        for row in rows
+    }

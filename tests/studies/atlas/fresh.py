@@ -1,0 +1,43 @@
+"""Cells computed again on fresh seeds: do both intervals of a share agree?"""
+
+import csv
+import random
+import time
+from typing import Final
+
+from abu_calc.features.atlas.charts import place
+from tests.studies.atlas import records
+from tests.studies.atlas.recipes import FOLDER, RECIPES, CellValue
+
+FILE: Final = FOLDER / "fresh.csv"
+HEADER: Final = ("chart", "across", "up", "seed", "starts", "value", "again", "agree")
+SEED: Final = 1000
+"""First fresh seed; the charts have the seed 0."""
+
+
+def agree(stored: records.Row, again: CellValue) -> bool:
+    """True if the difference of two shares is one that a common share gives (Fisher's exact test, 5 %)."""
+    from scipy.stats import fisher_exact
+
+    starts = int(stored["starts"])
+    met, met_again = round(float(stored["value"]) * starts), round(again.value * again.starts)
+    table = [[met, starts - met], [met_again, again.starts - met_again]]
+    return bool(fisher_exact(table).pvalue >= 0.05)
+
+
+def compare(number: int, until: float) -> None:
+    """Compute cells drawn at random again, with the starts of their records, and write the record of the comparison."""
+    seeded = [letter for letter, recipe in RECIPES.items() if recipe.seeded]
+    spots = [(letter, *spot) for letter in seeded for spot in records.spots(letter)]
+    rows = {letter: records.stored(letter) for letter in seeded}
+    lines = []
+    for k, (letter, chart, across, up) in enumerate(random.Random(number).sample(spots, number)):
+        at = place(chart.name, across, up)
+        if time.monotonic() > until or at not in rows[letter]:
+            continue
+        known = rows[letter][at]
+        cell = RECIPES[letter].computed(chart, across, up, int(known["starts"]), SEED + k)
+        lines.append((*at, SEED + k, cell.starts, known["value"], f"{cell.value:.4f}", int(agree(known, cell))))
+    with FILE.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADER, *lines])
+    print(f"{sum(line[-1] for line in lines)} of {len(lines)} cells agree")
