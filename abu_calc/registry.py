@@ -87,6 +87,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("run-up", "a start that runs up was simulated"),
             Known("candidates", "there are runners-up"),
             Known("costs", "the drawing's tolerances cost something"),
+            Known("atlas-QUANTITY", "the machine has all fixed numbers of that chart of the atlas"),
         ),
     ),
     Feature(

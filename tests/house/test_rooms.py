@@ -24,6 +24,7 @@ LAYERS = (
 
 FEATURES = (
     "explain",
+    "atlas",
     "seats",
     "swing_arm",
     "stability",

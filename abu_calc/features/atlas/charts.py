@@ -5,7 +5,8 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Final
+from itertools import pairwise
+from typing import Any, Final
 
 from abu_calc.foundation.frozen import dataclass
 
@@ -77,7 +78,7 @@ class AtlasChart:
     def words(self) -> tuple[str, ...]:
         """The five classes in words."""
         shown = [f"{100 * bound:g} %" if self.share else f"{bound:g}" for bound in self.bounds]
-        between = [f"{low} to {high}" for low, high in zip(shown[:-1], shown[1:], strict=True)]
+        between = [f"{low} to {high}" for low, high in pairwise(shown)]
         last = "all" if self.share and self.bounds[-1] == 1.0 else f"{shown[-1]} or more"
         return (f"below {shown[0]}", *between, last)
 
@@ -89,50 +90,38 @@ def charts() -> tuple[AtlasChart, ...]:
     return tuple(_chart(family, panel) for family in content["chart"] for panel in family["panel"])
 
 
-def _chart(family: Mapping[str, object], panel: Mapping[str, object]) -> AtlasChart:
-    both = (*_tables(family.get("fixed", ())), *_tables(panel.get("fixed", ())))
-    texts = {key: str(family[key]) for key in ("letter", "file", "title", "quantity", "definition", "confidence")}
+def _chart(family: dict[str, Any], panel: dict[str, Any]) -> AtlasChart:
+    """Chart of a family's entries and its panel's."""
+    texts = {key: family[key] for key in ("letter", "file", "title", "quantity", "definition", "confidence")}
     return AtlasChart(
-        name=str(panel["name"]),
-        panel=str(panel["title"]),
-        across=_axis(family["across"]),
-        up=_axis(family["up"]),
-        fixed=tuple(FixedNumber(**each) for each in both),
-        bounds=_numbers(family["bounds"]),
-        share=bool(family.get("share", False)),
+        name=panel["name"],
+        panel=panel["title"],
+        across=_axis(**family["across"]),
+        up=_axis(**family["up"]),
+        fixed=tuple(FixedNumber(**each) for each in (*family.get("fixed", ()), *panel.get("fixed", ()))),
+        bounds=tuple(family["bounds"]),
+        share=family.get("share", False),
         **texts,
     )
 
 
-def _axis(table: object) -> ChartAxis:
-    assert isinstance(table, Mapping)
-    return ChartAxis(table["name"], table["symbol"], table["number"], _numbers(table["values"]))
+def _axis(name: str, symbol: str, number: str, values: Sequence[float]) -> ChartAxis:
+    return ChartAxis(name, symbol, number, tuple(values))
 
 
-def _numbers(values: object) -> tuple[float, ...]:
-    assert isinstance(values, Sequence)
-    return tuple(float(value) for value in values)
-
-
-def _tables(values: object) -> Sequence[dict[str, object]]:
-    assert isinstance(values, Sequence)
-    return values
-
-
-Place = tuple[str, str, str]
+CellPlace = tuple[str, str, str]
 """Chart, and the values across and up as the cells' file writes them."""
 
 
-def place(chart: str, across: float, up: float) -> Place:
+def place(chart: str, across: float, up: float) -> CellPlace:
     """The place of a cell."""
     return chart, f"{across:g}", f"{up:g}"
 
 
 @cache
-def cells() -> Mapping[Place, tuple[float, float, float]]:
+def cells() -> Mapping[CellPlace, tuple[float, float, float]]:
     """Value of each computed cell with the ends of its interval."""
-    with files(PLACE).joinpath(CELLS).open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = csv.DictReader(files(PLACE).joinpath(CELLS).read_text("utf-8").splitlines())
     return {
         (row["chart"], row["across"], row["up"]): (float(row["value"]), float(row["low"]), float(row["high"]))
         for row in rows

@@ -1,7 +1,7 @@
 """Compute the atlas: python -m tests.studies.atlas SECONDS [--chart LETTER] [--starts N] [--fresh N].
 
-Cells that are in the records with as many starts are left alone. Then the figures of the charts are drawn anew, and the
-package gets their cells. With --fresh N, so many cells are computed again on fresh seeds instead, and compared.
+Cells that are in the records with as many starts are left alone, and those that need none. Then the figures of the
+charts are drawn anew, and the package gets their cells. With --fresh N, so many cells are computed again on fresh seeds instead, and compared.
 """
 
 import argparse
@@ -46,7 +46,7 @@ def _computed(letter: str, starts: int | None, until: float) -> bool:
             if time.monotonic() > until:
                 break
             at = place(chart.name, across, up)
-            if at in rows and int(rows[at]["starts"]) >= wanted:
+            if at in rows and (rows[at]["starts"] == "0" or int(rows[at]["starts"]) >= wanted):
                 continue
             cell = recipe.computed(chart, across, up, wanted)
             rows[at] = records.row(at, cell, recipe.command(chart, across, up, wanted))

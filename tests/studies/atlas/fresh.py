@@ -1,28 +1,37 @@
-"""Cells computed again on fresh seeds: do both intervals of a share agree?"""
+"""Cells computed again on fresh seeds: do both values agree within their intervals?"""
 
 import csv
+import math
 import random
 import time
 from typing import Final
 
 from abu_calc.features.atlas.charts import place
 from tests.studies.atlas import records
-from tests.studies.atlas.recipes import FOLDER, RECIPES, CellValue
+from tests.studies.atlas.recipe import FOLDER, CellValue
+from tests.studies.atlas.recipes import RECIPES
 
 FILE: Final = FOLDER / "fresh.csv"
 HEADER: Final = ("chart", "across", "up", "seed", "starts", "value", "again", "agree")
 SEED: Final = 1000
 """First fresh seed; the charts have the seed 0."""
+ROUNDED: Final = 1e-4
+"""Rounding of values in the records."""
 
 
-def agree(stored: records.Row, again: CellValue) -> bool:
-    """True if the difference of two shares is one that a common share gives (Fisher's exact test, 5 %)."""
+def agree(share: bool, stored: records.Row, again: CellValue) -> bool:
+    """True if the difference of two values is one that chance alone gives in 95 of 100 cases.
+
+    Of shares by Fisher's exact test, of means by the widths of their intervals.
+    """
+    if not share:
+        half = (float(stored["high"]) - float(stored["low"])) / 2, (again.high - again.low) / 2
+        return abs(float(stored["value"]) - again.value) <= math.hypot(*half) + ROUNDED
     from scipy.stats import fisher_exact
 
     starts = int(stored["starts"])
     met, met_again = round(float(stored["value"]) * starts), round(again.value * again.starts)
-    table = [[met, starts - met], [met_again, again.starts - met_again]]
-    return bool(fisher_exact(table).pvalue >= 0.05)
+    return bool(fisher_exact([[met, starts - met], [met_again, again.starts - met_again]]).pvalue >= 0.05)
 
 
 def compare(number: int, until: float) -> None:
@@ -37,7 +46,8 @@ def compare(number: int, until: float) -> None:
             continue
         known = rows[letter][at]
         cell = RECIPES[letter].computed(chart, across, up, int(known["starts"]), SEED + k)
-        lines.append((*at, SEED + k, cell.starts, known["value"], f"{cell.value:.4f}", int(agree(known, cell))))
+        same = int(agree(chart.share, known, cell))
+        lines.append((*at, SEED + k, cell.starts, known["value"], f"{cell.value:.4f}", same))
     with FILE.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([HEADER, *lines])
     print(f"{sum(line[-1] for line in lines)} of {len(lines)} cells agree")

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Final
 
 import abu_calc.features.atlas.charts as package
-from abu_calc.features.atlas.charts import AtlasChart, Place, charts, place
-from tests.studies.atlas.recipes import FOLDER, CellValue
+from abu_calc.features.atlas.charts import AtlasChart, CellPlace, charts, place
+from tests.studies.atlas.recipe import FOLDER, CellValue
 
 HEADER: Final = ("chart", "across", "up", "value", "low", "high", "starts", "lost", "command")
 SHIPPED: Final = HEADER[:6]
@@ -34,7 +34,7 @@ def spots(letter: str) -> list[tuple[AtlasChart, float, float]]:
     return [(chart, x, y) for chart in family(letter) for y in chart.up.values for x in chart.across.values]
 
 
-def stored(letter: str) -> dict[Place, Row]:
+def stored(letter: str) -> dict[CellPlace, Row]:
     """Rows of a letter's record by cell."""
     if not record(letter).exists():
         return {}
@@ -42,13 +42,13 @@ def stored(letter: str) -> dict[Place, Row]:
         return {(row["chart"], row["across"], row["up"]): row for row in csv.DictReader(file)}
 
 
-def row(at: Place, cell: CellValue, command: str) -> Row:
+def row(at: CellPlace, cell: CellValue, command: str) -> Row:
     """Row of a cell."""
     numbers = (f"{number:.4f}" for number in (cell.value, cell.low, cell.high))
     return dict(zip(HEADER, (*at, *numbers, str(cell.starts), str(cell.lost), command), strict=True))
 
 
-def write(letter: str, rows: Mapping[Place, Row]) -> None:
+def write(letter: str, rows: Mapping[CellPlace, Row]) -> None:
     """Write a letter's record, its cells in their order."""
     order = [place(chart.name, x, y) for chart, x, y in spots(letter)]
     _written(record(letter), HEADER, [rows[at] for at in order if at in rows])
