@@ -38,7 +38,7 @@ def machine_numbers(design: Design) -> Numbers:
             "ovality": balls.budget.race_ovality / displaced,
             "acceleration": displaced * speed**2 / GRAVITY,
         }
-    return numbers | _support(design, mass) | _type_test(design, moment) | _work(design, mass)
+    return numbers | _support(design, mass) | _type_test(design, moment) | _work(design)
 
 
 def _support(design: Design, mass: float) -> Numbers:
@@ -58,6 +58,7 @@ def _support(design: Design, mass: float) -> Numbers:
         unloaded = to_si(motor.no_load_speed_rpm, "rpm")
         numbers["motor"] = motor.stall_torque_N_m / (motor.rotor_inertia_kg_m2 * unloaded * along)
         numbers["no_load"] = unloaded / case.speed
+        numbers["rotor_inertia"] = motor.rotor_inertia_kg_m2 / (mass * design.autobalancer.pitch_radius**2)
     return numbers
 
 
@@ -74,11 +75,12 @@ def _type_test(design: Design, moment: float) -> Numbers:
     }
 
 
-def _work(design: Design, mass: float) -> Numbers:
+def _work(design: Design) -> Numbers:
     """Numbers of grinding with a compliant contact."""
     case, imbalance = design.case, design.imbalance.value
     if case.contact is None or case.contact.kind != "compliant" or not imbalance:
         return {}
+    mass = case.body.effective_mass()
     return {
         "contact_stiffness": case.contact.stiffness / (mass * case.speed**2),
         "runout": case.runout * mass / imbalance,

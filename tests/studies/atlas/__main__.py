@@ -1,7 +1,8 @@
 """Compute the atlas: python -m tests.studies.atlas SECONDS [--chart LETTER] [--starts N] [--fresh N].
 
 Cells that are in the records with as many starts are left alone, and those that need none. Then the figures of the
-charts are drawn anew, and the package gets their cells. With --fresh N, so many cells are computed again on fresh seeds instead, and compared.
+charts are drawn anew, and the package gets their cells. With --fresh N, so many cells are computed again on fresh seeds
+instead, and compared.
 """
 
 import argparse

@@ -48,7 +48,7 @@ def _residual(chart: AtlasChart, eccentricity: float, friction: float) -> tuple[
     )  # fmt: skip
 
 
-def _declared(file: str, entries: tuple[str, ...], starts: int, seed: int) -> Result:
+def _declared(chart: AtlasChart, file: str, entries: tuple[str, ...], starts: int, seed: int) -> Result:
     """The command has a seed of its own, which stands for 0; another one takes its place."""
     drawn = partial(simulated_test, **({"seed": seed} if seed else {}))
     with patch.object(declare_study, "simulated_test", drawn), patch.object(type_test, "simulated_test", drawn):
@@ -60,7 +60,7 @@ def _starts(result: Result) -> int:
     return result["plan"]["starts"] if result["friction_rms_mm"] else 0
 
 
-def _ratio(result: Result) -> CellValue:
+def _ratio(chart: AtlasChart, result: Result) -> CellValue:
     """Mean vibration of the wheel plane with balls over that without."""
     with_, without = result["with"], result["without"]["a_hv_m_per_s2"]
     value, error = with_["a_hv_m_per_s2"] / without, NORMAL_95 * with_["standard_error_m_per_s2"] / without
@@ -77,7 +77,7 @@ def _bare() -> float:
     return abu_calc.declare(read_machine(str(FOLDER / MACHINE)), starts=100).without.a_hv_m_per_s2
 
 
-def _break_even_value(result: Result) -> CellValue:
+def _break_even_value(chart: AtlasChart, result: Result) -> CellValue:
     """The standard error of the declared value, over its slope near the break-even, gives the interval."""
     found = result["break_even_eccentricity_mm"]
     if found is None:
@@ -95,7 +95,7 @@ def _break_even_value(result: Result) -> CellValue:
     return CellValue(value, low, high, _starts(result))
 
 
-def _sized(file: str, entries: tuple[str, ...], starts: int, seed: int) -> Result:
+def _sized(chart: AtlasChart, file: str, entries: tuple[str, ...], starts: int, seed: int) -> Result:
     """The steps of `abu size` alone: its simulations change none of these numbers."""
     design = sized(read_machine(file, list(entries)).whole("size"))
     balls = design.autobalancer
@@ -130,7 +130,7 @@ def _wall(ovality: float) -> float:
     return high
 
 
-def _expected(result: Result) -> CellValue:
+def _expected(chart: AtlasChart, result: Result) -> CellValue:
     return CellValue.exact(1e-3 * result["accuracy_budget"]["residual_um"] / _machine()[0])
 
 
@@ -151,7 +151,7 @@ def _useful(chart: AtlasChart, speed: float, mass: float) -> tuple[str, tuple[st
     return MACHINE, entries
 
 
-def _useful_value(result: Result) -> CellValue:
+def _useful_value(chart: AtlasChart, result: Result) -> CellValue:
     balls = result["autobalancer"]
     moment = balls["ball_count"] * balls["ball_mass_g"] * balls["pitch_radius_mm"]
     return CellValue.exact(result["imbalance_g_mm"] / moment)
@@ -161,9 +161,44 @@ def _hz(ratio: float) -> str:
     return f"{5800 / 60 / ratio:.9g}"
 
 
-RESIDUAL: Final = Recipe(_residual, lambda starts: ("declare", f"--starts {starts}"), _declared, _ratio, 5000, True)
-OVALITY: Final = Recipe(_oval, lambda starts: ("size", ""), _sized, _expected)
-BREAK_EVEN: Final = Recipe(
-    _break_even, lambda starts: ("declare", f"--starts {starts}"), _declared, _break_even_value, 6000, True
+SPEED: Final = 5800 / RPM
+"""Speed of the machine that grinds [rad/s]."""
+
+
+def _contact(chart: AtlasChart, stiffness: float, runout: float) -> tuple[str, tuple[str, ...]]:
+    displaced = _machine()[0]
+    mass = 256e-3 / displaced
+    return "grinding.toml", (
+        f"grinding.contact_stiffness_N_per_m={stiffness * mass * SPEED**2:.9g}",
+        f"wheel.runout_mm={runout * displaced:.9g}",
+    )  # fmt: skip
+
+
+@cache
+def _ground(file: str, entries: tuple[str, ...]) -> Result:
+    return plain(abu_calc.grinding(read_machine(file, list(entries))))
+
+
+PRESSED: Final = {"d-settled": "settled", "d-earlier": "at once"}
+
+
+def _changed(chart: AtlasChart, result: Result) -> CellValue:
+    """Level of the loudest start case minus that without balls [dB], with the levels of all cases as its interval."""
+    cases = [each for each in result["starts"]["outcomes"] if each["pressed"] == PRESSED[chart.name]]
+    without = result["level_before_db"]
+    low, high = min(each["lowest_db"] for each in cases), max(each["highest_db"] for each in cases)
+    return CellValue(high - without, low - without, high - without, sum(each["count"] for each in cases))
+
+
+CONTACT: Final = Recipe(
+    _contact, lambda chart, starts: ("grinding", ""), lambda chart, file, entries, starts, seed: _ground(file, entries),
+    _changed,
+)  # fmt: skip
+RESIDUAL: Final = Recipe(
+    _residual, lambda chart, starts: ("declare", f"--starts {starts}"), _declared, _ratio, 5000, True
 )
-USEFUL: Final = Recipe(_useful, lambda starts: ("size", ""), _sized, _useful_value)
+OVALITY: Final = Recipe(_oval, lambda chart, starts: ("size", ""), _sized, _expected)
+BREAK_EVEN: Final = Recipe(
+    _break_even, lambda chart, starts: ("declare", f"--starts {starts}"), _declared, _break_even_value, 6000, True
+)
+USEFUL: Final = Recipe(_useful, lambda chart, starts: ("size", ""), _sized, _useful_value)

@@ -42,29 +42,29 @@ class CellValue:
 class Recipe:
     """How cells of a chart are made.
 
-    `entries`: file and entries of a cell, by chart, across and up; `words`: the command and its options, by the number
-    of starts; `run`: its result as the command gives it in JSON, by file, entries, starts and seed; `read`: the value
-    in it; `starts`: as many without another number.
+    `entries`: file and entries of a cell, by across and up; `words`: the command and its options, by the number of
+    starts; `run`: its result as the command gives it in JSON, by file, entries, starts and seed; `read`: the value in
+    it; `starts`: as many without another number; `seeded`: other seeds give other starts.
     """
 
     entries: Callable[[AtlasChart, float, float], tuple[str, tuple[str, ...]]]
-    words: Callable[[int], tuple[str, str]]
-    run: Callable[[str, tuple[str, ...], int, int], Result]
-    read: Callable[[Result], CellValue]
+    words: Callable[[AtlasChart, int], tuple[str, str]]
+    run: Callable[[AtlasChart, str, tuple[str, ...], int, int], Result]
+    read: Callable[[AtlasChart, Result], CellValue]
     starts: int = 0
     seeded: bool = False
 
     def command(self, chart: AtlasChart, across: float, up: float, starts: int) -> str:
         """Command that gives the value of a cell again."""
         file, entries = self.entries(chart, across, up)
-        name, options = self.words(starts)
+        name, options = self.words(chart, starts)
         sets = " ".join(f"--set {shlex.quote(each)}" for each in entries)
         return f"abu {name} {SHOWN}/{file} {sets} {options}".strip()
 
     def computed(self, chart: AtlasChart, across: float, up: float, starts: int, seed: int = 0) -> CellValue:
         """A cell, computed in this process by the function that the command calls."""
         file, entries = self.entries(chart, across, up)
-        return self.read(self.run(str(FOLDER / file), entries, starts, seed))
+        return self.read(chart, self.run(chart, str(FOLDER / file), entries, starts, seed))
 
 
 def plain(result: Any) -> Result:

@@ -2,13 +2,10 @@
 
 from typing import Final
 
-from tests.studies.atlas import machine_cells, scene_cells
+from tests.studies.atlas.machine_cells import BREAK_EVEN, CONTACT, OVALITY, RESIDUAL, USEFUL
 from tests.studies.atlas.recipe import Recipe
+from tests.studies.atlas.scene_cells import BALANCE, MOTOR, RUN_UP
 
 RECIPES: Final[dict[str, Recipe]] = {
-    "a": scene_cells.BALANCE,
-    "c": machine_cells.RESIDUAL,
-    "e": machine_cells.OVALITY,
-    "f": machine_cells.BREAK_EVEN,
-    "g": machine_cells.USEFUL,
-}
+    "a": BALANCE, "b": RUN_UP, "c": RESIDUAL, "d": CONTACT, "e": OVALITY, "f": BREAK_EVEN, "g": USEFUL, "h": MOTOR
+}  # fmt: skip
