@@ -1,4 +1,4 @@
-"""The atlas: its cells are commands, its shares have their intervals, and its runner goes on where it stopped."""
+"""The atlas: its cells are commands, its values have their intervals, its runner goes on where it stopped."""
 
 import csv
 import shlex
@@ -6,47 +6,129 @@ from pathlib import Path
 
 import pytest
 
+from abu_calc.features.atlas.charts import AtlasChart, cells, charts, place
 from tests.cli.runner import abu
 from tests.studies.atlas import __main__ as atlas
-from tests.studies.atlas.charts import CHARTS, FOLDER
+from tests.studies.atlas import figures, fresh, page, records
+from tests.studies.atlas.recipe import FOLDER, CellValue
+from tests.studies.atlas.recipes import RECIPES
 
-CELLS = [cell for chart in CHARTS for cell in chart.cells()]
+BY_NAME = {chart.name: chart for chart in charts()}
+QUICK = {
+    "a-2-plain": (1.5, 0.01, 4), "a-4-plain": (4.0, 0.5, 4), "b-light": (30.0, 0.05, 6), "b-hand": (10.0, 0.1, 4),
+    "c-vertical": (0.3, 0.2, 500), "c-horizontal": (0.1, 0.5, 500), "f": (0.2, 0.4, 300), "g": (5.0, 100.0, 0),
+    "h": (0.1, 0.02, 3),
+}  # fmt: skip
+"""Cells, with fewer starts than in the record, that are computed in seconds."""
+
+
+def _opened(chart: AtlasChart, across: float, up: float, starts: int) -> CellValue:
+    """Value of a cell by its command, run as people run it."""
+    command = shlex.split(RECIPES[chart.letter].command(chart, across, up, starts))
+    return RECIPES[chart.letter].read(chart, abu(*command[1:], "--json").document["result"])
 
 
 def test_every_cell_has_a_place_of_its_own() -> None:
-    assert len({cell.key for cell in CELLS}) == len(CELLS) == 640
+    spots = [place(chart.name, x, y) for letter in records.letters() for chart, x, y in records.spots(letter)]
+    assert len(set(spots)) == len(spots)
+    assert records.letters() == tuple("abcdefgh") == tuple(sorted(RECIPES))
 
 
-@pytest.mark.parametrize("index", [2, 57, 130])
-def test_a_cell_opened_as_a_command_gives_its_share(index: int, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("name", QUICK)
+def test_a_cell_opened_as_a_command_gives_its_value(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(FOLDER.parents[2])
-    balanced, undecided = atlas.computed(CELLS[index], 4)
-    result = abu(*shlex.split(CELLS[index].command(4))[1:], "--json").document["result"]
-    share = sum(each["share"] for each in result["attractors"] if each["kind"] == "balanced")
-    assert share == pytest.approx(balanced / 4) and result["attractor_search"]["undecided_share"] == undecided / 4
+    chart, (across, up, starts) = BY_NAME[name], QUICK[name]
+    cell = RECIPES[chart.letter].computed(chart, across, up, starts)
+    found = _opened(chart, across, up, starts)
+    for value in ("value", "low", "high"):
+        assert getattr(found, value) == pytest.approx(getattr(cell, value), rel=1e-9, abs=1e-12)
 
 
-def test_the_record_holds_shares_within_their_intervals_and_the_commands_of_its_cells() -> None:
-    with atlas.FILE.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    cells = {cell.key: cell for cell in CELLS}
-    assert rows
-    for row in rows:
-        share = int(row["balanced"]) / int(row["starts"])
-        assert float(row["low"]) <= share <= float(row["high"]) and float(row["share"]) == pytest.approx(
-            share, abs=1e-4
-        )
-        assert row["command"] == cells[row["chart"], row["speed_ratio"], row["drag"]].command(int(row["starts"]))
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "across", "up"),
+    [("a-3-plain", 6.0, 0.5), ("a-8-contact", 2.0, 0.05), ("b-light", 60.0, 0.02), ("b-hand", 100.0, 0.02),
+     ("c-vertical", 0.2, 0.3), ("d-settled", 0.2, 2.25), ("d-earlier", 0.2, 2.25), ("e", 0.3, 0.1), ("e", 0.05, 0.3),
+     ("f", 0.3, 0.2), ("g", 2.0, 250.0), ("h", 0.005, 0.01)],
+)  # fmt: skip
+def test_the_command_of_the_record_gives_the_recorded_value(
+    name: str, across: float, up: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(FOLDER.parents[2])
+    chart = BY_NAME[name]
+    row = records.stored(chart.letter)[place(name, across, up)]
+    found = RECIPES[chart.letter].read(chart, abu(*shlex.split(row["command"])[1:], "--json").document["result"])
+    assert found.value == pytest.approx(float(row["value"]), abs=2e-4, rel=1e-4)
+
+
+@pytest.mark.parametrize("letter", records.letters())
+def test_a_record_is_whole_with_values_in_their_intervals_and_commands_of_their_cells(letter: str) -> None:
+    rows = records.stored(letter)
+    spots = records.spots(letter)
+    assert len(rows) == len(spots)
+    # Chart e seeks a wall for each row: its commands are those of `test_the_command_of_the_record…`.
+    for chart, across, up in spots if letter not in "eg" else spots[:1]:
+        row = rows[place(chart.name, across, up)]
+        assert float(row["low"]) <= float(row["value"]) <= float(row["high"])
+        wanted = int(row["starts"]) or RECIPES[letter].starts
+        if letter != "d":
+            assert row["command"] == RECIPES[letter].command(chart, across, up, wanted)
+        if chart.share:
+            met = round(float(row["value"]) * wanted)
+            assert (float(row["low"]), float(row["high"])) == pytest.approx(
+                (CellValue.share(met, wanted).low, CellValue.share(met, wanted).high), abs=1e-4
+            )
+
+
+def test_the_package_ships_the_cells_of_the_records() -> None:
+    rows = {at: row for letter in records.letters() for at, row in records.stored(letter).items()}
+    assert set(cells()) == set(rows)
+    for at, numbers in cells().items():
+        assert numbers == tuple(float(rows[at][key]) for key in ("value", "low", "high"))
+
+
+def test_the_page_and_the_figures_are_those_of_the_records() -> None:
+    assert page.PAGE.read_text("utf-8") == page.text()
+    assert all(figures.figure(letter).exists() for letter in records.letters())
+
+
+def test_fresh_seeds_agree_in_95_of_100_cells() -> None:
+    same, compared = fresh.agreement()
+    assert compared >= 100 and same >= 0.95 * compared
+
+
+def test_values_that_differ_do_not_agree() -> None:
+    row = {"starts": "20", "value": "0.5", "low": "0.3", "high": "0.7"}
+    assert fresh.agree(True, row, CellValue.share(11, 20)) and not fresh.agree(True, row, CellValue.share(20, 20))
+    assert fresh.agree(False, row, CellValue(0.7, 0.6, 0.8)) and not fresh.agree(False, row, CellValue(1.0, 0.9, 1.1))
 
 
 def test_a_second_run_computes_only_what_the_first_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tried = []
-    monkeypatch.setattr(atlas, "FILE", tmp_path / "balance.csv")
-    monkeypatch.setattr(atlas, "_draw", lambda rows: None)
-    monkeypatch.setattr(atlas, "computed", lambda cell, starts: (tried.append(cell.key), (starts, 0))[1])
-    monkeypatch.setattr(atlas, "CHARTS", CHARTS[:1])
-    atlas.main(["60", "2"])
-    atlas.main(["60", "2"])
-    assert len(tried) == len(set(tried)) == 80
-    atlas.main(["60", "3"])
-    assert len(tried) == 160
+
+    class Counted:
+        starts = 20
+
+        def computed(self, chart: AtlasChart, across: float, up: float, starts: int) -> CellValue:
+            tried.append(place(chart.name, across, up))
+            return CellValue.share(1, starts)
+
+        def command(self, *given: object) -> str:
+            return "abu"
+
+    monkeypatch.setattr(records, "record", lambda letter: tmp_path / f"{letter}.csv")
+    monkeypatch.setattr(records, "letters", lambda: ("h",))
+    monkeypatch.setattr(records, "ship", lambda: None)
+    monkeypatch.setattr(atlas, "RECIPES", {"h": Counted()})
+    monkeypatch.setattr(atlas.figures, "draw", lambda letter: None)
+    monkeypatch.setattr(atlas.page, "write", lambda: None)
+    atlas.main(["0"])
+    assert not tried
+    atlas.main(["60", "--starts", "2"])
+    first = len(tried)
+    atlas.main(["60", "--starts", "2"])
+    assert len(tried) == len(set(tried)) == first == len(records.spots("h"))
+    atlas.main(["60", "--starts", "3"])
+    assert len(tried) == 2 * first
+    with (tmp_path / "h.csv").open(encoding="utf-8", newline="") as file:
+        assert {row["starts"] for row in csv.DictReader(file)} == {"3"}

@@ -1,8 +1,8 @@
 """Compute the atlas: python -m tests.studies.atlas SECONDS [--chart LETTER] [--starts N] [--fresh N].
 
 Cells that are in the records with as many starts are left alone, and those that need none. Then the figures of the
-charts are drawn anew, and the package gets their cells. With --fresh N, so many cells are computed again on fresh seeds
-instead, and compared.
+charts are drawn anew, the package gets their cells, and the page is written. With --fresh N, so many cells are computed
+again on fresh seeds instead, and compared.
 """
 
 import argparse
@@ -10,7 +10,7 @@ import time
 from collections.abc import Sequence
 
 from abu_calc.features.atlas.charts import place
-from tests.studies.atlas import figures, fresh, records
+from tests.studies.atlas import figures, fresh, page, records
 from tests.studies.atlas.recipes import RECIPES
 
 
@@ -20,11 +20,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     until = time.monotonic() + asked.seconds
     if asked.fresh:
         fresh.compare(asked.fresh, until)
+        page.write()
         return
     for letter in asked.chart or records.letters():
         if _computed(letter, asked.starts, until):
             figures.draw(letter)
     records.ship()
+    page.write()
     rows = [row for letter in records.letters() for row in records.stored(letter).values()]
     print(f"{len(rows)} cells, {sum(int(row['starts']) for row in rows)} starts")
 

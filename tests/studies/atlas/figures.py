@@ -1,12 +1,15 @@
 """Figures of the atlas: one picture for each letter, a field for each of its charts."""
 
 from pathlib import Path
+from textwrap import fill
 from typing import Any, Final
 
 from abu_calc.features.atlas.charts import AtlasChart, place
 from tests.studies.atlas.records import family, record, stored
 
 COLUMNS: Final = 4
+LABEL: Final = 36
+"""Letters in a line of the scale's label."""
 DARK: Final = 0.45
 """Share of the scale below which numbers are written in white."""
 
@@ -39,7 +42,7 @@ def draw(letter: str) -> None:
     picture.supxlabel(panels[0].across.label)
     picture.supylabel(panels[0].up.label)
     unit = ", %" if panels[0].share else ""
-    bar = picture.colorbar(image, ax=fields, label=panels[0].quantity + unit)
+    bar = picture.colorbar(image, ax=fields, label=fill(panels[0].quantity + unit, LABEL))
     if panels[0].share:
         bar.set_ticks([0, 0.25, 0.5, 0.75, 1], labels=["0", "25", "50", "75", "100"])
     picture.savefig(figure(letter), dpi=75)

@@ -34,16 +34,28 @@ def agree(share: bool, stored: records.Row, again: CellValue) -> bool:
     return bool(fisher_exact([[met, starts - met], [met_again, again.starts - met_again]]).pvalue >= 0.05)
 
 
+def agreement() -> tuple[int, int]:
+    """Number of compared cells that agree, and of all compared ones, in the record."""
+    with FILE.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return sum(row["agree"] == "1" for row in rows), len(rows)
+
+
 def compare(number: int, until: float) -> None:
     """Compute cells drawn at random again, with the starts of their records, and write the record of the comparison."""
     seeded = [letter for letter, recipe in RECIPES.items() if recipe.seeded]
-    spots = [(letter, *spot) for letter in seeded for spot in records.spots(letter)]
     rows = {letter: records.stored(letter) for letter in seeded}
+    spots = [
+        (letter, chart, across, up)
+        for letter in seeded
+        for chart, across, up in records.spots(letter)
+        if int(rows[letter].get(place(chart.name, across, up), {"starts": "0"})["starts"])
+    ]
     lines = []
     for k, (letter, chart, across, up) in enumerate(random.Random(number).sample(spots, number)):
+        if time.monotonic() > until:
+            break
         at = place(chart.name, across, up)
-        if time.monotonic() > until or at not in rows[letter]:
-            continue
         known = rows[letter][at]
         cell = RECIPES[letter].computed(chart, across, up, int(known["starts"]), SEED + k)
         same = int(agree(chart.share, known, cell))

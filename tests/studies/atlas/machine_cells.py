@@ -199,6 +199,6 @@ RESIDUAL: Final = Recipe(
 )
 OVALITY: Final = Recipe(_oval, lambda chart, starts: ("size", ""), _sized, _expected)
 BREAK_EVEN: Final = Recipe(
-    _break_even, lambda chart, starts: ("declare", f"--starts {starts}"), _declared, _break_even_value, 6000, True
+    _break_even, lambda chart, starts: ("declare", f"--starts {starts}"), _declared, _break_even_value, 11_000, True
 )
 USEFUL: Final = Recipe(_useful, lambda chart, starts: ("size", ""), _sized, _useful_value)
