@@ -2,7 +2,7 @@
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from abu_calc.features.atlas.charts import AtlasChart, ChartAxis, cells, charts, place
 from abu_calc.features.atlas.machine_numbers import Numbers, machine_numbers
@@ -44,10 +44,8 @@ def _figure(chart: AtlasChart, numbers: Numbers, across: float, up: float) -> Fi
     known = cells()
     grid = [[known.get(place(chart.name, x, y)) for x in chart.across.values] for y in chart.up.values]
     classes = [[None if cell is None else chart.class_of(cell[0]) for cell in line] for line in grid]
-    nearest = grid[round(up)][round(across)]
-    fixed = "; ".join(each.text for each in chart.fixed)
     where = ", ".join(f"{axis.symbol} = {numbers[axis.number]:.3g}" for axis in (chart.across, chart.up))
-    here = "" if nearest is None else f" Nearest cell: {_value(chart, *nearest)}."
+    here = _around(chart, [grid[row][column] for row in _both(up) for column in _both(across)])
     seen = {kind for line in classes for kind in line}
     words = [(None, "not computed"), *enumerate(chart.words)]
     drawn = Cells(
@@ -56,14 +54,26 @@ def _figure(chart: AtlasChart, numbers: Numbers, across: float, up: float) -> Fi
         [entry for entry in words if entry[0] in seen], MarkedPoint(across, up, "this machine"),
     )  # fmt: skip
     caption = (
-        f"Atlas, chart {chart.letter}: {chart.quantity}. {chart.definition} This machine: {where}.{here} "
-        f"Fixed: {fixed}."
+        f"{chart.title} ({chart.panel}), chart {chart.letter} of the atlas: {chart.quantity}. {chart.definition} This "
+        f"machine: {where}.{here} It has the {len(chart.fixed)} fixed numbers of the chart within their tolerances; the "
+        "atlas in the documentation lists them."
     )
     return Figure(f"atlas-{chart.name}", "", drawn, caption)
 
 
-def _value(chart: AtlasChart, value: float, low: float, high: float) -> str:
-    """A cell's value in words, with its interval if it has one."""
+def _both(where: float) -> tuple[int, int]:
+    """The cells on either side of a place; twice the same in the middle of a cell."""
+    return math.floor(where), math.ceil(where)
+
+
+def _around(chart: AtlasChart, near: Sequence[tuple[float, float, float] | None]) -> str:
+    """Values of the cells around a machine, from the lowest to the highest, with their intervals."""
+    known = [cell for cell in near if cell is not None]
+    if not known:
+        return ""
     factor, unit = (100.0, " %") if chart.share else (1.0, "")
-    between = f" (95 %: {factor * low:.3g} … {factor * high:.3g}{unit})" if high > low else ""
-    return f"{factor * value:.3g}{unit}{between}"
+    values = sorted({f"{factor * value:.3g}" for value, _, _ in known}, key=float)
+    low, high = factor * min(cell[1] for cell in known), factor * max(cell[2] for cell in known)
+    within = f" (intervals: {low:.3g} … {high:.3g}{unit})" if any(cell[2] > cell[1] for cell in known) else ""
+    between = values[0] if len(values) == 1 else f"{values[0]} … {values[-1]}"
+    return f" Cells around it: {between}{unit}{within}."

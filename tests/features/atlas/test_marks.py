@@ -51,7 +51,7 @@ def test_the_figures_of_a_machine_stand_on_its_page_with_the_nearest_cell() -> N
     assert isinstance(shown, Cells) and shown.spot is not None
     # Δ·m₀/U = 0.242 lies between 0.2 and 0.3, the friction band 0.141 between 0.1 and 0.2.
     assert 3 < shown.spot.x < 4 and 3 < shown.spot.y < 4
-    assert "Δ·m₀/U = 0.242" in shown.summary and "Nearest cell: 0.2" in shown.summary
+    assert "Δ·m₀/U = 0.242" in shown.summary and "Cells around it: 0.2 … 0.3." in shown.summary
 
 
 def test_a_machine_beside_all_charts_gets_none() -> None:
