@@ -26,8 +26,8 @@ class ChartAxis:
 
     @property
     def label(self) -> str:
-        """Name with symbol, as figures show it."""
-        return f"{self.name}, {self.symbol}"
+        """Name with symbol, as figures show it; the unit is 1."""
+        return f"{self.name}, {self.symbol} [1]"
 
 
 @dataclass(frozen=True)

@@ -54,9 +54,9 @@ def _figure(chart: AtlasChart, numbers: Numbers, across: float, up: float) -> Fi
         [entry for entry in words if entry[0] in seen], MarkedPoint(across, up, "this machine"),
     )  # fmt: skip
     caption = (
-        f"{chart.title} ({chart.panel}), chart {chart.letter} of the atlas: {chart.quantity}. {chart.definition} This "
-        f"machine: {where}.{here} It has the {len(chart.fixed)} fixed numbers of the chart within their tolerances; the "
-        "atlas in the documentation lists them."
+        f"{chart.title} ({chart.panel}), chart {chart.letter} of the atlas: {chart.quantity}. {chart.definition} "
+        f"This machine: {where}.{here} It has the {len(chart.fixed)} fixed numbers of the chart within their "
+        "tolerances; the atlas in the documentation lists them."
     )
     return Figure(f"atlas-{chart.name}", "", drawn, caption)
 

@@ -17,19 +17,22 @@ AVERAGED: Final = "cf"
 """Letters whose starts follow averaged equations."""
 
 READING: Final = {
-    "a": "No start balances below the natural frequency. Far above it, more drag helps; with two balls too much drag "
-    "delays them beyond the length of a run. Friction and contact close part of the chart: balls rest off balance.",
-    "b": "A slow run-up lets balls stall near the natural frequency. Enough drag carries them past it: see the closed "
-    "bound in {doc}`/how-to/attractors`.",
-    "c": "Friction on a vertical spindle adds to the eccentricity as the root of the sum of squares, about. Above an "
-    "eccentricity of 1 the balls make the machine louder.",
-    "d": "Between the stiffness regions that `abu grinding` lists, the contact drives the balls to the wrong side.",
-    "e": "An ovality of half the displacement without balls leaves half of the vibration.",
+    "a": "No start balances below the natural frequency. Above it, more starts balance at more speed and more drag. "
+    "With three balls, friction and contact, single starts rest off balance even at much drag.",
+    "b": "With light damping, a slow run-up lets balls stall near the natural frequency; at h₀/ω of 0.02 and less, "
+    "many have no time to settle. Hand-held, gravity decides: balls stay at the bottom unless the drag lifts them "
+    "(h₀·Ω above g/R_p, here h₀/ω above 0.045), or a quick run-up sets them rolling (ω·t below 12).",
+    "c": "On a vertical spindle friction adds to the eccentricity, about as the root of the sum of squares. Above an "
+    "eccentricity of 1 the machine is louder with balls than without.",
+    "d": "At a soft contact the balls help at every runout. At a stiff one with much runout, wheel and workpiece "
+    "bounce, and the machine is louder with balls. The edge lies between 0.2 and 0.5 on the lower axis, where a mark "
+    "between cells means either.",
+    "e": "An ovality of half the displacement without balls leaves about half of the vibration.",
     "f": "A background above 1.2 times the vibration without balls leaves no eccentricity at which the declared value "
     "falls.",
-    "g": "Far above the natural frequency, the smallest useful imbalance grows with the mass alone. Near it, the "
-    "machine without balls is louder, so that smaller imbalances are worth balancing.",
-    "h": "Motors of power tools have T_s/(I·Ω₀·ω) near 0.1. Only motors much weaker let balls stall.",
+    "g": "Far above the natural frequency the smallest useful imbalance grows with the mass alone. Near it the machine "
+    "is louder without balls, so that smaller imbalances are worth balancing.",
+    "h": "READING_H",
 }
 """What each chart shows, in a sentence or two."""
 
