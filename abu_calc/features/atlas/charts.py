@@ -13,6 +13,8 @@ from abu_calc.foundation.frozen import dataclass
 PLACE: Final = "abu_calc.features.atlas"
 CELLS: Final = "cells.csv"
 """File of the package that holds the cells of all charts: chart, across, up, value, low, high."""
+TIE: Final = "\u00a0"
+"""Space at which no line breaks."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,8 @@ class FixedNumber:
     def text(self) -> str:
         """Name, value and tolerance in words."""
         value = self.value if isinstance(self.value, str) else f"{self.value:g}"
-        return f"{self.name} {value}" + (f" (± {self.tolerance:.0%})".replace("%", " %") if self.tolerance else "")
+        tolerance = f" (±{TIE}{100 * self.tolerance:g}{TIE}%)" if self.tolerance else ""
+        return f"{self.name} {value}{tolerance}"
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ import random
 import time
 from typing import Final
 
-from abu_calc.features.atlas.charts import place
+from abu_calc.features.atlas.charts import AtlasChart, CellPlace, place
 from tests.studies.atlas import records
-from tests.studies.atlas.recipe import FOLDER, CellValue
+from tests.studies.atlas.recipe import FOLDER, CellValue, Recipe
 from tests.studies.atlas.recipes import RECIPES
 
 FILE: Final = FOLDER / "fresh.csv"
@@ -34,32 +34,50 @@ def agree(share: bool, stored: records.Row, again: CellValue) -> bool:
     return bool(fisher_exact([[met, starts - met], [met_again, again.starts - met_again]]).pvalue >= 0.05)
 
 
+def compared() -> dict[str, dict[str, str]]:
+    """Cells of the record by their seeds."""
+    if not FILE.exists():
+        return {}
+    with FILE.open(encoding="utf-8", newline="") as file:
+        return {row["seed"]: row for row in csv.DictReader(file)}
+
+
 def agreement() -> tuple[int, int]:
     """Number of compared cells that agree, and of all compared ones, in the record."""
-    with FILE.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = compared().values()
     return sum(row["agree"] == "1" for row in rows), len(rows)
 
 
 def compare(number: int, until: float) -> None:
-    """Compute cells drawn at random again, with the starts of their records, and write the record of the comparison."""
-    seeded = [letter for letter, recipe in RECIPES.items() if recipe.seeded]
-    rows = {letter: records.stored(letter) for letter in seeded}
+    """Compute cells drawn at random again, with the starts of their records; those in the record are left alone."""
+    rows = {letter: records.stored(letter) for letter, recipe in RECIPES.items() if recipe.seeded}
     spots = [
         (letter, chart, across, up)
-        for letter in seeded
+        for letter in rows
         for chart, across, up in records.spots(letter)
         if int(rows[letter].get(place(chart.name, across, up), {"starts": "0"})["starts"])
     ]
-    lines = []
-    for k, (letter, chart, across, up) in enumerate(random.Random(number).sample(spots, number)):
-        if time.monotonic() > until:
-            break
-        at = place(chart.name, across, up)
-        known = rows[letter][at]
-        cell = RECIPES[letter].computed(chart, across, up, int(known["starts"]), SEED + k)
-        same = int(agree(chart.share, known, cell))
-        lines.append((*at, SEED + k, cell.starts, known["value"], f"{cell.value:.4f}", same))
-    with FILE.open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([HEADER, *lines])
-    print(f"{sum(line[-1] for line in lines)} of {len(lines)} cells agree")
+    lines = compared()
+    try:
+        for seed, (letter, chart, across, up) in enumerate(random.Random(number).sample(spots, number), SEED):
+            if time.monotonic() > until:
+                break
+            at = place(chart.name, across, up)
+            known = lines.get(str(seed), {})
+            if tuple(known.get(key) for key in HEADER[:3]) != at:
+                lines[str(seed)] = _compared(chart, at, rows[letter][at], RECIPES[letter], seed)
+    finally:
+        with FILE.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, HEADER, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(lines.values())
+    print("{} of {} cells agree".format(*agreement()))
+
+
+def _compared(chart: AtlasChart, at: CellPlace, known: records.Row, recipe: Recipe, seed: int) -> dict[str, str]:
+    """Row of a cell that is computed again."""
+    cell = recipe.computed(chart, float(at[1]), float(at[2]), int(known["starts"]), seed)
+    same = str(int(agree(chart.share, known, cell)))
+    return dict(
+        zip(HEADER, (*at, str(seed), str(cell.starts), known["value"], f"{cell.value:.4f}", same), strict=True)
+    )

@@ -32,7 +32,9 @@ READING: Final = {
     "falls.",
     "g": "Far above the natural frequency the smallest useful imbalance grows with the mass alone. Near it the machine "
     "is louder without balls, so that smaller imbalances are worth balancing.",
-    "h": "READING_H",
+    "h": "A weak motor leaves the balls at the bottom of the race. Gravity holds them there unless the drag lifts them "
+    "(h₀·Ω above g/R_p, here h₀/ω above 0.045), or the motor sets them rolling at its start (here above 0.06). "
+    "Motors of power tools have 0.1 and more. The rotor itself passes the natural frequency in all cells.",
 }
 """What each chart shows, in a sentence or two."""
 
@@ -74,7 +76,9 @@ def _opening() -> Iterator[str]:
     yield _wrapped(
         "Symbols: Ω speed of the rotor, ω natural frequency with the balls, m₀ and m_F effective mass without and with "
         "the autobalancer, U imbalance, n balls of mass m and radius r on the pitch radius R_p, h₀ viscous drag rate, "
-        "k_r lever arm of rolling friction, Δ race eccentricity."
+        "k_r lever arm of rolling friction, Δ race eccentricity, a amplitude of the race's two lobes, ε runout of the "
+        "wheel, k_c contact stiffness, N₀ press force, T_s stall torque of the motor, Ω₀ its no-load speed, I inertia "
+        "of all that turns. In the first chart ω is that without the balls."
     )
 
 
