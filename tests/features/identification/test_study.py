@@ -201,3 +201,16 @@ def test_an_eccentricity_within_its_own_interval_is_not_known(half: float, given
     assert estimate.at_the_edge(marked=True) == ()
     edge = Estimate(Best(np.array([2.5, math.log(0.3), 3.0, 4.0]), 0.0), WIDE, intervals, 0.1, 0.5, 0.0, 1.0, 1)
     assert edge.at_the_edge(marked=True) == ("lever arm",)
+
+
+@pytest.mark.hard
+def test_a_start_of_another_machine_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of nine starts one was recorded with twice the imbalance: the check names its file, and none of the others."""
+    monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
+    path, files = starts(tmp_path, 8)
+    foreign = record(path, tmp_path / "foreign.csv", DRAG, LEVER, complex(OFFSET), 50, imbalance=2.0)
+    for given, status in ((files, "pass"), ([*files[:4], foreign, *files[4:]], "warn")):
+        check = next(
+            check for check in abu_calc.identify(read_any(str(path)), given).checks if check.code == "ABU1109"
+        )
+        assert check.status == status and ("foreign.csv" in check.message) is (status == "warn")
