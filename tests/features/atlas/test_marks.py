@@ -18,9 +18,7 @@ HORIZONTAL = next(chart for chart in charts() if chart.name == "c-horizontal")
 
 
 def _numbers(**changed: float | str) -> dict[str, float | str]:
-    numbers: dict[str, float | str] = {
-        each.number: each.value for each in HORIZONTAL.fixed
-    }
+    numbers: dict[str, float | str] = {each.number: each.value for each in HORIZONTAL.fixed}
     return {**numbers, "eccentricity": 0.2, "friction": 0.1, **changed}
 
 

@@ -78,6 +78,4 @@ def _compared(chart: AtlasChart, at: CellPlace, known: records.Row, recipe: Reci
     """Row of a cell that is computed again."""
     cell = recipe.computed(chart, float(at[1]), float(at[2]), int(known["starts"]), seed)
     same = str(int(agree(chart.share, known, cell)))
-    return dict(
-        zip(HEADER, (*at, str(seed), str(cell.starts), known["value"], f"{cell.value:.4f}", same), strict=True)
-    )
+    return dict(zip(HEADER, (*at, str(seed), str(cell.starts), known["value"], f"{cell.value:.4f}", same), strict=True))
