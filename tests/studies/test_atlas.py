@@ -49,7 +49,7 @@ def test_a_cell_opened_as_a_command_gives_its_value(name: str, monkeypatch: pyte
     ("name", "across", "up"),
     [("a-3-plain", 6.0, 0.5), ("a-8-contact", 2.0, 0.05), ("b-light", 60.0, 0.02), ("b-hand", 100.0, 0.02),
      ("c-vertical", 0.2, 0.3), ("d-settled", 0.2, 2.25), ("d-earlier", 0.2, 2.25), ("e", 0.3, 0.1), ("e", 0.05, 0.3),
-     ("f", 0.3, 0.2), ("g", 2.0, 250.0), ("h", 0.005, 0.01)],
+     ("f", 0.3, 0.2), ("g", 40.0, 100.0), ("h", 0.03, 0.01)],
 )  # fmt: skip
 def test_the_command_of_the_record_gives_the_recorded_value(
     name: str, across: float, up: float, monkeypatch: pytest.MonkeyPatch
