@@ -75,9 +75,9 @@ def test_a_program_is_told_when_it_lost_the_motion_and_which_events_it_missed() 
 
 
 def scene(**other: Any) -> dict[str, Any]:
-    """Two balls on a rotor so heavy and stiff that its axis stands still."""
+    """Two balls on a rotor so heavy that its axis stands still, within some 1e-7."""
     return {
-        "mass_kg": 1e9, "stiffness_N_per_m": [1e15, 1e15], "damping_N_s_per_m": [0.0, 0.0], "speed_rad_per_s": 10.0,
+        "mass_kg": 1e9, "stiffness_N_per_m": [1e9, 1e9], "damping_N_s_per_m": [0.0, 0.0], "speed_rad_per_s": 10.0,
         "imbalance_kg_m": 0.0, "imbalance_angle_rad": 0.0, "ball_masses_kg": [1.0, 3.0], "pitch_radii_m": [1.0, 1.0],
         "viscous_drag_rates_per_s": [0.0, 0.0], "ball_inertia_factors": [1.0, 1.0], "ball_radius_m": 0.5,
         "start_place_m": [0.0, 0.0], "start_velocity_m_per_s": [0.0, 0.0], "start_angles_rad": [0.0, 2.0],
@@ -91,10 +91,10 @@ def test_integrators_meet_the_closed_impact_of_two_balls() -> None:
     meeting = 2 - math.pi / 3
     for states, events in (taylor.solved(case), scipy_switching.solved(case, 1e-12)):
         assert [tuple(event[1:]) for event in events] == [("impact", 0)]
-        assert events[0][0] == pytest.approx(meeting, abs=1e-7)
-        assert states[-1][6:8] == pytest.approx([-1 / 8, 3 / 8], abs=1e-7)
+        assert events[0][0] == pytest.approx(meeting, abs=1e-6)
+        assert states[-1][6:8] == pytest.approx([-1 / 8, 3 / 8], abs=1e-6)
         after = 2 - meeting
-        assert states[-1][2:4] == pytest.approx([meeting - after / 8, 2 + 3 * after / 8], abs=1e-7)
+        assert states[-1][2:4] == pytest.approx([meeting - after / 8, 2 + 3 * after / 8], abs=1e-6)
 
 
 def test_integrators_meet_the_closed_motion_under_dry_friction() -> None:
@@ -107,9 +107,9 @@ def test_integrators_meet_the_closed_motion_under_dry_friction() -> None:
     for states, events in (taylor.solved(case), scipy_switching.solved(case, 1e-12)):
         stops = [(1 / 10 - 1 / 11) / 0.01, (1 / 9 - 1 / 10) / 0.01]
         assert [tuple(event[1:]) for event in events] == [("stick", 0), ("stick", 1)]
-        assert [event[0] for event in events] == pytest.approx(stops, abs=1e-7)
-        assert states[1][6] == pytest.approx(1 / (1 / 11 + 0.01 * 0.05) - 10, abs=1e-7)
-        assert states[1][7] == pytest.approx(1 / (1 / 9 - 0.01 * 0.05) - 10, abs=1e-7)
+        assert [event[0] for event in events] == pytest.approx(stops, abs=1e-6)
+        assert states[1][6] == pytest.approx(1 / (1 / 11 + 0.01 * 0.05) - 10, abs=1e-6)
+        assert states[1][7] == pytest.approx(1 / (1 / 9 - 0.01 * 0.05) - 10, abs=1e-6)
         assert states[2][6:8] == [0.0, 0.0]
         assert states[2][2] == pytest.approx(math.log(1.1) / 0.01 - 10 * stops[0], abs=1e-6)
 
