@@ -70,6 +70,7 @@ def axes(x: str, y: str) -> "Axes":
 
 
 def save(drawn: "Axes", file: Path) -> None:
-    """Write a figure with its legend."""
-    drawn.legend(frameon=False)
+    """Write a figure, with a legend if anything in it has a label."""
+    if drawn.get_legend_handles_labels()[0]:
+        drawn.legend(frameon=False)
     drawn.figure.savefig(file)
