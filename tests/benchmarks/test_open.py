@@ -123,6 +123,24 @@ def test_a_ball_that_gravity_pulls_slips_where_friction_ends() -> None:
     assert first.kind == "slip" and excess(math.pi / 2 + 10 * first.time) == pytest.approx(0.0, abs=1e-6)
 
 
+def test_samples_do_not_change_the_motion_of_balls_that_stick() -> None:
+    """Steps end where the series of the axis do, too, not only at the balls'."""
+    case = scene(mass_kg=10.0, stiffness_N_per_m=[10.0, 10.0], imbalance_kg_m=0.1, rolling_friction=0.5)
+    once, _ = taylor.solved(case | {"times_s": [0.0, 4.0]})
+    often, events = taylor.solved(case | {"times_s": [k / 10 for k in range(41)]})
+    assert not events and np.ptp([row[0] for row in often]) > 0.01
+    assert once[-1] == pytest.approx(often[-1], abs=1e-13)
+
+
+def test_a_short_dip_between_two_looks_is_an_event() -> None:
+    dip = [Decimal(text) for text in ("0.2499999999", "-1", "1")]
+    assert float(taylor.first_root(dip, Decimal(2)) or 0) == pytest.approx(0.5 - 1e-5, abs=1e-8)
+    assert taylor.first_root([Decimal("0.2500000001"), *dip[1:]], Decimal(2)) is None
+    crossing = scipy_switching._crossing(lambda t: (t - 0.47) ** 2 - 1e-4, 0.0, 2.0)
+    assert crossing == pytest.approx(0.46, abs=1e-9)
+    assert scipy_switching._crossing(lambda t: (t - 0.47) ** 2 + 1e-4, 0.0, 2.0) is None
+
+
 @pytest.mark.parametrize("name", SWITCHING)
 def test_cases_that_switch_have_many_events_away_from_their_samples(name: str) -> None:
     case, reference = case_of(case_path(name)), reference_of(name)

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import DOP853
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 Array = NDArray[np.float64]
 Watched = tuple[str, int, Callable[[float, Array], float]]
@@ -194,12 +194,21 @@ class Switching:
 
 
 def _crossing(watched: Callable[[float], float], begun: float, end: float) -> float | None:
-    """First time in a step at which a value has fallen below zero."""
-    low = begun
-    for high in np.linspace(begun, end, LOOKS + 1)[1:].tolist():
-        if watched(high) < 0:
-            return float(brentq(watched, low, high, xtol=1e-15)) if watched(low) > 0 else low
-        low = high
+    """First time in a step at which a value has fallen below zero, dips between two looks included."""
+    times = np.linspace(begun, end, LOOKS + 1).tolist()
+    values = [watched(time) for time in times]
+    for k in range(LOOKS):
+        low, high = times[k], times[k + 1]
+        # A parabola through three looks tells where a dip may be.
+        before, after = values[max(k - 1, 0)], values[min(k + 2, LOOKS)]
+        ends = [high]
+        if values[k] > 0 < values[k + 1] and before > values[k] and after > values[k + 1]:
+            ends.insert(
+                0, float(minimize_scalar(watched, bounds=(low, high), options={"xatol": 1e-3 * (high - low)}).x)
+            )
+        for place in ends:
+            if watched(place) < 0:
+                return float(brentq(watched, low, place, xtol=1e-15)) if values[k] > 0 else low
     return None
 
 

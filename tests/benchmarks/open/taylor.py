@@ -5,7 +5,7 @@ impacts, ends of rolling and ends of sticking. No code, no number format and no 
 integrator (`scipy_entry`), whose order is 8 and whose numbers have 16 digits.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from decimal import Decimal, getcontext, localcontext
 from typing import Any, Final, NamedTuple
 
@@ -87,7 +87,7 @@ class Motion:
             Decimal(repr(float(case[key])))
             for key in ("speed_rad_per_s", "imbalance_kg_m", "imbalance_angle_rad", "mass_kg")
         )
-        self.total = rotor + sum(self.mass)
+        self.total, self.length = rotor + sum(self.mass), Decimal(repr(float(case["length_scale_m"])))
         self.friction = Decimal(repr(float(case.get("rolling_friction", 0.0))))
         self.gravity = Decimal(repr(float(case.get("gravity_m_per_s2", 0.0))))
         self.restitution = Decimal(repr(float(case["restitution"]))) if "restitution" in case else None
@@ -189,9 +189,14 @@ class Motion:
         return series
 
     def _length(self, step: Step, most: Decimal) -> Decimal:
-        """Length of a step whose last terms are left out."""
+        """Length of a step whose last terms may be left out, of all coordinates and of what is watched."""
         length = most
-        for group, scale in ((step.angle, Decimal(1)), (step.rate, self.speed)):
+        flung = self.radius[0] * self.speed**2
+        groups = (
+            (step.place, self.length), (step.velocity, self.length * self.speed), (step.angle, Decimal(1)),
+            (step.rate, self.speed), (step.pull, flung), (step.normal, flung),
+        )  # fmt: skip
+        for group, scale in groups:
             for series in group:
                 for k in (len(series) - 1, len(series) - 2):
                     if series[k]:
@@ -223,7 +228,7 @@ class Motion:
             length = self._length(step, end - self.t)
             first: tuple[Decimal, str, int] | None = None
             for series, kind, ball in self._watched(step):
-                moment = first_root(lambda t, s=series: value(s, t), length)
+                moment = first_root(series, length)
                 if moment is not None and (first is None or moment < first[0]):
                     first = moment, kind, ball
             length = first[0] if first else length
@@ -294,28 +299,42 @@ def _sign(number: Decimal) -> int:
     return (number > 0) - (number < 0)
 
 
-def first_root(watched: Callable[[Decimal], Decimal], length: Decimal) -> Decimal | None:
-    """First time in a step at which a value falls below zero; it is at or above zero at the start.
+def slope(series: Series) -> Series:
+    """Derivative of a series."""
+    return [k * coefficient for k, coefficient in enumerate(series)][1:]
 
-    >>> first_root(lambda t: Decimal(2) - t * t, Decimal(3)).quantize(Decimal("1e-20"))
+
+def falling(series: Series, low: Decimal, high: Decimal) -> Decimal:
+    """Place between `low` and `high` at which the series changes its sign, still on the side of `low`."""
+    above = value(series, low) > 0
+    while high - low > Decimal("1e-32") * high:
+        middle = low + (high - low) / 2
+        if middle in (low, high):
+            break
+        low, high = (middle, high) if (value(series, middle) > 0) == above else (low, middle)
+    return low
+
+
+def first_root(series: Series, length: Decimal) -> Decimal | None:
+    """First time in a step at which a series falls below zero; it is at or above zero at the start.
+
+    Dips between two looks are found by the minimum between them.
+
+    >>> first_root([Decimal(2), ZERO, Decimal(-1)], Decimal(3)).quantize(Decimal("1e-20"))
     Decimal('1.41421356237309504880')
+    >>> first_root([Decimal("1.2099"), Decimal("-2.2"), Decimal(1)], Decimal(12)).quantize(Decimal("1e-9"))
+    Decimal('1.090000000')
     """
-    noise = Decimal("1e-22")
+    noise, derivative = Decimal("1e-22"), slope(series)
     low = ZERO
     for part in range(1, PARTS + 1):
         high = length * part / PARTS
-        if watched(high) < -noise:
-            # Secants that keep the sign change (Illinois), down to the last digits.
-            values = [max(watched(low), ZERO), watched(high)]
-            ends = [low, high]
-            for _ in range(200):
-                if ends[1] - ends[0] <= Decimal("1e-32") * high:
-                    break
-                middle = ends[0] + (ends[1] - ends[0]) / 2
-                at = watched(middle)
-                side = int(at < 0)
-                ends[side], values[side] = middle, at
-            return ends[0]
+        bottom = high
+        if value(derivative, low) < 0 < value(derivative, high):
+            bottom = falling(derivative, low, high)
+        for end in (bottom, high):
+            if value(series, end) < -noise:
+                return falling(series, low, end) if value(series, low) > 0 else low
         low = high
     return None
 
