@@ -103,9 +103,7 @@ def stiction(folder: Path) -> Shown:
     drawn, rows, labels = axes("abu-calc, one ring a start", "imbalance left / imbalance"), [], []
     for k, (friction, plateau, left) in enumerate(ends):
         labels.append(f"f = {friction:g}\n{'full speed' if plateau is None else f'slowed to {plateau:g}'}")
-        drawn.plot(
-            [k] * len(left), left, "o", ms=4, mfc="none", color="C0", label="abu-calc, one start each" * (k == 0)
-        )
+        drawn.plot([k] * len(left), left, "o", ms=4, mfc="none", color="C0")
         rows.append((f"{friction:g}", "none" if plateau is None else f"to {plateau:g}", f"{left[len(left) // 2]:.3f}",
                      f"{left[int(0.9 * len(left))]:.3f}", f"{left[-1]:.3f}"))  # fmt: skip
     drawn.set_xticks(range(len(labels)), labels, fontsize=7)
