@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,8 +55,3 @@ def pairs(count: int) -> Iterator[tuple[float, float]]:
     for first in range(count):
         for second in range(first, count):
             yield grid[first] + 1e-3, grid[second]
-
-
-def with_(scene: Scene, *effects: Effect) -> Scene:
-    """The same scene with effects."""
-    return replace(scene, effects=effects)
