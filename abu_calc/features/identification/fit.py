@@ -23,6 +23,7 @@ from abu_calc.features.identification.tracks import (
     RecordedStart,
     Track,
 )
+from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, within
@@ -47,6 +48,10 @@ the box before."""
 COVERED: Final = 0.95
 LEAST_DROP, MOST_DROP = 2.6, 20.0
 """Drops of the logarithmic likelihood at the ends of an interval, at least and at most: t²/2 of ten starts is 2.56."""
+HELD, LEAST_HELD_DROP = 0.7, 6.0
+"""Friction number above which some balls of a horizontal spindle stay where friction holds them, and the least drop
+then: their ends are scattered as no Student distribution is.
+"""
 SURE_UM: Final = 0.3
 """Half of the narrowest interval of the eccentricity [µm]: with a mark, machines of known values came out 0.16 µm off
 in the median, more than their starts scatter."""
@@ -130,6 +135,13 @@ def horizontal(scene: Scene) -> bool:
     return scene.effect("gravity") is not None
 
 
+def friction_number_at(scene: Scene, point: Points) -> float:
+    """Λ = k_r R_p Ω²/(r g) of a point; 0 on a vertical spindle, whose ends tell the friction by their scatter."""
+    race = scene.races[0]
+    lever = math.exp(point[1]) * 1e-6
+    return friction_number(lever, race.pitch_radius, race.ball_radius, scene.speed) if horizontal(scene) else 0.0
+
+
 def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     """The likeliest values, their intervals, and how well simulated sets fit."""
     features = measured.features
@@ -144,8 +156,9 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     fits = [regression.best(each, begin=best.point) for _, each in sets]
     drops = [_drop(regression, each, regression.best(each, begin=truth), truth, parts)
              for truth, each in (*sets, *_sets(scene, measured, _within(regression.box)))]  # fmt: skip
+    least = LEAST_HELD_DROP if friction_number_at(scene, best.point) > HELD else LEAST_DROP
     intervals = [
-        regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), LEAST_DROP, MOST_DROP)))
+        regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), least, MOST_DROP)))
         for part, column in zip(parts, np.array(drops).T, strict=True)
     ]
     means, deviations = regression.distribution(best.point)
