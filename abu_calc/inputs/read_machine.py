@@ -28,12 +28,8 @@ if TYPE_CHECKING:
     from abu_calc.inputs.two_races import TwoRaceFile
 
 
-OTHERS: Final = "`abu size`, `abu simulate`, `abu stability`, `abu sweep` and `abu compare` take it."
+OTHERS: Final = "`abu size`, `abu simulate`, `abu stability`, `abu sweep`, `abu compare` and `abu declare` take it."
 ONE_RACE_ONLY: Final = {
-    "declare": (
-        "the type test of ISO 28927-4 is one of a hand-held machine with one test wheel and one race",
-        "Use `abu size`: it gives levels at places of the spindle. A machine on a stand declares no such value.",
-    ),
     "grinding": (
         "forces of a workpiece are modelled on one race",
         "Describe the machine as a scene with a tilting support, two [[scene.race]], and effects.grinding_contact with "

@@ -14,6 +14,7 @@ from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Speed
 from abu_calc.inputs.duty import RunUp
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
+from abu_calc.inputs.type_test import TypeTest
 from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import QUANTITIES, Wheel
 
@@ -240,6 +241,7 @@ class TwoRaceFile(Table):
         Field(description="Autobalancers with their places: [[autobalancer]], two.")
     )
     run_up: RunUp | None = None
+    type_test: TypeTest | None = None
     bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
         default=(), description="Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
     )
