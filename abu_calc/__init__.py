@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from abu_calc.features.sweep.result import SweepResult
     from abu_calc.features.sweep.study import sweep
     from abu_calc.features.two_races.records import TwoRaceSizeResult
+    from abu_calc.features.two_races.work_records import TwoRaceGrindingResult
     from abu_calc.features.verify.study import VerifyResult, verify
     from abu_calc.foundation.checks import Check
     from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
@@ -127,6 +128,7 @@ _ROOMS: Final = {
     "features.sweep.result": ("SweepResult",),
     "features.sweep.study": ("sweep",),
     "features.two_races.records": ("TwoRaceSizeResult",),
+    "features.two_races.work_records": ("TwoRaceGrindingResult",),
     "features.verify.study": (
         "VerifyResult",
         "verify",
@@ -184,6 +186,7 @@ __all__ = [
     "StabilityResult",
     "SweepResult",
     "TwoRaceDeclareResult",
+    "TwoRaceGrindingResult",
     "TwoRaceSizeResult",
     "VerifyResult",
     "__version__",

@@ -131,7 +131,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "grinding",
         "grinding.command",
-        ("grinding.study:GrindingResult",),
+        ("grinding.study:GrindingResult", "two_races.work_records:TwoRaceGrindingResult"),
         "grinding.figures:grinding_extras",
         figures=(
             Known("levels", "a level at work is known"),
