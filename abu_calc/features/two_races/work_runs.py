@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.scene import Scene, with_parted_balls, without
+from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.features.two_races.case import LevelPlaceOnSpindle
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.contact import PressedWheel, ball_angles, contact_of, resultants_at_work
-from abu_calc.features.two_races.run_up import OF_BALLS
 from abu_calc.features.two_races.start_cases import STILL, Start, StartCase, scene_of
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
+from abu_calc.simulation.run_up_amplitude import without_balls
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.simulate import simulate
 
@@ -100,8 +100,8 @@ def work_scene(design: TwoRaceDesign, case: WorkCase, accuracy: float) -> Scene:
     """The scene of a run; balls that settle before are simulated at idle first. Raises NotTrustworthyError."""
     start, wheel = case.start, case.wheel
     if case.pressed == "without":
-        bare = replace(scene_of(replace(design, case=design.bare), start), races=())
-        return _pressed(without(bare, OF_BALLS), wheel, design, start)
+        bare = without_balls(scene_of(replace(design, case=design.bare), start))
+        return _pressed(bare, wheel, design, start)
     scene = scene_of(design, start)
     if case.pressed == "settled":
         times = np.array([scene.duration])
