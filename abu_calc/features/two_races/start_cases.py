@@ -53,14 +53,6 @@ ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
 DOUBTFUL: Final = 0.2
 """Largest difference of runs of a chaotic start case that counts all the same, all of which end balanced."""
-HEAVY: Final = 30_000.0
-"""Balls times revolutions beyond which a scene is first simulated for SHORT: each ball slips once a revolution."""
-SHORT: Final = 0.75
-"""Share of the settling time permitted, from full speed, after which a heavy run is looked at."""
-EARLY: Final = 0.5
-"""Share of a short run within which its balls must have settled; else it is simulated for the whole time."""
-STEADY: Final = 0.02
-"""Change of a residual imbalance over the second half of a short run, relative to the share, that counts as none."""
 
 Array = NDArray[np.float64]
 
@@ -259,26 +251,13 @@ def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceR
     """One start case simulated to an accuracy, and what came of both races."""
     design, scene = at_speed(design, start.speed), scene_of(design, start)
     try:
-        short = shortened(design, scene)
-        if short is not None and (run := _observed(design, start, short, accuracy, early=True)) is not None:
-            return run
-        return _observed(design, start, scene, accuracy) or LostRun(start, "the run gave no outcome")
+        return _observed(design, start, scene, accuracy)
     except NotTrustworthyError as error:
         return LostRun(start, str(error).splitlines()[0])
 
 
-def shortened(design: TwoRaceDesign, scene: Scene) -> Scene | None:
-    """A heavy scene, ended as soon as balls that settle early have settled; None for others."""
-    if len(scene.ball_masses) * scene.duration / scene.revolution <= HEAVY:
-        return None
-    duration = scene.full_speed + SHORT * design.case.table.limits.settling_time_s
-    return replace(scene, duration=duration) if duration < scene.duration else None
-
-
-def _observed(
-    design: TwoRaceDesign, start: StartCase, scene: Scene, accuracy: float, *, early: bool = False
-) -> TwoRaceRun | None:
-    """A run and what came of both races; `early`: None unless its balls came to rest early, and stay."""
+def _observed(design: TwoRaceDesign, start: StartCase, scene: Scene, accuracy: float) -> TwoRaceRun:
+    """A run and what came of both races."""
     times, doubt = revolution_times(scene), 0.0
     try:
         run = simulate(scene, accuracy, times)
@@ -298,10 +277,6 @@ def _observed(
     left = residual_imbalances(scene, states, needs)
     settled = settling_time(scene, states, needs)
     settled = None if settled is None else settled * (1 + doubt)
-    if early and (settled is None or settled > EARLY * (scene.duration - scene.full_speed) or slip > STILL):
-        return None
-    if early and any(_moves(race, need, rest) for race, need, rest in zip(scene.races, needs, left, strict=True)):
-        return None
     return TwoRaceRun(
         case=start,
         race_displacements=(ends[0], ends[1]),
@@ -367,12 +342,6 @@ def residual_imbalances(scene: Scene, states: Array, needs: tuple[complex, compl
         found.append(np.abs(need + moments @ np.exp(1j * states[first : first + count])))
         first += count
     return found[0], found[1]
-
-
-def _moves(race: Race, need: complex, residual: Array) -> bool:
-    """True if the residual imbalance of a race still changes in the second half of a run."""
-    middle = residual[len(residual) // 2 :][: max(1, len(residual) // 20)]
-    return abs(float(middle.mean()) - _end(residual)) > STEADY * max(abs(need), HARDLY * race.static_moment)
 
 
 def _end(residual: Array) -> float:
