@@ -41,7 +41,7 @@ class Autobalancer(Table):
         "{default}, assumed.",
         gt=0,
         le=2000,
-        json_schema_extra=usual(3, 200),
+        json_schema_extra=usual(3, 500),
     )
     design: Literal["one-piece", "bearing-ring", "light"] = Field(
         default="one-piece",

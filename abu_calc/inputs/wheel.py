@@ -264,7 +264,7 @@ class Wheel(Measured):
         examples=[150.0],
         ge=0,
         le=1e9,
-        json_schema_extra=usual(2, 5e4),
+        json_schema_extra=usual(2, 1.2e5),
     )
     balance_grade: BalanceGrade | None = Field(
         default=None,

@@ -3,6 +3,7 @@
 Levels stand as instruments show them, and measured ones beside predicted ones.
 """
 
+import re
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
@@ -85,12 +86,34 @@ def told(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
 
 def without_entries(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     """Each group with its grade, reason and action; an action that stands above is referred to."""
-    lines, code_of = list[Paragraph](), dict[str, str]()
+    lines, code_of, said = list[Paragraph](), dict[str, str](), SaidOfEntries()
     for alike in groups:
         action, code = alike[0].remedy or "", alike[0].code
         first = code_of.setdefault(action, code)
-        lines.append(_reason(alike, f"See the action of {first}." if action and first != code else action))
+        if action and first != code:
+            lines.append(_reason(alike, f"See the action of {first}."))
+        else:
+            lines.append(_reason(alike, said.rest_of(action, alike[0].overrides)))
     return lines
+
+
+_NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
+
+
+class SaidOfEntries:
+    """Sentences of the actions that stand on a screen, by their entries: another action with them repeats none."""
+
+    def __init__(self) -> None:
+        self._said = dict[tuple[str, ...], list[str]]()
+
+    def rest_of(self, action: str, entries: tuple[str, ...]) -> str:
+        """The action without the sentences that an action with the same entries has said."""
+        if not entries:
+            return action
+        said = self._said.setdefault(entries, [])
+        new = [sentence for sentence in _NEXT_SENTENCE.split(action) if sentence not in said]
+        said += new
+        return " ".join(new)
 
 
 PASTED: Final = 74

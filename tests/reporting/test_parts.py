@@ -6,6 +6,7 @@ from typing import Any
 from abu_calc.foundation.checks import Check, Grade
 from abu_calc.reporting.blocks import Heading, Paragraph
 from abu_calc.reporting.parts import (
+    SaidOfEntries,
     default_blocks,
     limit_in_file,
     limit_of,
@@ -100,3 +101,11 @@ def test_a_measurement_is_above_or_below_the_prediction() -> None:
     assert "No idle level is predicted" in measured_after_line(record(predicted_level_db=None, difference_db=None))
     assert measured_after_line(record(predicted_loaded_db=105.0)).endswith("above it. Under load: 105.0 dB.")
     assert measured_after_line(record(this_run_db=99.0)).endswith("above it. This run: 99.0 dB.")
+
+
+def test_actions_with_the_same_entries_say_each_sentence_once() -> None:
+    said = SaidOfEntries()
+    assert said.rest_of("Set a = 1: b rises. All else holds.", ("a=1",)) == "Set a = 1: b rises. All else holds."
+    assert said.rest_of("Set a = 1: c falls. All else holds.", ("a=1",)) == "Set a = 1: c falls."
+    assert said.rest_of("Set a = 2: c falls. All else holds.", ("a=2",)) == "Set a = 2: c falls. All else holds."
+    assert said.rest_of("All else holds.", ()) == said.rest_of("All else holds.", ()) == "All else holds."

@@ -57,9 +57,9 @@ def meaning(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
 
 
 def machine_keys(asked: str) -> list[FileKey]:
-    """Keys of machine files by name, by table and name, or by a name without its unit; none if there is no such key.
+    """Keys of machine files by name, by table and name, or by a name without its unit; all keys of a table by its name.
 
-    A table that may stand once or several times counts once.
+    None if there is no such key. A table that may stand once or several times counts once.
 
     >>> [key.path for key in machine_keys("ball_diameter")]
     ['autobalancer.ball_diameter_mm']
@@ -72,10 +72,18 @@ def machine_keys(asked: str) -> list[FileKey]:
         for name, entry in table["properties"].items():
             whole = entry.get("x-canonical-key", name)
             prefix = header.strip("[]")
-            if asked in (name, f"{prefix}.{name}"):
+            if asked in (name, f"{prefix}.{name}", prefix):
                 key = FileKey(header, whole, meaning(table["properties"][whole], schema))
                 keys.setdefault(key.path, key)
-    return list(keys.values())
+    return list(keys.values()) or list(_outside_tables(asked, schema))
+
+
+def _outside_tables(asked: str, schema: Mapping[str, Any]) -> Iterator[FileKey]:
+    """A key of the whole file that no table of keys with fixed names holds, such as `costs`."""
+    for entry in schema["anyOf"][:1]:
+        keys = schema["definitions"][entry["$ref"].rsplit("/", 1)[1]]["properties"]
+        if asked in keys:
+            yield FileKey("", asked, meaning(keys[asked], schema))
 
 
 MOST_LIKE: Final = 3

@@ -54,8 +54,10 @@ def init(
     else:
         kind = BY_NAME[asked[0] if asked else "machine"]
         text = kind.call("template", method) if method is not None else kind.call("template")
-    next_step = Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")
-    return Outcome("init", {"file": str(file), "preset": preset}, (next_step,), further=(Target(file, text),))
+    said = [Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")]
+    if "[expected]" in text:
+        said.append(Paragraph(f"[expected] holds the preset's results. After an edit: abu verify --update {file}"))
+    return Outcome("init", {"file": str(file), "preset": preset}, tuple(said), further=(Target(file, text),))
 
 
 def register(app: typer.Typer) -> None:

@@ -1,14 +1,13 @@
 """The unknowns that make recorded starts likely: features of tracks, their distribution by regression, intervals.
 
-Features of a start are regressed over a bank: their means by polynomials of degree four, the logarithms of their
-variances by degree two. At the estimate, starts simulated there correct the regression. A multivariate Student
-likelihood (ν = 6) of all starts is maximised; the profile of the likelihood gives intervals, whose drop is calibrated
-by the same starts (parametric bootstrap).
+Features of a start are regressed over a bank: their means by polynomials of degree four in a wide box, of degree three
+in a narrow one, the logarithms of their variances by degree two. A multivariate Student likelihood (ν = 6) of all
+starts is maximised; the profile of the likelihood gives intervals, whose drop is calibrated by sets of starts that are
+simulated at the estimate (parametric bootstrap).
 """
 
 import math
 from collections.abc import Sequence
-from copy import copy
 from functools import cache
 from itertools import combinations_with_replacement
 from typing import Final
@@ -28,8 +27,10 @@ FREEDOM: Final = 6.0
 """ν of the Student likelihood."""
 REWEIGHTED: Final = 6
 """Rounds of a weighted fit, which far values hardly move."""
-LEAST_DEVIATION: Final = 1e-3
-"""Least standard deviation of a feature."""
+SHRUNK: Final = 0.2
+"""Share by which the correlation is drawn to none: differences of features that hardly scatter at one place of a box
+do so about another mean at the next, which the regression does not follow.
+"""
 PRIOR_UM: Final = 12.0
 """Standard deviation of a component of Δ before anything is measured."""
 NARROWEST_UM, WIDEST_UM = 10.0, 20.0
@@ -123,21 +124,22 @@ def _student_scale(rest: Features) -> Array:
 
 
 def _inverse_correlation(standard: Features) -> Array:
-    """Inverse of the correlation of the features, far values clipped and the correlation shrunk by 5 %."""
+    """Inverse of the correlation of the features, far values clipped and the correlation shrunk by `SHRUNK`."""
     kept = np.clip(standard, -4, 4)
     kept = kept - kept.mean(axis=0)
     size = np.sqrt(np.mean(kept**2, axis=0)) + 1e-12  # a feature at its floor in every start has none
-    return np.asarray(np.linalg.inv(0.95 * (kept / size).T @ (kept / size) / len(kept) + 0.05 * np.eye(len(size))))
+    correlation = (kept / size).T @ (kept / size) / len(kept)
+    return np.asarray(np.linalg.inv((1 - SHRUNK) * correlation + SHRUNK * np.eye(len(size))))
 
 
 class Regression:
-    """Distribution of the features over a box."""
+    """Distribution of the features over a box; `degree`: of the polynomials of the means."""
 
-    def __init__(self, bank: Bank, reading: TrackReading, seed: int = 3) -> None:
-        self.box = bank.box
+    def __init__(self, bank: Bank, reading: TrackReading, degree: int = 3, seed: int = 3) -> None:
+        self.box, self.degree = bank.box, degree
         features = np.array([reading.features(track) for track in reading.noisy(bank.tracks, seed)])
         scaled = bank.box.scaled(bank.points)
-        terms, few = _terms(scaled, 4), _terms(scaled, 2)
+        terms, few = _terms(scaled, degree), _terms(scaled, 2)
         self.means = np.linalg.lstsq(terms, features, rcond=None)[0]
         # Balls that friction holds end far away now and then: unweighted, such starts would bend the means.
         for _ in range(REWEIGHTED):
@@ -155,26 +157,12 @@ class Regression:
                 axis=1,
             )
         self.inverse = _inverse_correlation(standard)
-        self.shift, self.ratio = np.zeros(features.shape[1]), np.ones(features.shape[1])
-
-    def anchored(self, point: Points, features: Features) -> "Regression":
-        """This regression with mean, scatter and correlation at a point as in starts simulated there."""
-        means, deviations = self.distribution(point)
-        middle, scale = np.median(features, axis=0), deviations[0]
-        for _ in range(REWEIGHTED):
-            weights = 1 / (FREEDOM + ((features - middle) / scale) ** 2)
-            middle = np.sum(weights * features, axis=0) / weights.sum(axis=0)
-            scale = np.maximum(_student_scale(features - middle), LEAST_DEVIATION)
-        near = copy(self)
-        near.shift, near.ratio = self.shift + middle - means[0], self.ratio * scale / deviations[0]
-        near.inverse = _inverse_correlation((features - middle) / scale)
-        return near
 
     def distribution(self, points: Points) -> tuple[Features, Features]:
         """Means and standard deviations of the features at points."""
         scaled = self.box.scaled(np.atleast_2d(points))
         deviations = np.exp(_terms(scaled, 2) @ self.variances / 2) * self.scale
-        return _terms(scaled, 4) @ self.means + self.shift, deviations * self.ratio
+        return _terms(scaled, self.degree) @ self.means, deviations
 
     def distances(self, point: Points, features: Features) -> Array:
         """Squared distance of each start from the mean at a point, in the scatter there."""
@@ -255,10 +243,10 @@ class Best:
     value: float
 
 
-def narrowed(best: Best, end_error: float, share: float = 1.0) -> Box:
-    """A box round an estimate, or a `share` of it; `end_error`: standard error of the mean end [µm], by friction."""
+def narrowed(best: Best, end_error: float) -> Box:
+    """A box round an estimate; `end_error`: standard error of the mean end [µm], by friction."""
     offset = min(max(4 * end_error, NARROWEST_UM), WIDEST_UM)
-    half = share * np.array([0.55, 1.0, offset, offset])
+    half = np.array([0.55, 1.0, offset, offset])
     return Box(best.point - half, best.point + half)
 
 

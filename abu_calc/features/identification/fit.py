@@ -29,21 +29,20 @@ from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si, to_si, wrapped_deg
 
 MANY, FEW = 2048, 1024
-"""Starts of the first bank, and of each narrower one."""
+"""Starts of the first bank and of the last one, and of each between."""
+WIDE_DEGREE: Final = 4
+"""Degree of the polynomials over the wide box."""
 LEVERS: Final = (0.3, 1.4, 6.5, 30.0)
 """Lever arms [µm] between ranges that are tried each for itself."""
 ROUNDS: Final = 5
 """Narrower banks, at most."""
 SETS: Final = 40
 """Sets of starts that are simulated at the estimate, for intervals and goodness of fit."""
-ANCHORS: Final = 3
-"""Times at most that the regression is anchored at the estimate, which moves by it."""
-NEAR: Final = 0.03
-"""Move of the estimate, as a share of the box, below which the anchor stays."""
 ODD: Final = 2.0
 """Squared distance of a start, over that of the farthest of 400 simulated ones, above which it is unlike them."""
-FINER, FINER_SHARE, POOR_FIT = 3, 0.5, 0.1
-"""Banks of half the size, at most, that are tried if fewer simulated sets than this share fit worse than the starts."""
+ROUGH, ROOM, LEAST_SHARE = 8.0, 0.25, 0.4
+"""The last box: where the likelihood has fallen by less than the first, with a share of room, no less than a share of
+the box before."""
 COVERED: Final = 0.95
 LEAST_DROP, MOST_DROP = 2.6, 12.0
 """Drops of the logarithmic likelihood at the ends of an interval, at least and at most: t²/2 of ten starts is 2.56."""
@@ -127,27 +126,17 @@ def horizontal(scene: Scene) -> bool:
 
 def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     """The likeliest values, their intervals, and how well simulated sets fit."""
-    features, centres = measured.features, measured.reading.centres
-    wide = Regression(bank_of(scene, WIDE, MANY, centres, within(progress, "wide")), measured.reading)
-    best, simulated = _begun(scene, measured, wide, progress), MANY + (len(LEVERS) - 1) * FEW // 2
+    features = measured.features
     parts = (0, 1, 2, 3) if measured.reading.marked else (0, 1)
-    for _ in range(ROUNDS):
-        anchored = _narrow_fit(scene, measured, narrowed(best, measured.end_error), within(progress, "narrow"))
-        best, simulated = anchored.best, simulated + anchored.simulated
-        if inside(best, anchored.regression.box, parts):
-            break
-    for _ in range(FINER):
-        if anchored.fits_worse >= POOR_FIT and inside(best, anchored.regression.box, parts):
-            break
-        box = narrowed(best, measured.end_error, FINER_SHARE)
-        finer = _narrow_fit(scene, measured, box, within(progress, "finer"))
-        simulated += finer.simulated
-        if finer.fits_worse < anchored.fits_worse:
-            break
-        anchored, best = finer, finer.best
+    regression, best, simulated = _narrowed_fit(scene, measured, parts, progress)
     progress("intervals")
-    regression, truth = anchored.regression, anchored.truth
-    drops = [_drop(regression, each, fit, truth, parts) for each, fit in zip(anchored.sets, anchored.fits, strict=True)]
+    sets = tuple(_sets(scene, measured, best))
+    if not sets:
+        raise NotTrustworthyError(
+            "starts cannot be simulated at the estimate\n  See `abu simulate FILE` for the reason."
+        )
+    fits = [regression.best(each, begin=best.point) for each in sets]
+    drops = [_drop(regression, each, fit, best, parts) for each, fit in zip(sets, fits, strict=True)]
     intervals = [
         regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), LEAST_DROP, MOST_DROP)))
         for part, column in zip(parts, np.array(drops).T, strict=True)
@@ -159,56 +148,56 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
         regression.box,
         tuple(intervals),
         measured.end_error,
-        anchored.fits_worse,
+        float(np.mean([fit.value < best.value for fit in fits])),
         float(np.mean(amplitudes)) * math.sqrt(len(features)),
         float(np.mean(features[:, -1]) / means[0, -1]),
-        simulated,
-        _odd_start(anchored, features),
+        simulated + SETS * len(features),
+        _odd_start(regression, best, np.concatenate(sets), features),
     )
 
 
-def _odd_start(anchored: "AnchoredFit", features: Features) -> int | None:
+def _odd_start(regression: Regression, best: Best, usual: Features, features: Features) -> int | None:
     """The start farthest from the estimate, if it is much farther than the farthest simulated one."""
-    usual = anchored.regression.distances(anchored.truth.point, np.concatenate(anchored.sets)).max()
-    recorded = anchored.regression.distances(anchored.best.point, features)
-    return int(np.argmax(recorded)) if recorded.max() > ODD * usual else None
+    recorded = regression.distances(best.point, features)
+    farthest = regression.distances(best.point, usual).max()
+    return int(np.argmax(recorded)) if recorded.max() > ODD * farthest else None
 
 
-@dataclass(frozen=True, eq=False)
-class AnchoredFit:
-    """A regression anchored by sets simulated at `truth`, near the likeliest point that it gives."""
+def _narrowed_fit(
+    scene: Scene, measured: Measured, parts: Sequence[int], progress: Progress
+) -> tuple[Regression, Best, int]:
+    """Boxes about the likeliest point until it lies inside, then a last one as large as its likelihood asks for.
 
-    regression: Regression
-    truth: Best
-    sets: tuple[Features, ...]
-    best: Best
-    simulated: int
-    fits: tuple[Best, ...]
-    """The likeliest point of each set."""
-
-    @property
-    def fits_worse(self) -> float:
-        """Share of the sets that fit worse than the recorded starts."""
-        return float(np.mean([fit.value < self.best.value for fit in self.fits]))
-
-
-def _narrow_fit(scene: Scene, measured: Measured, box: Box, progress: Progress) -> AnchoredFit:
-    """The likeliest point of a box: of its bank first, then of the regression anchored there until the point stays."""
-    features = measured.features
-    regression = Regression(bank_of(scene, box, FEW, measured.reading.centres, progress), measured.reading)
-    best, simulated = regression.best(features), FEW
-    for _ in range(ANCHORS):
-        truth, sets = best, tuple(_sets(scene, measured, best))
-        if not sets:
-            raise NotTrustworthyError(
-                "starts cannot be simulated at the estimate\n  See `abu simulate FILE` for the reason."
-            )
-        fitted = regression.anchored(truth.point, np.concatenate(sets))
-        best, simulated = fitted.best(features, begin=truth.point), simulated + SETS * len(features)
-        if np.all(np.abs(box.place(best.point) - box.place(truth.point)) < NEAR):
+    Gives the last regression, its likeliest point, and how many starts were simulated.
+    """
+    features, centres = measured.features, measured.reading.centres
+    bank = bank_of(scene, WIDE, MANY, centres, within(progress, "wide"))
+    best = _begun(scene, measured, Regression(bank, measured.reading, WIDE_DEGREE), progress)
+    simulated = MANY + (len(LEVERS) - 1) * FEW // 2
+    for _ in range(ROUNDS):
+        box = narrowed(best, measured.end_error)
+        regression = Regression(bank_of(scene, box, FEW, centres, within(progress, "narrow")), measured.reading)
+        best, simulated = regression.best(features), simulated + FEW
+        if inside(best, box, parts):
             break
-    fits = tuple(fitted.best(each, begin=truth.point) for each in sets)
-    return AnchoredFit(fitted, truth, sets, best, simulated, fits)
+    for _ in range(ROUNDS):
+        box = _likely(regression, features, best, parts)
+        regression = Regression(bank_of(scene, box, MANY, centres, within(progress, "last")), measured.reading)
+        best, simulated = regression.best(features), simulated + MANY
+        if inside(best, box, parts):
+            break
+    return regression, best, simulated
+
+
+def _likely(regression: Regression, features: Features, best: Best, parts: Sequence[int]) -> Box:
+    """The part of a box in which the likelihood has not fallen by `ROUGH`, with some room."""
+    box = regression.box
+    low, high, width = box.low.copy(), box.high.copy(), box.high - box.low
+    for part in parts:
+        ends = np.clip(regression.interval(features, best, part, ROUGH), box.low[part], box.high[part])
+        room = max(ROOM * (ends[1] - ends[0]), (LEAST_SHARE * width[part] - (ends[1] - ends[0])) / 2)
+        low[part], high[part] = ends[0] - room, ends[1] + room
+    return Box(low, high)
 
 
 def _begun(scene: Scene, measured: Measured, wide: Regression, progress: Progress) -> Best:

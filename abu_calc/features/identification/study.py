@@ -130,8 +130,8 @@ def known_scene(scene: Scene, run_up: float | None) -> Scene:
     elif scene.full_speed == 0:
         raise InputError(
             "the run-up is not known",
-            place=Place(key="scene.effects.run_up"),
-            remedy="Add the run-up time to the file, or give --run-up S.",
+            remedy="Give --run-up S, or add it to the file: [run_up] time_s in a machine, "
+            "[scene.effects] run_up = { time_s = … } in a scene.",
         )
     return replace(scene, imbalance_angle=0.0)
 

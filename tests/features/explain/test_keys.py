@@ -30,3 +30,17 @@ def test_a_word_of_a_key_names_the_keys() -> None:
     seen = abu("explain", "drag")
     assert seen.status == 2 and "Did you mean rolling_drag_per_s?" in seen.err
     assert machine_keys("nonsense") == [] and keys_with("nonsense") == []
+
+
+def test_a_table_is_explained_key_by_key() -> None:
+    table = next(table for header, table in file_tables(machine_schema()) if header == "[limits]")
+    names = [name for name, entry in table["properties"].items() if "x-canonical-key" not in entry]
+    seen = abu("explain", "limits")
+    assert seen.status == 0 and [key.name for key in machine_keys("limits")] == names
+    assert all(f"[limits] {name}" in seen.out for name in names)
+
+
+@pytest.mark.parametrize("key", ["costs", "expected", "format"])
+def test_a_key_of_the_whole_file_is_explained(key: str) -> None:
+    seen = abu("explain", key)
+    assert seen.status == 0 and len(seen.out) > len(key) + 20

@@ -17,7 +17,8 @@ def test_init_writes_what_size_takes(tmp_path: Path) -> None:
     assert abu("size", str(file), "--quiet").status == 0
     assert abu("init", str(file)).status == 2
     copy = tmp_path / "copy.toml"
-    assert abu("init", "--preset", "msh-230", str(copy)).status == 0
+    copied = abu("init", "--preset", "msh-230", str(copy))
+    assert copied.status == 0 and "abu verify --update" in copied.out
     assert copy.read_text(encoding="utf-8") == abu("presets", "msh-230").out
     schema = json.loads(abu("schema").out)
     jsonschema.Draft4Validator(schema).validate(tomllib.loads(file.read_text(encoding="utf-8")))

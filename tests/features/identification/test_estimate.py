@@ -43,24 +43,20 @@ def test_features_of_an_exponential_are_those_of_the_equation() -> None:
     assert abs(end_of(decay.astype(complex))) < 1e-9 and features[-1] == pytest.approx(1)
 
 
-def test_an_anchored_regression_has_the_mean_of_the_starts_at_its_point_and_far_values_hardly_move_it() -> None:
+def test_intervals_hold_the_truth_wherever_in_a_narrow_box_it_lies() -> None:
+    """Forty sets of eight starts at random places: a drop of 4 has room for the regression."""
     rng = np.random.default_rng(8)
-    points = BOX.low + (BOX.high - BOX.low) * rng.random((800, 4))
-    tracks = np.array([track(point, rng) for point in points])
-    regression = Regression(Bank(BOX, points, tracks), READING)
-    point = np.array([2.5, 0.5, 4.0, -3.0])
-    sets = np.array([READING.features(each) for each in READING.noisy(np.array([track(point, rng)] * 400), 2)])
-    shifted = sets + 0.3
-    means, deviations = regression.anchored(point, shifted).distribution(point)
-    assert means[0] == pytest.approx(shifted.mean(axis=0), abs=0.02)
-    far = shifted.copy()
-    far[:20] += 50.0
-    assert regression.anchored(point, far).distribution(point)[0][0] == pytest.approx(means[0], abs=0.05)
-    assert np.all(regression.anchored(point, far).distribution(point)[1][0] < 3 * deviations[0] + 0.01)
-    # Far from the point it still follows the regression.
-    away = np.array([2.2, 0.2, 2.0, -1.0])
-    shift = regression.anchored(point, shifted).distribution(away)[0] - regression.distribution(away)[0]
-    assert shift[0] == pytest.approx(means[0] - regression.distribution(point)[0][0])
+    box = Box(np.array([2.2, -0.5, -4.0, -4.0]), np.array([2.7, 1.5, 4.0, 4.0]))
+    points = box.low + (box.high - box.low) * rng.random((1600, 4))
+    regression = Regression(Bank(box, points, np.array([track(point, rng) for point in points])), READING)
+    held = []
+    for number in range(40):
+        truth = box.low + (box.high - box.low) * rng.uniform(0.25, 0.75, 4)
+        tracks = READING.noisy(np.array([track(truth, rng) for _ in range(8)]), number)
+        features = np.array([READING.features(each) for each in tracks])
+        low, high = regression.interval(features, regression.best(features), 0, 4.0)
+        held.append(bool(low <= truth[0] <= high))
+    assert sum(held) >= 34
 
 
 def test_a_bank_with_far_values_gives_the_means_of_the_rest() -> None:
