@@ -28,7 +28,7 @@ pytest.importorskip("matplotlib")
 
 NAMES = (
     *("section", "face", "levels", "speeds", "budget", "motion", "settling", "level", "level-loaded", "run-up"),
-    *("candidates", "costs"),
+    *("run-up-amplitude", "candidates", "costs"),
 )
 SVG = "{http://www.w3.org/2000/svg}"
 ODD = Plot(
