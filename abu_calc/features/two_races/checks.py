@@ -188,12 +188,11 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
         actions.append("Allow more time: --patience.")
     if chaotic:
         reasons.append(f"{len(chaotic)} are chaotic, so that no two runs agree: {chaotic[0].case.name}")
-        actions.append("Allow a coarser answer: --accuracy 0.2.")
     if others:
         reasons.append(f"{len(others)} otherwise: {others[0].case.name}: {others[0].reason}")
         actions.append("Specify a coarser --accuracy.")
     if chaotic or others:
-        actions.append("Or narrow speed_range_rpm, or raise rolling_drag_per_s of both races (not tried).")
+        actions.append("Narrow speed_range_rpm, or raise rolling_drag_per_s of both races (not tried).")
     return f"{len(lost)} of {count} start cases gave no answer. {'; '.join(reasons)}", " ".join(dict.fromkeys(actions))
 
 
