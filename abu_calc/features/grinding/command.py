@@ -21,9 +21,7 @@ def grinding(
     accuracy: Accuracy = 0.01,
     wheel: Annotated[
         int | None,
-        typer.Option(
-            "--wheel", metavar="N", help="With two races: only this wheel at work, by its number."
-        ),
+        typer.Option("--wheel", metavar="N", help="With two races: only this wheel at work, by its number."),
     ] = None,
 ) -> Outcome:
     """Calculate vibration, contact force and wheel wear while grinding."""

@@ -187,7 +187,8 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
         reasons.append(f"{len(hurried)} ran out of time")
         actions.append("Allow more time: --patience.")
     if chaotic:
-        reasons.append(f"{len(chaotic)} {'is' if len(chaotic) == 1 else 'are'} chaotic, so that no two runs agree: {chaotic[0].case.name}")
+        number = "1 is" if len(chaotic) == 1 else f"{len(chaotic)} are"
+        reasons.append(f"{number} chaotic, so that no two runs agree: {chaotic[0].case.name}")
     if others:
         reasons.append(f"{len(others)} otherwise: {others[0].case.name}: {others[0].reason}")
         actions.append("Specify a coarser --accuracy.")
