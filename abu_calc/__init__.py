@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from abu_calc.features.declare.measured import MeasuredDeclareResult, declare_recordings
     from abu_calc.features.declare.read import Recordings, read_recordings
     from abu_calc.features.declare.study import DeclareResult, declare
+    from abu_calc.features.declare.two_race_records import TwoRaceDeclareResult
     from abu_calc.features.design.study import SizeResult, size
     from abu_calc.features.effects.study import EffectsResult, effects
     from abu_calc.features.factory.study import FactoryResult, factory
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from abu_calc.features.sweep.result import SweepResult
     from abu_calc.features.sweep.study import sweep
     from abu_calc.features.two_races.records import TwoRaceSizeResult
+    from abu_calc.features.two_races.work_records import TwoRaceGrindingResult
     from abu_calc.features.verify.study import VerifyResult, verify
     from abu_calc.foundation.checks import Check
     from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
@@ -82,6 +84,7 @@ _ROOMS: Final = {
         "DeclareResult",
         "declare",
     ),
+    "features.declare.two_race_records": ("TwoRaceDeclareResult",),
     "features.design.study": (
         "SizeResult",
         "size",
@@ -125,6 +128,7 @@ _ROOMS: Final = {
     "features.sweep.result": ("SweepResult",),
     "features.sweep.study": ("sweep",),
     "features.two_races.records": ("TwoRaceSizeResult",),
+    "features.two_races.work_records": ("TwoRaceGrindingResult",),
     "features.verify.study": (
         "VerifyResult",
         "verify",
@@ -181,6 +185,8 @@ __all__ = [
     "SizeResult",
     "StabilityResult",
     "SweepResult",
+    "TwoRaceDeclareResult",
+    "TwoRaceGrindingResult",
     "TwoRaceSizeResult",
     "VerifyResult",
     "__version__",

@@ -85,6 +85,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("level", SETTLES),
             Known("level-loaded", "the machine grinds, and that was simulated from its beginning"),
             Known("run-up", "a start that runs up was simulated"),
+            Known("run-up-amplitude", "a start that runs up was simulated"),
             Known("candidates", "there are runners-up"),
             Known("costs", "the drawing's tolerances cost something"),
             Known("atlas-QUANTITY", "the machine has all fixed numbers of that chart of the atlas"),
@@ -113,6 +114,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("settling", SETTLES + ", with balls"),
             Known("level", SETTLES),
             Known("run-up", RUNS_UP),
+            Known("run-up-amplitude", RUNS_UP),
         ),
         group="Simulate",
     ),
@@ -132,7 +134,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "grinding",
         "grinding.command",
-        ("grinding.study:GrindingResult",),
+        ("grinding.study:GrindingResult", "two_races.work_records:TwoRaceGrindingResult"),
         "grinding.figures:grinding_extras",
         figures=(
             Known("levels", "a level at work is known"),
@@ -222,7 +224,11 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "declare",
         "declare.command",
-        ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
+        (
+            "declare.study:DeclareResult",
+            "declare.two_race_records:TwoRaceDeclareResult",
+            "declare.measured:MeasuredDeclareResult",
+        ),
         "declare.pages:declare_extras",
         figures=(
             Known("values", "a type test was simulated"),

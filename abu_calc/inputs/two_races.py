@@ -11,9 +11,10 @@ from abu_calc.foundation.units import to_si
 from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.bearing_file import EXPECTED, NAME, Expected, Limits
 from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Speed
-from abu_calc.inputs.duty import RunUp
+from abu_calc.inputs.duty import Grinding, RunUp
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
+from abu_calc.inputs.type_test import TypeTest
 from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import QUANTITIES, Wheel
 
@@ -239,7 +240,9 @@ class TwoRaceFile(Table):
     autobalancer: Annotated[tuple[PlacedAutobalancer, ...], Field(strict=False, min_length=RACES, max_length=RACES)] = (
         Field(description="Autobalancers with their places: [[autobalancer]], two.")
     )
+    grinding: Grinding | None = None
     run_up: RunUp | None = None
+    type_test: TypeTest | None = None
     bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
         default=(), description="Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
     )

@@ -9,16 +9,17 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from command_output import FOLDER, run
+import case_parts
+from case_parts import Shown, run
+from case_parts import axes as _axes
+from case_parts import save as _save
+from command_output import FOLDER
 from docutils import nodes
 from docutils.statemachine import StringList
+from published_cases import PUBLISHED_CASES, eigenvalues_by_hand
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Row = Sequence[object]
 
@@ -35,7 +36,7 @@ BALLS_G = {4.76: 0.440, 8.0: 2.091, 10.0: 4.084, 12.7: 8.366, 16.0: 16.728, 19.8
 """Masses of steel balls at 7.8e-3 g/mm³ by diameter in mm."""
 
 EIGENVALUES = (-0.004087 + 0.744047j, -0.004952 + 0.068382j, -0.009185 + 2.956028j, -0.011363 + 1.006468j)
-"""Of two balls at (Ω, μ, δ, ζ, β) = (2, .05, .01, .01, .01): Green, Champneys and Lieven 2006."""
+"""Of two balls at (Ω, μ, δ, ζ, β) = (2, .05, .01, .01, .01), in the coordinates of Green, Champneys and Lieven 2006."""
 
 SHARES = (0.1, 0.3, 0.5, 0.7, 0.9)
 """Imbalance over the capacity of two balls."""
@@ -50,10 +51,10 @@ SEATS = {"K7": (-30, 28, 0.554), "M7": (-18, 40, 0.066), "H7": (-58, 0, 0.99996)
 """Housing Ø140: interference [µm] from and to, probability of clearance (Afanasiev 2015)."""
 
 BETWEEN = {200: False, 460: True, 620: False, 1000: True}
-"""Speeds [rad/s] of a support with natural frequencies of 300 and 700 rad/s: whether published simulations balance."""
+"""Speeds [rad/s] of a support with natural frequencies of 300 and 700 rad/s: whether separate simulations balance."""
 
 MERGED = ((0.5, 1e4, 1, 0.02), (0.7, 2e4, 1, 0.02), (2.0, 12e4, -1, 0.2), (3.0, 15e4, -1, 0.2))
-"""Speed, imbalance [g·mm], side on which the balls stand, damping [N·s/m]: Green, Champneys and Lieven 2006."""
+"""Speed, imbalance [g·mm], side on which the balls stand, damping [N·s/m]: numbers of ours."""
 
 W_H = {6.3: 0.727, 8: 0.873, 16: 0.896, 31.5: 0.519, 63: 0.256, 125: 0.127, 250: 0.0634, 500: 0.0314, 1000: 0.0135}
 """Weights W_h of ISO 5349-1:2001, table A.2, by frequency in Hz."""
@@ -61,7 +62,7 @@ W_H = {6.3: 0.727, 8: 0.873, 16: 0.896, 31.5: 0.519, 63: 0.256, 125: 0.127, 250:
 RPM = 30 / math.pi
 
 
-def transient(folder: Path) -> tuple[Row, list[Row]]:
+def transient(folder: Path) -> Shown:
     """Largest displacement per window, and a figure of both."""
     seen = run("simulate two-balls.toml --json --trajectory two-balls.csv --samples 28001 --force")
     if seen.returncode:
@@ -73,7 +74,9 @@ def transient(folder: Path) -> tuple[Row, list[Row]]:
         ours = max(math.hypot(x, y) for t, x, y in motion if low <= t <= high) / 1000
         rows.append((f"{low}–{high}", f"{published:.4f}", f"{ours:.4f}", f"{100 * (ours / published - 1):+.1f} %"))
     _draw(motion, folder / "transient.svg")
-    return ("time t·ω_n", "largest displacement, published", "abu-calc", "difference"), rows
+    worst = max(abs(float(str(row[3]).split()[0])) for row in rows)
+    told = f"Largest difference: {worst:.1f} %. The figure can be read within 2 %."
+    return Shown(("time t·ω_n", "largest displacement, published", "abu-calc", "difference"), rows, told)
 
 
 def _draw(motion: Sequence[tuple[float, ...]], file: Path) -> None:
@@ -85,7 +88,7 @@ def _draw(motion: Sequence[tuple[float, ...]], file: Path) -> None:
     _save(axes, file)
 
 
-def boundaries(folder: Path) -> tuple[Row, list[Row]]:
+def boundaries(folder: Path) -> Shown:
     """Speeds at which stability changes."""
     rows: list[Row] = []
     curve = {mass: _changes(mass) for mass in MASSES_G}
@@ -100,7 +103,9 @@ def boundaries(folder: Path) -> tuple[Row, list[Row]]:
     points = [(mass / 1000, speed) for mass, speeds in BOUNDARIES.items() for speed in speeds]
     axes.plot(*zip(*points, strict=True), "kx", ms=7, label="published")
     _save(axes, folder / "boundaries.svg")
-    return ("ball mass / rotor mass", "Ω/ω_n, published", "abu-calc", "difference"), rows
+    worst = max(abs(float(str(row[3]))) for row in rows)
+    told = f"Largest difference: {worst:.4f}. The figure can be read within 0.001."
+    return Shown(("ball mass / rotor mass", "Ω/ω_n, published", "abu-calc", "difference"), rows, told)
 
 
 def _changes(mass: float) -> list[float]:
@@ -110,26 +115,28 @@ def _changes(mass: float) -> list[float]:
     return [speed for change in changes if (speed := change["speed_rpm"] / RPM) > 1.01]
 
 
-def eigenvalues(folder: Path) -> tuple[Row, list[Row]]:
+def eigenvalues(folder: Path) -> Shown:
     """The four pairs of two balls."""
     result = json.loads(run("stability two-balls.toml --json").stdout)["result"]
     ours = [complex(*value) for value in result["eigenvalues"] if value[1] > 0]
-    rows: list[Row] = []
-    for published in EIGENVALUES:
-        found = min(ours, key=lambda value: abs(value - published))
-        rows.append((_complex(published), _complex(found), f"{abs(found - published):.0e}"))
+    by_hand, rows = eigenvalues_by_hand(), list[Row]()
+    for listed in EIGENVALUES:
+        own, other = (min(values, key=lambda value: abs(value - listed)) for values in (ours, by_hand))
+        rows.append((_complex(listed), _complex(own), f"{abs(own - listed):.0e}", f"{abs(own - other):.0e}"))
     axes = _axes("real part", "imaginary part")
     axes.plot([value.real for value in ours], [value.imag for value in ours], "o", mfc="none", label="abu-calc")
-    axes.plot([value.real for value in EIGENVALUES], [value.imag for value in EIGENVALUES], "kx", label="published")
+    axes.plot([value.real for value in EIGENVALUES], [value.imag for value in EIGENVALUES], "kx", label="listed")
     _save(axes, folder / "eigenvalues.svg")
-    return ("published", "abu-calc", "distance"), rows
+    worst = max(min(abs(value - known) for value in ours) for known in EIGENVALUES)
+    told = f"Largest distance from the listed values: {worst:.1e}; their last digit is 1e-6."
+    return Shown(("listed", "abu-calc", "distance", "distance from the polynomial"), rows, told)
 
 
 def _complex(value: complex) -> str:
     return f"{value.real:.6f} ± {value.imag:.6f}i"
 
 
-def rest(folder: Path) -> tuple[Row, list[Row]]:
+def rest(folder: Path) -> Shown:
     """Places at which two balls come to rest."""
     settles = "scene.damping_N_s_per_m=[0.2,0.2] scene.race[0].rolling_drag_per_s=0.3 scene.duration_s=300"
     rows: list[Row] = []
@@ -144,10 +151,11 @@ def rest(folder: Path) -> tuple[Row, list[Row]]:
     axes.plot(line, [math.degrees(math.acos(-share)) for share in line], "k", lw=1, label="published law")
     axes.plot(SHARES, [float(str(row[2]).split(", ")[1][:-1]) for row in rows], "o", mfc="none", label="abu-calc")
     _save(axes, folder / "rest.svg")
-    return ("imbalance / capacity", "published law", "abu-calc", "difference"), rows
+    told = f"Largest difference: {max(abs(float(str(row[3])[:-1])) for row in rows):.3f}°."
+    return Shown(("imbalance / capacity", "published law", "abu-calc", "difference"), rows, told)
 
 
-def arm(folder: Path) -> tuple[Row, list[Row]]:
+def arm(folder: Path) -> Shown:
     """Two balls on a swing arm, above and below its natural frequency."""
     rows, grown = list[Row](), dict[float, float]()
     for ratio, (duration, reference) in ARM.items():
@@ -169,10 +177,10 @@ def arm(folder: Path) -> tuple[Row, list[Row]]:
     axes.plot(*zip(*points, strict=True), "kx", label="separate simulation")
     axes.axhline(1, color="0.7", lw=0.8)
     _save(axes, folder / "arm.svg")
-    return ("Ω/ω₀", "separate simulation", "abu-calc"), rows
+    return Shown(("Ω/ω₀", "separate simulation", "abu-calc"), rows)
 
 
-def between(folder: Path) -> tuple[Row, list[Row]]:
+def between(folder: Path) -> Shown:
     """Stability between and beside the natural frequencies of an anisotropic support."""
     changes = (
         f"scene.mass_kg=5 scene.stiffness_N_per_m=[{5 * 300**2},{5 * 700**2}] scene.damping_N_s_per_m=[150,350] "
@@ -185,10 +193,11 @@ def between(folder: Path) -> tuple[Row, list[Row]]:
         stable = json.loads(run(f"stability two-balls.toml --json {sets}").stdout)["result"]["stable"]
         words = {True: "balances", False: "does not balance"}
         rows.append((speed, words[published], words[stable]))
-    return ("speed, rad/s", "published simulation", "abu-calc"), rows
+    told = f"{sum(row[1] == row[2] for row in rows)} of {len(rows)} alike."
+    return Shown(("speed, rad/s", "separate simulation", "abu-calc"), rows, told)
 
 
-def merged(folder: Path) -> tuple[Row, list[Row]]:
+def merged(folder: Path) -> Shown:
     """Amplitudes of balls that cannot balance and stand together: law and simulation."""
     rows: list[Row] = []
     for speed, imbalance, side, damping in MERGED:
@@ -201,10 +210,17 @@ def merged(folder: Path) -> tuple[Row, list[Row]]:
         law = (imbalance + side * 1e5) * speed**2 / abs(1 - 1.1 * speed**2) / 1000
         where = "heavy side" if side > 0 else "opposite, too little capacity"
         rows.append((f"{speed:g}", where, f"{abs(law):.2f}", f"{ours:.2f}", f"{100 * (ours / abs(law) - 1):+.1f} %"))
-    return ("Ω/ω_n", "balls", "undamped law, mm", "abu-calc, mm", "difference"), rows
+    drawn = _axes("speed Ω/ω_n", "amplitude, mm")
+    drawn.plot([float(str(row[0])) for row in rows], [float(str(row[3])) for row in rows], "o", mfc="none",
+               label="abu-calc")  # fmt: skip
+    drawn.plot([float(str(row[0])) for row in rows], [float(str(row[2])) for row in rows], "kx", label="undamped law")
+    drawn.set(ylim=0)
+    _save(drawn, folder / "merged.svg")
+    told = f"Largest difference: {max(abs(float(str(row[4])[:-2])) for row in rows):.1f} %."
+    return Shown(("Ω/ω_n", "balls", "undamped law, mm", "abu-calc, mm", "difference"), rows, told)
 
 
-def seats(folder: Path) -> tuple[Row, list[Row]]:
+def seats(folder: Path) -> Shown:
     """Interference and probability of clearance of a housing."""
     rows: list[Row] = []
     for fit, (low, high, probability) in SEATS.items():
@@ -218,16 +234,11 @@ def seats(folder: Path) -> tuple[Row, list[Row]]:
         rows.append(
             (f"Ø140 {fit}", f"{low} … {high}", f"{ours[0]:g} … {ours[1]:g}", f"{probability:g}", f"{chance:.5g}")
         )
-    return (
-        "housing",
-        "interference, µm, published",
-        "abu-calc",
-        "probability of clearance, published",
-        "abu-calc",
-    ), rows
+    header = ("housing", "interference, µm, published", "abu-calc", "probability of clearance, published", "abu-calc")
+    return Shown(header, rows)
 
 
-def levels(folder: Path) -> tuple[Row, list[Row]]:
+def levels(folder: Path) -> Shown:
     """Levels with the autobalancer that a factory measured, predicted ones, and their misses."""
     result = json.loads(run("factory --json").stdout)["result"]
     rows, labels = list[Row](), list[str]()
@@ -244,33 +255,26 @@ def levels(folder: Path) -> tuple[Row, list[Row]]:
         )  # fmt: skip
     axes.set_xticks(range(len(labels)), labels)
     _save(axes, folder / "levels.svg")
-    return ("machine", "measured, dB", "plane model, dB", "miss, dB", "at the handles, dB", "miss, dB",
-            "degrees of freedom spent"), rows  # fmt: skip
+    misses = [(abs(float(str(row[3]))), abs(float(str(row[5])))) for row in rows]
+    told = (
+        f"Misses: {min(plane for plane, _ in misses):.1f} to {max(plane for plane, _ in misses):.1f} dB in the plane "
+        f"model, {min(rigid for _, rigid in misses):.1f} to {max(rigid for _, rigid in misses):.1f} dB at the handles."
+    )
+    header = ("machine", "measured, dB", "plane model, dB", "miss, dB", "at the handles, dB", "miss, dB",
+              "degrees of freedom spent")  # fmt: skip
+    return Shown(header, rows, told)
 
 
-def _axes(x: str, y: str) -> "Axes":
-    from matplotlib.figure import Figure
-
-    axes = Figure(figsize=(7, 3.2), layout="constrained").subplots()
-    axes.set(xlabel=x, ylabel=y)
-    return axes
-
-
-def _save(axes: "Axes", file: Path) -> None:
-    axes.legend(frameon=False)
-    axes.figure.savefig(file)
-
-
-def disc(folder: Path) -> tuple[Row, list[Row]]:
+def disc(folder: Path) -> Shown:
     """End angles of two free balls."""
     result = json.loads(run("simulate disc.toml --json").stdout)["result"]
     angles = sorted(angle % 360 for angle in result["final"]["ball_angles_deg"])
     pairs = zip((165, 285), angles, strict=True)
     rows = [(f"ball {k}", f"{want}°", f"{got:.2f}°", f"{got - want:+.2f}°") for k, (want, got) in enumerate(pairs, 1)]
-    return ("", "published", "abu-calc", "difference"), rows
+    return Shown(("", "published", "abu-calc", "difference"), rows)
 
 
-def facts(folder: Path) -> tuple[Row, list[Row]]:
+def facts(folder: Path) -> Shown:
     """Rows of standards."""
     from abu_calc.standards.vibration import hand_arm_weight
 
@@ -281,10 +285,10 @@ def facts(folder: Path) -> tuple[Row, list[Row]]:
     for diameter, published in BALLS_G.items():
         ours = 7.8e-3 * math.pi * diameter**3 / 6
         rows.append((f"ball Ø{diameter:g} mm, g", published, f"{ours:.3f}", f"{100 * (ours / published - 1):+.2f} %"))
-    return ("row", "published", "abu-calc", "difference"), rows
+    return Shown(("row", "published", "abu-calc", "difference"), rows)
 
 
-def machines(folder: Path) -> tuple[Row, list[Row]]:
+def machines(folder: Path) -> Shown:
     """Balls of the four machines that a factory measured."""
     published = {
         "avtovaz-707-222": ("4 × Ø16 mm", "4 %"),
@@ -297,10 +301,10 @@ def machines(folder: Path) -> tuple[Row, list[Row]]:
         made = json.loads(run(f"size {preset} --json").stdout)["result"]["autobalancer"]
         ours = f"{made['ball_count']} × Ø{made['ball_diameter_mm']:.1f} mm"
         rows.append((preset, balls, ours, share, f"{100 * made['mass_fraction']:.1f} %"))
-    return ("machine", "balls, published", "abu-calc", "mass share, published", "abu-calc"), rows
+    return Shown(("machine", "balls, published", "abu-calc", "mass share, published", "abu-calc"), rows)
 
 
-CASES: dict[str, Callable[[Path], tuple[Row, list[Row]]]] = {
+CASES: dict[str, Callable[[Path], Shown]] = {
     "transient": transient,
     "boundaries": boundaries,
     "eigenvalues": eigenvalues,
@@ -313,6 +317,7 @@ CASES: dict[str, Callable[[Path], tuple[Row, list[Row]]]] = {
     "disc": disc,
     "facts": facts,
     "machines": machines,
+    **PUBLISHED_CASES,
 }
 
 
@@ -326,13 +331,18 @@ class ValidationCase(SphinxDirective):
         name = self.arguments[0]
         folder = Path(self.env.srcdir) / "_generated"
         folder.mkdir(exist_ok=True)
-        header, rows = CASES[name](folder)
-        lines = [_line(header), _line(["---"] * len(header)), *map(_line, rows)]
+        case_parts.RAN.clear()
+        shown = CASES[name](folder)
+        lines = [_line(shown.header), _line(["---"] * len(shown.header)), *map(_line, shown.rows)]
+        if shown.agreement:
+            lines += ["", shown.agreement]
         container = nodes.container()
         self.state.nested_parse(StringList(lines, source=name), 0, container)
         figure = folder / f"{name}.svg"
         if figure.is_file():
             container += nodes.image(uri=f"/_generated/{figure.name}", alt=f"published values and abu-calc: {name}")
+        if text := case_parts.commands():
+            container += nodes.literal_block(text, text, language="console")
         return [container]
 
 

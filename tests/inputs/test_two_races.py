@@ -55,7 +55,7 @@ def test_a_measured_level_gives_no_imbalances_of_two_wheels() -> None:
 
 def test_commands_for_one_race_say_so() -> None:
     machine = abu_calc.read(PRESET)
-    for study in (abu_calc.grinding, abu_calc.declare, abu_calc.levels, abu_calc.effects):
+    for study in (abu_calc.levels, abu_calc.effects):
         with pytest.raises(InputError, match="two races"):
             study(machine)  # type: ignore[operator]
 
@@ -118,7 +118,7 @@ def test_hints_of_tables_that_stand_wrongly(change, words: str) -> None:
 
 @pytest.mark.parametrize(
     ("command", "words"),
-    [("declare", "hand-held machine"), ("grinding", "effects.grinding_contact"), ("size", "abu sweep")],
+    [("levels", "abu declare"), ("size", "abu sweep")],
 )
 def test_commands_that_take_one_race_say_why_and_what_to_do(command: str, words: str) -> None:
     with pytest.raises(InputError, match=words):

@@ -37,6 +37,7 @@ from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.sizing import size as size_design
@@ -127,10 +128,16 @@ class _Tested:
 def declare(machine: Machine, starts: int = STARTS, progress: Progress = silent) -> DeclareResult:
     """Simulate the type test of a machine without and with its autobalancer.
 
-    `starts`: how many starts are simulated; the seed is fixed. Raises InputError with file, line, key and action for
+    `starts`: how many starts are simulated; the seed is fixed. A machine with two races gets a `TwoRaceDeclareResult`,
+    with `starts` for each place of the test wheel. Raises InputError with file, line, key and action for
     what is wrong in the file, among it a wheel diameter without a built-in test wheel.
     """
     NUMBER.check(starts)
+    if machine.two_races is not None:
+        two: DeclareResult = imported("declare.two_races:declare_two_races")(
+            machine, machine.two_races, starts, progress
+        )
+        return two
     tables = machine.whole("declare")
     with machine.located():
         wheel = _wheel(tables)

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Final
 
+from abu_calc.features.design.run_up_figure import amplitude_figure
 from abu_calc.features.design.screen import balls
 from abu_calc.features.design.section_drawing import face_drawing, section_drawing
 from abu_calc.features.design.sheet import arm_sheets
@@ -287,6 +288,8 @@ def _run_up(result: SizeResult) -> Iterator[Figure]:
                 "fall, and stay low at full speed."
             )
             yield Figure("run-up", "many-starts", caught(start.view, start.view.speed_rpm), caption)
+            if start.scene is not None:
+                yield from amplitude_figure(start.scene, "many-starts", _upper(case))
             return
 
 

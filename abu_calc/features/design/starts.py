@@ -118,6 +118,7 @@ class StartView:
     balanced: bool
     stalled: bool
     view: RotorView
+    scene: Scene | None = None
 
 
 @dataclass(frozen=True)
@@ -157,6 +158,7 @@ def _view(design: Design, start: ReplayedStart) -> StartView | None:
         balanced=outcome.balanced,
         stalled=outcome.hanging,
         view=view,
+        scene=start.scene,
     )
 
 

@@ -256,6 +256,8 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.two_races:one_race_limit",
             "formulas.two_races:two_races_balance",
             "formulas.two_races:mode_margin",
+            "formulas.two_race_contact:TiltingContact.balanced_force",
+            "formulas.two_race_contact:TiltingContact.acting_imbalance",
         ),
     ),
     "balance": Step(

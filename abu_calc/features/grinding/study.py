@@ -58,6 +58,7 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.result import Provenance, Result
@@ -191,12 +192,23 @@ class GrindingResult(Result):
 
 
 @checked
-def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) -> GrindingResult:
+def grinding(
+    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, wheel: int | None = None
+) -> GrindingResult:
     """The machine of a file at its work, by closed forms and by simulation to `accuracy`.
 
+    A machine with two races gets a `TwoRaceGrindingResult`: each wheel at work in turn, or only `wheel`, from 1.
     Raises InputError for a file without [grinding], and with file, line, key and remedy for what is wrong in it.
     """
     ACCURACY.check(accuracy)
+    if machine.two_races is not None:
+        two: GrindingResult = imported("two_races.work:grind_two_races")(machine, accuracy, progress, wheel)
+        return two
+    if wheel is not None:
+        raise InputError(
+            "for machines with two races only", place=Place(key="wheel"), found=f"{wheel}",
+            remedy="Leave it out: this machine has one wheel.",
+        )  # fmt: skip
     tables = machine.whole("grinding")
     with machine.located():
         _refuse_idle(tables)

@@ -7,7 +7,6 @@ simulated at the estimate (parametric bootstrap).
 """
 
 import math
-from collections.abc import Sequence
 from functools import cache
 from itertools import combinations_with_replacement
 from typing import Final
@@ -33,8 +32,11 @@ do so about another mean at the next, which the regression does not follow.
 """
 PRIOR_UM: Final = 12.0
 """Standard deviation of a component of Δ before anything is measured."""
-NARROWEST_UM, WIDEST_UM = 10.0, 20.0
+NARROWEST_UM, WIDEST_UM = 10.0, 30.0
 """Half widths of a narrow box along a component of the eccentricity [µm]."""
+ENDS: Final = 9.0
+"""Standard errors of the mean end in half of a box: friction moves the mean of ten ends by up to three times their
+scatter."""
 END: Final = 0.09
 """Share of the windows whose mean is the end: the last 15 % of the time."""
 DECAY: Final = 4
@@ -243,14 +245,21 @@ class Best:
     value: float
 
 
-def narrowed(best: Best, end_error: float) -> Box:
-    """A box round an estimate; `end_error`: standard error of the mean end [µm], by friction."""
-    offset = min(max(4 * end_error, NARROWEST_UM), WIDEST_UM)
+def narrowed(best: Best, end_error: float, end: complex | None = None) -> Box:
+    """A box round an estimate; `end_error`: standard error of the mean end [µm], by friction.
+
+    `end`: the mean end [µm]. The eccentricity is opposite to it but for friction, so that the box need not move in
+    search of it: where friction scatters the ends, little else holds it.
+    """
+    offset = min(max(ENDS * end_error, NARROWEST_UM), WIDEST_UM)
+    middle = best.point.copy()
+    if end is not None:
+        middle[2:] = -end.real, -end.imag
     half = np.array([0.55, 1.0, offset, offset])
-    return Box(best.point - half, best.point + half)
+    return Box(middle - half, middle + half)
 
 
-def inside(best: Best, box: Box, parts: Sequence[int]) -> bool:
-    """True if an estimate lies well inside a box."""
-    place = box.place(best.point)[list(parts)]
+def inside(best: Best, box: Box) -> bool:
+    """True if drag rate and lever arm of an estimate lie well inside a box."""
+    place = box.place(best.point)[:2]
     return bool(np.all(place > 0.1) and np.all(place < 0.9))

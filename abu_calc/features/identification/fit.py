@@ -1,14 +1,14 @@
 """The fit: recorded starts in the frame of the imbalance, banks about the likeliest point, intervals, values."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.features.identification.bank import WIDE, Box, bank_of, simulated_track
+from abu_calc.features.identification.bank import WIDE, Box, Points, bank_of, simulated_track
 from abu_calc.features.identification.estimate import (
     Best,
     Features,
@@ -23,6 +23,7 @@ from abu_calc.features.identification.tracks import (
     RecordedStart,
     Track,
 )
+from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, within
@@ -37,15 +38,20 @@ LEVERS: Final = (0.3, 1.4, 6.5, 30.0)
 ROUNDS: Final = 5
 """Narrower banks, at most."""
 SETS: Final = 40
-"""Sets of starts that are simulated at the estimate, for intervals and goodness of fit."""
+"""Sets of starts that are simulated at the estimate, for the goodness of fit, and as many in the last box. Both tell
+how far the likelihood falls to the truth, for the intervals."""
 ODD: Final = 2.0
 """Squared distance of a start, over that of the farthest of 400 simulated ones, above which it is unlike them."""
 ROUGH, ROOM, LEAST_SHARE = 8.0, 0.25, 0.4
 """The last box: where the likelihood has fallen by less than the first, with a share of room, no less than a share of
 the box before."""
 COVERED: Final = 0.95
-LEAST_DROP, MOST_DROP = 2.6, 12.0
+LEAST_DROP, MOST_DROP = 2.6, 20.0
 """Drops of the logarithmic likelihood at the ends of an interval, at least and at most: t²/2 of ten starts is 2.56."""
+HELD, LEAST_HELD_DROP = 0.7, 6.0
+"""Friction number above which some balls of a horizontal spindle stay where friction holds them, and the least drop
+then: their ends are scattered as no Student distribution is.
+"""
 SURE_UM: Final = 0.3
 """Half of the narrowest interval of the eccentricity [µm]: with a mark, machines of known values came out 0.16 µm off
 in the median, more than their starts scatter."""
@@ -68,6 +74,11 @@ class Measured:
     def features(self) -> Features:
         """Features of every start."""
         return np.array([self.reading.features(track) for track in self.tracks])
+
+    @property
+    def end(self) -> complex | None:
+        """Mean end [µm]; None without a mark."""
+        return complex(np.mean([end_of(track) for track in self.tracks])) * 1e6 if self.reading.marked else None
 
     @property
     def end_error(self) -> float:
@@ -124,21 +135,30 @@ def horizontal(scene: Scene) -> bool:
     return scene.effect("gravity") is not None
 
 
+def friction_number_at(scene: Scene, point: Points) -> float:
+    """Λ = k_r R_p Ω²/(r g) of a point; 0 on a vertical spindle, whose ends tell the friction by their scatter."""
+    race = scene.races[0]
+    lever = math.exp(point[1]) * 1e-6
+    return friction_number(lever, race.pitch_radius, race.ball_radius, scene.speed) if horizontal(scene) else 0.0
+
+
 def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
     """The likeliest values, their intervals, and how well simulated sets fit."""
     features = measured.features
     parts = (0, 1, 2, 3) if measured.reading.marked else (0, 1)
     regression, best, simulated = _narrowed_fit(scene, measured, parts, progress)
     progress("intervals")
-    sets = tuple(_sets(scene, measured, best))
+    sets = tuple(_sets(scene, measured, [best.point] * SETS))
     if not sets:
         raise NotTrustworthyError(
             "starts cannot be simulated at the estimate\n  See `abu simulate FILE` for the reason."
         )
-    fits = [regression.best(each, begin=best.point) for each in sets]
-    drops = [_drop(regression, each, fit, best, parts) for each, fit in zip(sets, fits, strict=True)]
+    fits = [regression.best(each, begin=best.point) for _, each in sets]
+    drops = [_drop(regression, each, regression.best(each, begin=truth), truth, parts)
+             for truth, each in (*sets, *_sets(scene, measured, _within(regression.box)))]  # fmt: skip
+    least = LEAST_HELD_DROP if friction_number_at(scene, best.point) > HELD else LEAST_DROP
     intervals = [
-        regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), LEAST_DROP, MOST_DROP)))
+        regression.interval(features, best, part, float(np.clip(np.quantile(column, COVERED), least, MOST_DROP)))
         for part, column in zip(parts, np.array(drops).T, strict=True)
     ]
     means, deviations = regression.distribution(best.point)
@@ -151,8 +171,8 @@ def estimated(scene: Scene, measured: Measured, progress: Progress) -> Estimate:
         float(np.mean([fit.value < best.value for fit in fits])),
         float(np.mean(amplitudes)) * math.sqrt(len(features)),
         float(np.mean(features[:, -1]) / means[0, -1]),
-        simulated + SETS * len(features),
-        _odd_start(regression, best, np.concatenate(sets), features),
+        simulated + 2 * SETS * len(features),
+        _odd_start(regression, best, np.concatenate([each for _, each in sets]), features),
     )
 
 
@@ -175,16 +195,16 @@ def _narrowed_fit(
     best = _begun(scene, measured, Regression(bank, measured.reading, WIDE_DEGREE), progress)
     simulated = MANY + (len(LEVERS) - 1) * FEW // 2
     for _ in range(ROUNDS):
-        box = narrowed(best, measured.end_error)
+        box = narrowed(best, measured.end_error, measured.end)
         regression = Regression(bank_of(scene, box, FEW, centres, within(progress, "narrow")), measured.reading)
         best, simulated = regression.best(features), simulated + FEW
-        if inside(best, box, parts):
+        if inside(best, box):
             break
     for _ in range(ROUNDS):
         box = _likely(regression, features, best, parts)
         regression = Regression(bank_of(scene, box, MANY, centres, within(progress, "last")), measured.reading)
         best, simulated = regression.best(features), simulated + MANY
-        if inside(best, box, parts):
+        if inside(best, box):
             break
     return regression, best, simulated
 
@@ -197,6 +217,7 @@ def _likely(regression: Regression, features: Features, best: Best, parts: Seque
         ends = np.clip(regression.interval(features, best, part, ROUGH), box.low[part], box.high[part])
         room = max(ROOM * (ends[1] - ends[0]), (LEAST_SHARE * width[part] - (ends[1] - ends[0])) / 2)
         low[part], high[part] = ends[0] - room, ends[1] + room
+    low[2:], high[2:] = np.maximum(low[2:], box.low[2:]), np.minimum(high[2:], box.high[2:])
     return Box(low, high)
 
 
@@ -206,27 +227,33 @@ def _begun(scene: Scene, measured: Measured, wide: Regression, progress: Progres
     for number, (low, high) in enumerate(pairwise(LEVERS)):
         part = Box(WIDE.low.copy(), WIDE.high.copy())
         part.low[1], part.high[1] = math.log(low), math.log(high)
-        box = narrowed(wide.best(features, part=part), measured.end_error)
+        box = narrowed(wide.best(features, part=part), measured.end_error, measured.end)
         share = within(progress, f"range {number + 1} of {len(LEVERS) - 1}")
         regression = Regression(bank_of(scene, box, FEW // 2, measured.reading.centres, share), measured.reading)
         ends.append(regression.best(features))
     return max(ends, key=lambda best: best.value)
 
 
-def _sets(scene: Scene, measured: Measured, best: Best) -> Iterator[Features]:
-    """Features of whole sets of starts, simulated at the estimate."""
+def _within(box: Box) -> Points:
+    """Points all over a box but for its edge: an interval must hold wherever there the truth lies."""
+    shares = np.random.default_rng(7).uniform(0.1, 0.9, (SETS, len(box.low)))
+    return np.asarray(box.low + (box.high - box.low) * shares)
+
+
+def _sets(scene: Scene, measured: Measured, points: Iterable[Points]) -> Iterator[tuple[Points, Features]]:
+    """Each point, and the features of a whole set of starts simulated there."""
     count, reading = len(measured.tracks), measured.reading
-    for number in range(SETS):
+    for number, point in enumerate(points):
         seeds = range(10_000 + number * count, 10_000 + (number + 1) * count)
-        tracks = [simulated_track(scene, best.point, reading.centres, seed) for seed in seeds]
+        tracks = [simulated_track(scene, point, reading.centres, seed) for seed in seeds]
         kept = np.array([track for track in tracks if track is not None])
         if len(kept) == count:
-            yield np.array([reading.features(track) for track in reading.noisy(kept, number)])
+            yield point, np.array([reading.features(track) for track in reading.noisy(kept, number)])
 
 
-def _drop(regression: Regression, features: Features, fit: Best, truth: Best, parts: Sequence[int]) -> list[float]:
+def _drop(regression: Regression, features: Features, fit: Best, truth: Points, parts: Sequence[int]) -> list[float]:
     """Fall of the profile from its best to the truth, for each unknown."""
-    return [fit.value - regression.best(features, (part, float(truth.point[part])), fit.point).value for part in parts]
+    return [fit.value - regression.best(features, (part, float(truth[part])), fit.point).value for part in parts]
 
 
 Values = tuple[IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None]

@@ -19,6 +19,7 @@ from abu_calc.features.identification.fit import (
     Estimate,
     Measured,
     estimated,
+    friction_number_at,
     horizontal,
     identified_values,
     without_balls,
@@ -39,7 +40,6 @@ from abu_calc.features.identification.tracks import (
     recorded_start,
     window_centres,
 )
-from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
@@ -245,7 +245,9 @@ def _result(
         starts=len(measured.starts),
         mark=marked,
         noise_um=measured.reading.noise * 1e6,
-        friction_number=None if friction is None else _friction_number(scene, friction.value * 1e-3),
+        friction_number=None
+        if estimate is None or friction is None
+        else friction_number_at(scene, estimate.best.point) or None,
         residual_um=float(np.mean(np.abs(ends_um))),
         fits_worse_share=None if estimate is None else estimate.fits_worse,
         run_up_s=scene.full_speed,
@@ -265,14 +267,6 @@ def _result(
         bench=None if film is None else BenchRecord.of(film),
         assumed=(*_assumed(scene, measured), *(() if film is None else (bench_text(film),))),
     )
-
-
-def _friction_number(scene: Scene, lever: float) -> float | None:
-    """Λ = k_r R_p Ω²/(r g); None on a vertical spindle."""
-    race = scene.races[0]
-    if not horizontal(scene):
-        return None
-    return friction_number(lever, race.pitch_radius, race.ball_radius, scene.speed)
 
 
 def _predicted(scene: Scene, measured: Measured, best: Best) -> tuple[float, ...] | None:

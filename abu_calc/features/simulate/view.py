@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from abu_calc.features.design.run_up_figure import amplitude_figure
 from abu_calc.features.effects.view import effects_grid
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.features.simulate.study import SampledMotion, SimulateResult
@@ -270,6 +271,7 @@ def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
     if view.speed_rpm is not None:
         caption = "Speed of the rotor: the balls settle at full speed."
         yield Figure("run-up", SECTION, run_up(view, view.speed_rpm), caption)
+        yield from amplitude_figure(result.run.scene, SECTION)
 
 
 def _final_numbers(result: SimulateResult) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from abu_calc.features.two_races.places import best_races
 from abu_calc.formulas.balls import INERTIA_FACTORS
+from abu_calc.formulas.two_race_contact import TiltingContact
 from abu_calc.formulas.two_races import (
     Bearing,
     Pair,
@@ -17,6 +18,7 @@ from abu_calc.formulas.two_races import (
     TiltingRotor,
     balancing_resultants,
     eccentricity_resultants,
+    lever_shares,
     worst_resultants,
 )
 from abu_calc.foundation.frozen import dataclass
@@ -195,13 +197,33 @@ def capacity_needs(case: TwoRaceCase) -> Pair:
 
 def _needs_at(case: TwoRaceCase, speed: float) -> Pair:
     """Largest resultants [kg m] at one speed [rad/s]."""
-    spread = (case.eccentricity, case.eccentricity)
+    spread, work = (case.eccentricity, case.eccentricity), work_needs(case, speed)
     worst = worst_resultants(case.rotor, case.races, case.wheels, spread, speed)
     if case.unknown_phases:
-        return worst
+        return worst[0] + work[0], worst[1] + work[1]
     exact = balancing_resultants(case.races, case.turned(()))
     off = eccentric_needs(case, speed)
-    return abs(exact[0]) + off[0], abs(exact[1]) + off[1]
+    return abs(exact[0]) + off[0] + work[0], abs(exact[1]) + off[1] + work[1]
+
+
+def work_needs(case: TwoRaceCase, speed: float) -> Pair:
+    """Largest resultants [kg m] that a workpiece asks for by the runout of the wheel at work, at its worst angle.
+
+    Zero without [grinding], and for the contact of a face, whose runout does not press.
+    """
+    table = case.table.grinding
+    if table is None or table.contact == "face":
+        return 0.0, 0.0
+    compliance = 1 / table.contact_stiffness_N_per_m if table.contact == "compliant" else 0.0
+    needs = [(0.0, 0.0)]
+    for wheel, load in zip(case.table.wheel, case.wheels, strict=True):
+        contact = TiltingContact.of(
+            case.rotor, load.place, speed, compliance, table.rotation_sense * table.cutting_coefficient,
+            complex(to_si(wheel.runout, "mm")),
+        )  # fmt: skip
+        shares, acting = lever_shares(case.races, load.place), abs(contact.acting_imbalance())
+        needs.append((abs(shares[0]) * acting, abs(shares[1]) * acting))
+    return max(need[0] for need in needs), max(need[1] for need in needs)
 
 
 def eccentric_needs(case: TwoRaceCase, speed: float) -> Pair:

@@ -144,9 +144,7 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
         return
     lost = [run for run in runs if isinstance(run, LostRun)]
     if lost:
-        text = f"{len(lost)} of {len(runs)} start cases gave no answer: {lost[0].reason}"
-        hurried = any("--patience" in run.reason for run in lost)
-        remedy = "Allow more time: --patience." if hurried else "Specify a coarser --accuracy."
+        text, remedy = _lost_in_words(lost, len(runs))
         for code in ("ABU701", "ABU702", "ABU704"):
             yield coded(code, "not-done", text, remedy=remedy)
         return
@@ -177,6 +175,26 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
         + (f": {stalled[0].case.name}" if stalled else ""), float(len(stalled)), 0.0, None,
         action or "Run up faster, or farther above the critical speeds." if stalled else None,
     )  # fmt: skip
+
+
+def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
+    """How many start cases gave no answer and why, and what to do about each reason."""
+    chaotic = [run for run in lost if "chaotic" in run.reason]
+    hurried = [run for run in lost if "--patience" in run.reason]
+    others = [run for run in lost if run not in chaotic and run not in hurried]
+    reasons, actions = [], []
+    if hurried:
+        reasons.append(f"{len(hurried)} ran out of time")
+        actions.append("Allow more time: --patience.")
+    if chaotic:
+        number = "1 is" if len(chaotic) == 1 else f"{len(chaotic)} are"
+        reasons.append(f"{number} chaotic, so that no two runs agree: {chaotic[0].case.name}")
+    if others:
+        reasons.append(f"{len(others)} otherwise: {others[0].case.name}: {others[0].reason}")
+        actions.append("Specify a coarser --accuracy.")
+    if chaotic or others:
+        actions.append("Narrow speed_range_rpm, or raise rolling_drag_per_s of both races (not tried).")
+    return f"{len(lost)} of {count} start cases gave no answer. {'; '.join(reasons)}", " ".join(dict.fromkeys(actions))
 
 
 def slowest(runs: Sequence[TwoRaceRun]) -> tuple[float, TwoRaceRun] | None:

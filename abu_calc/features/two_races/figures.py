@@ -6,6 +6,7 @@ from abu_calc.features.two_races.drawing import both_sections
 from abu_calc.features.two_races.records import TwoRaceSizeResult
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.run_up_chart import run_up_chart
 
 SECTION = "vibration"
 
@@ -28,21 +29,12 @@ def _run_up(result: TwoRaceSizeResult) -> Iterator[Figure]:
         return
     without = [(point.speed_rpm, point.without_um) for point in points]
     balls = [(point.speed_rpm, point.with_um) for point in points if point.with_um is not None]
-    lines = [Curve(without, "without autobalancers")]
-    lines += [Curve(balls, "with balls", 2)] if balls else []
-    across = Axis.around("speed [rpm]", (speed for speed, _ in without))
-    up = Axis.around("displacement, 0–peak [µm]", [0.0, *(value for _, value in (*without, *balls))])
-    highest = max((value for _, value in balls), default=0.0)
-    text = (
-        f"Largest displacement in the run-up: {max(value for _, value in without):.0f} µm without autobalancers, "
-        f"{highest:.0f} µm with balls; at the end {without[-1][1]:.1f} and {balls[-1][1] if balls else 0.0:.1f} µm."
-    )
     caption = (
         "Simulated run-up: largest displacement of any place in each revolution against speed, imbalances of unknown "
         "phase in phase, balls together at the start. Balls do not help below the critical speeds. At full speed they "
         "settle: the curve falls there."
     )
-    yield Figure("run-up", SECTION, Plot("Run-up", text, across, up, lines), caption)
+    yield Figure("run-up", SECTION, run_up_chart(balls, without), caption)
 
 
 def _over_speed(result: TwoRaceSizeResult) -> Iterator[Figure]:

@@ -23,7 +23,7 @@ from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.motion import HARDLY, SETTLED
 from abu_calc.formulas.two_races import PlacedImbalance
-from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
 from abu_calc.simulation.response import amplitude_window
@@ -51,6 +51,8 @@ PER_TURN: Final = 16
 """Samples of a revolution."""
 ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
+DOUBTFUL: Final = 0.2
+"""Largest difference of runs of a chaotic start case that counts all the same, all of which end balanced."""
 
 Array = NDArray[np.float64]
 
@@ -248,26 +250,41 @@ def _race(design: TwoRaceDesign, race: int, start: StartCase, imbalance: complex
 def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceRun | LostRun:
     """One start case simulated to an accuracy, and what came of both races."""
     design, scene = at_speed(design, start.speed), scene_of(design, start)
-    times = revolution_times(scene)
     try:
-        run = simulate(scene, accuracy, times)
+        return _observed(design, start, scene, accuracy)
     except NotTrustworthyError as error:
         return LostRun(start, str(error).splitlines()[0])
+
+
+def _observed(design: TwoRaceDesign, start: StartCase, scene: Scene, accuracy: float) -> TwoRaceRun:
+    """A run and what came of both races."""
+    times, doubt = revolution_times(scene), 0.0
+    try:
+        run = simulate(scene, accuracy, times)
+    except ChaoticError as error:
+        # All runs end with balls at rest that balance: what the numbers are in doubt by is added to them.
+        if error.ended is None or not error.ended.error_estimate <= DOUBTFUL:
+            raise
+        run, doubt = error.ended, error.ended.error_estimate
     case = design.case
     wheels = _wheels(design, start)
     bare = [abs(case.rotor.whirl(place, wheels, case.speed)) for place in case.races]
     window = amplitude_window(scene).times
-    ends = [_amplitude(scene, run.trajectory, window, place) for place in case.races]
+    ends = [(1 + doubt) * _amplitude(scene, run.trajectory, window, place) for place in case.races]
     speeds = run.response.final.ball_speeds
     slip = max(map(abs, speeds), default=0.0) / case.speed
     states, needs = run.trajectory.at(times), (wheels_share(design, 0, start), wheels_share(design, 1, start))
     left = residual_imbalances(scene, states, needs)
+    settled = settling_time(scene, states, needs)
+    settled = None if settled is None else settled * (1 + doubt)
     return TwoRaceRun(
         case=start,
         race_displacements=(ends[0], ends[1]),
-        displacements=tuple(_amplitude(scene, run.trajectory, window, held.place) for held in case.places),
+        displacements=tuple(
+            (1 + doubt) * _amplitude(scene, run.trajectory, window, held.place) for held in case.places
+        ),
         displacements_without=tuple(abs(case.rotor.whirl(held.place, wheels, case.speed)) for held in case.places),
-        settling_time=settling_time(scene, states, needs),
+        settling_time=settled,
         slip=slip,
         speed=case.speed,
         residuals=(_end(left[0]), _end(left[1])),

@@ -356,4 +356,9 @@ def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
                 "both races: move the races apart"
             )
     yield "Housings of both autobalancers are taken to leave the centre of mass in its place"
-    yield "Grinding, hands, and levels off the spindle axis are not modelled with two races"
+    yield "Hands, and levels off the spindle axis, are not modelled with two races"
+    if design.case.table.grinding is not None:
+        yield (
+            "Start cases and levels are those at idle; capacity counts the runout of the wheel at work. `abu grinding "
+            "FILE` simulates the machine at work"
+        )

@@ -7,6 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from abu_calc.dynamics.effect import Effect
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Race, Scene
@@ -40,7 +44,19 @@ def scene_of(case: dict[str, Any]) -> Scene:
         duration=case["times_s"][-1],
         start_position=tuple(case["start_place_m"]),
         start_velocity=tuple(case["start_velocity_m_per_s"]),
+        effects=effects_of(case),
     )
+
+
+def effects_of(case: dict[str, Any]) -> tuple[Effect, ...]:
+    """Effects of a case that switches, in the order of the registry."""
+    gravity, friction = case.get("gravity_m_per_s2", 0.0), case.get("rolling_friction", 0.0)
+    effects: list[Effect] = [GravityEffect(gravity)] if gravity else []
+    if friction:
+        effects.append(DryRollingFrictionEffect(friction * case["ball_radius_m"], case["ball_radius_m"]))
+    if "restitution" in case:
+        effects.append(BallContactEffect(case["ball_radius_m"], case["restitution"]))
+    return tuple(effects)
 
 
 def solved(case: dict[str, Any], tolerance: float) -> list[list[float]]:

@@ -32,3 +32,8 @@ def reference_of(name: str) -> dict[str, Any]:
     """Reference motion of a case."""
     document: dict[str, Any] = json.loads(reference_path(name).read_text(encoding="utf-8"))
     return document
+
+
+def switches(case: dict[str, Any]) -> bool:
+    """True if balls meet or rub in a case."""
+    return "restitution" in case or bool(case.get("rolling_friction"))

@@ -1,6 +1,6 @@
 """A case by SciPy alone, from the equations of the page: python -m tests.benchmarks.open.scipy_entry CASE.json [RTOL].
 
-It shares no code with abu-calc, and serves as an example of an entry.
+It shares no code with abu-calc, and serves as an example of an entry. Cases that switch go to `scipy_switching`.
 """
 
 import json
@@ -10,6 +10,9 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
+
+from tests.benchmarks.open import scipy_switching
+from tests.benchmarks.open.files import switches
 
 
 def solved(case: dict[str, Any], rtol: float, method: str = "DOP853") -> list[list[float]]:
@@ -58,4 +61,9 @@ def solved(case: dict[str, Any], rtol: float, method: str = "DOP853") -> list[li
 
 if __name__ == "__main__":
     document = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
-    print(json.dumps({"states": solved(document, float(sys.argv[2]) if len(sys.argv) > 2 else 1e-8)}))
+    wanted = float(sys.argv[2]) if len(sys.argv) > 2 else 1e-8
+    if switches(document):
+        states, events = scipy_switching.solved(document, wanted)
+        print(json.dumps({"states": states, "events": events}))
+    else:
+        print(json.dumps({"states": solved(document, wanted)}))

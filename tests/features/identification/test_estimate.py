@@ -31,7 +31,9 @@ def test_a_known_point_is_found_within_its_interval() -> None:
     low, high = regression.interval(features, best, 0, 1.92)
     assert low < best.point[0] < high and high - low < 0.4
     assert regression.likelihood(best.point, features)[0] >= regression.likelihood(truth, features)[0]
-    assert inside(best, narrowed(best, 0.5), (0, 1, 2, 3)) and not inside(best, Box(best.point, best.point + 1), (0,))
+    assert inside(best, narrowed(best, 0.5)) and not inside(best, Box(best.point, best.point + 1))
+    box = narrowed(best, 0.5, complex(-4.0, 3.0))
+    assert (box.low + box.high)[2:] / 2 == pytest.approx([4.0, -3.0])
 
 
 def test_features_of_an_exponential_are_those_of_the_equation() -> None:

@@ -212,7 +212,5 @@ def test_a_start_of_another_machine_is_named(tmp_path: Path, monkeypatch: pytest
     path, files = starts(tmp_path, 8)
     foreign = record(path, tmp_path / "foreign.csv", DRAG, LEVER, complex(OFFSET), 50, imbalance=2.0)
     for given, status in ((files, "pass"), ([*files[:4], foreign, *files[4:]], "warn")):
-        check = next(
-            check for check in abu_calc.identify(read_any(str(path)), given).checks if check.code == "ABU1109"
-        )
+        check = next(check for check in abu_calc.identify(read_any(str(path)), given).checks if check.code == "ABU1109")
         assert check.status == status and ("foreign.csv" in check.message) is (status == "warn")

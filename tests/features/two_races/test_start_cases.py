@@ -2,13 +2,16 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from abu_calc.dynamics.scene import without
+from abu_calc.dynamics.scene import Scene, without
+from abu_calc.features.two_races import start_cases as start_cases_module
 from abu_calc.features.two_races.case import read_case
+from abu_calc.features.two_races.checks import _lost_in_words
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.start_cases import (
     LostRun,
@@ -21,8 +24,9 @@ from abu_calc.features.two_races.start_cases import (
     start_cases,
     wheels_share,
 )
+from abu_calc.foundation.errors import ChaoticError
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.simulate import simulate
+from abu_calc.simulation.simulate import Simulation, simulate
 
 TRUE = (
     *(f"autobalancer.{k}.race_eccentricity_mm=0.0" for k in (0, 1)),
@@ -144,3 +148,36 @@ def test_what_fails_is_told() -> None:
     lost = LostRun(StartCase("bunched"), "because")
     assert lost.case.name == "bunched"
     assert StartCase("bunched", 1.0, (math.pi,)).name == "bunched, phase 180°"
+
+
+@pytest.mark.parametrize(("doubt", "counts"), [(0.1, True), (0.5, False)])
+def test_chaotic_runs_that_all_end_balanced_count_with_their_doubt(
+    monkeypatch: pytest.MonkeyPatch, doubt: float, counts: bool
+) -> None:
+    """Settling time and displacements of the finest run, times one and the difference of the runs."""
+    design, case = design_of(), StartCase("spread", 1.0, (0.0,))
+    calm = run_of(design, case, 0.05)
+    assert isinstance(calm, TwoRaceRun)
+
+    def chaotic(scene: Scene, accuracy: float, times: Any) -> Simulation:
+        failure = ChaoticError("idle: the motion is chaotic")
+        failure.ended = replace(simulate(scene, accuracy, times), error_estimate=doubt)
+        raise failure
+
+    monkeypatch.setattr(start_cases_module, "simulate", chaotic)
+    run = run_of(design, case, 0.05)
+    assert isinstance(run, TwoRaceRun) is counts
+    if isinstance(run, TwoRaceRun) and calm.settling_time is not None:
+        assert run.settling_time == pytest.approx(1.1 * calm.settling_time)
+        assert run.displacements == pytest.approx([1.1 * each for each in calm.displacements])
+
+
+def test_reasons_of_lost_start_cases_are_told_apart() -> None:
+    lost = [
+        LostRun(StartCase("spread", 1.0, (0.0,), 157.08), "the accuracy is not reached. The motion is chaotic: 1e-09"),
+        LostRun(StartCase("bunched"), "the time of --patience is over"),
+    ]
+    text, action = _lost_in_words(lost, 80)
+    assert text.startswith("2 of 80 start cases gave no answer. 1 ran out of time; 1 is chaotic")
+    assert "spread, phase 0°, 1500 rpm" in text
+    assert "--patience" in action and "--accuracy" not in action and "not tried" in action

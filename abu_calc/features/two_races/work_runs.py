@@ -1,0 +1,224 @@
+"""A wheel of a machine with two races pressed to its workpiece, simulated: with balls settled before, or not, or none.
+
+The whole tilting rotor with the balls of both races, gravity, friction, collisions and a contact that may part.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.trajectory import Samples
+from abu_calc.features.two_races.case import LevelPlaceOnSpindle
+from abu_calc.features.two_races.choice import TwoRaceDesign
+from abu_calc.features.two_races.contact import PressedWheel, ball_angles, contact_of, resultants_at_work
+from abu_calc.features.two_races.start_cases import STILL, Start, StartCase, scene_of
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import level_from_velocity
+from abu_calc.simulation.run_up_amplitude import without_balls
+from abu_calc.simulation.scene_of_file import in_order
+from abu_calc.simulation.simulate import simulate
+
+Pressed = Literal["settled", "at once", "without"]
+OBSERVED: Final = 1 / 3
+"""Share of a run, at its end, whose level counts."""
+PER_TURN: Final = 32
+"""Samples of a revolution."""
+LEAST: Final = 1e-12
+"""Velocity [m/s] that counts as none."""
+IDEAL_S: Final = 3.0
+"""Seconds of a run with ideal races and balls, which is compared with the closed form."""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class WorkCase:
+    """One run: which wheel works, when it is pressed, the idle start of the balls, oil, phases of the imbalances."""
+
+    wheel: PressedWheel
+    pressed: Pressed
+    start: StartCase
+
+
+@dataclass(frozen=True)
+class WorkRun:
+    """Outcome of one run: level [dB] of each place over its last third, and how it changes within that time.
+
+    `force_amplitude`: of the contact once per turn [N]; `apart`: share of the time in which wheel and workpiece part.
+    """
+
+    case: WorkCase
+    levels: tuple[float, ...]
+    drift: float
+    axis: tuple[float, float]
+    force_amplitude: float
+    apart: float
+    slip: float
+    resultants: tuple[complex, ...] = ()
+    """Resultant of the balls of each race at the end [kg m]."""
+
+    @property
+    def level(self) -> float:
+        """Level of the loudest place."""
+        return max(self.levels)
+
+    @property
+    def pulls(self) -> bool:
+        """True if a rigid contact, which never parts, would have to pull."""
+        return self.case.wheel.table.contact == "rigid" and self.apart > 0
+
+    @property
+    def stalls(self) -> bool:
+        """True if balls keep going round in a race."""
+        return self.slip > STILL
+
+
+@dataclass(frozen=True)
+class LostWorkRun:
+    """A run without an answer, and why."""
+
+    case: WorkCase
+    reason: str
+
+
+def work_run(design: TwoRaceDesign, case: WorkCase, accuracy: float) -> WorkRun | LostWorkRun:
+    """Simulate one run to an accuracy."""
+    try:
+        return _observed(design, case, work_scene(design, case, accuracy), accuracy)
+    except NotTrustworthyError as error:
+        return LostWorkRun(case, str(error).splitlines()[0])
+
+
+def work_scene(design: TwoRaceDesign, case: WorkCase, accuracy: float) -> Scene:
+    """The scene of a run; balls that settle before are simulated at idle first. Raises NotTrustworthyError."""
+    start, wheel = case.start, case.wheel
+    if case.pressed == "without":
+        bare = without_balls(scene_of(replace(design, case=design.bare), start))
+        return _pressed(bare, wheel, design, start)
+    scene = scene_of(design, start)
+    if case.pressed == "settled":
+        times = np.array([scene.duration])
+        states = simulate(scene, accuracy, times).trajectory.at(times)[:, -1]
+        scene = _at(scene, states[2 * len(scene.support.names) :])
+    return _pressed(with_parted_balls(scene)[0], wheel, design, start)
+
+
+def _at(scene: Scene, angles: Sequence[float] | Array) -> Scene:
+    """The scene with balls at rest in the races at these angles."""
+    races, first = [], 0
+    for race in scene.races:
+        count = len(race.ball_masses)
+        own = tuple(float(angle) for angle in angles[first : first + count])
+        races.append(replace(race, start_angles=own, start_speeds=(0.0,) * count))
+        first += count
+    return replace(scene, races=tuple(races))
+
+
+def _pressed(scene: Scene, wheel: PressedWheel, design: TwoRaceDesign, start: StartCase) -> Scene:
+    contact = wheel.effect(design.case, start_phases(design, start))
+    return replace(scene, name="grinding", effects=in_order([*scene.effects, contact]))
+
+
+def start_phases(design: TwoRaceDesign, start: StartCase) -> tuple[float, ...]:
+    """Phases of all imbalances whose phase is unknown, the first among them at 0 if none is given."""
+    all_unknown = all(angle is None for angle in design.case.angles)
+    return (0.0, *start.phases) if all_unknown else start.phases
+
+
+def _observed(design: TwoRaceDesign, case: WorkCase, scene: Scene, accuracy: float) -> WorkRun:
+    turns = max(2, int(OBSERVED * scene.duration / scene.revolution / 2))
+    first = scene.duration - 2 * turns * scene.revolution
+    steps = np.arange(2 * turns * PER_TURN) * (scene.revolution / PER_TURN)
+    times = np.asarray(first + steps, dtype=float)
+    run = simulate(scene, accuracy, times)
+    states = run.trajectory.at(times)
+    halves = [_levels(scene, part, design.case.places) for part in np.split(states, 2, axis=1)]
+    # The louder half counts with balls, the quieter one without: neither is flattered.
+    fairer = min if case.pressed == "without" else max
+    levels = tuple(fairer(pair) for pair in zip(*halves, strict=True))
+    force = contact_forces(scene, times, states)
+    wheel = scene.axis_place(states, case.wheel.place)
+    x, y = np.abs(wheel - wheel.mean(axis=1, keepdims=True)).max(axis=1)
+    slip = max(map(abs, run.response.final.ball_speeds), default=0.0) / scene.speed
+    once = 2 * abs(complex((force * np.exp(-1j * scene.speed * times)).mean())) if len(force) else 0.0
+    return WorkRun(
+        case, levels, abs(max(halves[1]) - max(halves[0])), (float(x), float(y)), once,
+        float(np.mean(force <= 0)) if len(force) else 0.0, slip,
+        tuple(_resultants(scene, states[:, -1])),
+    )  # fmt: skip
+
+
+def _resultants(scene: Scene, state: Array) -> Iterator[complex]:
+    """Resultant of the balls of each race [kg m]."""
+    first = 2 * len(scene.support.names)
+    for race in scene.races:
+        own = np.exp(1j * state[first : first + len(race.ball_masses)])
+        yield complex(np.array(race.ball_masses) @ own * race.pitch_radius)
+        first += len(race.ball_masses)
+
+
+def _levels(scene: Scene, states: Array, places: Sequence[LevelPlaceOnSpindle]) -> tuple[float, ...]:
+    """Velocity level [dB] of each place: rms of the larger of both axes."""
+    size = len(scene.support.names)
+    each = (scene.support.axis(states[size : 2 * size], held.place) for held in places)
+    return tuple(level_from_velocity(max(float(np.sqrt((v**2).mean(axis=1)).max()), LEAST)) for v in each)
+
+
+def contact_forces(scene: Scene, times: Array, states: Array) -> Array:
+    """Force of wheel and workpiece [N]; none of a face, which presses evenly."""
+    contact = next(effect for effect in scene.effects if isinstance(effect, GrindingContactEffect))
+    if contact.contact == "face":
+        return np.empty(0)
+    if contact.contact == "rigid":
+        return np.asarray(contact.normal_forces(assemble(scene), Samples(times, states)))
+    gap = scene.axis_place(states, contact.plane_offset)[1]
+    gap = gap + contact.runout * np.sin(scene.speed * times + contact.runout_angle)
+    return np.asarray(np.maximum(contact.press_force - contact.contact_stiffness * gap, 0.0), dtype=float)
+
+
+def agreement(design: TwoRaceDesign, wheel: PressedWheel, start: StartCase, accuracy: float) -> float | str | None:
+    """Largest relative difference of force and ball resultants from the closed form, with ideal races and balls.
+
+    Balls start where the closed form has them, and must stay. Text: why it is not known. None: nothing presses in the
+    plane, or a race cannot carry its resultant.
+    """
+    phases = start_phases(design, start)
+    resultants = resultants_at_work(design, wheel, phases)
+    angles = ball_angles(design, resultants)
+    if angles is None or not wheel.presses or not wheel.runout:
+        return None
+    scene = _at(scene_of(design, start), [angle for own in angles for angle in own])
+    ideal = replace(scene, effects=(wheel.effect(design.case, phases),), duration=IDEAL_S)
+    expected = abs(contact_of(design, wheel, phases).balanced_force())
+    try:
+        run = _observed(design, WorkCase(wheel, "settled", start), ideal, accuracy)
+    except NotTrustworthyError as error:
+        return str(error).splitlines()[0]
+    if run.apart:
+        return "wheel and workpiece part"
+    off = [abs(run.force_amplitude - expected) / expected]
+    ends = zip(run.resultants, resultants, design.races, strict=True)
+    off += [abs(end - closed) / race.design.autobalancer.capacity for end, closed, race in ends]
+    return max(off)
+
+
+def work_cases(design: TwoRaceDesign, wheel: PressedWheel, turned: Sequence[tuple[float, ...]]) -> tuple[WorkCase, ...]:
+    """All runs of a wheel: phases of the imbalances; balls settled or not; hot and cold oil where they are settled."""
+    few = turned[:: max(1, len(turned) // 2)]
+    settled = [
+        *(StartCase("spread", 1.0, phases) for phases in turned),
+        *(StartCase("spread", factor, phases) for factor in (1 / 3, 3.0) for phases in few),
+    ]
+    early: Sequence[Start] = ("bunched", "standstill")
+    return (
+        *(WorkCase(wheel, "without", StartCase("spread", 1.0, phases)) for phases in turned),
+        *(WorkCase(wheel, "settled", start) for start in settled),
+        *(WorkCase(wheel, "at once", StartCase(kind, 1.0, phases)) for kind in early for phases in turned),
+    )
