@@ -40,7 +40,7 @@ def draw(letter: str) -> None:
             image = _field(field, chart, rows, scale)
     picture.suptitle(panels[0].title)
     picture.supxlabel(panels[0].across.label)
-    picture.supylabel(panels[0].up.label)
+    picture.supylabel(fill(panels[0].up.label, LABEL) if down == 1 else panels[0].up.label)
     unit = ", %" if panels[0].share else ""
     bar = picture.colorbar(image, ax=fields, label=fill(panels[0].quantity + unit, LABEL))
     if panels[0].share:
