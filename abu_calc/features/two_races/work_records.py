@@ -35,7 +35,7 @@ class WearOfWheel(Record):
     schema_title: ClassVar[str] = "TwoRaceWear"
 
     centres: Annotated[bool | None, Quantity("wear centres the wheel")]
-    pressure_on_high_spot_N: Annotated[float | None, Quantity("pressure on the high spot above the mean", "Re H")]
+    pressure_on_high_spot_N: Annotated[float | None, Quantity("pressure on the high spot above the mean")]
 
 
 @record
