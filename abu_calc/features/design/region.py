@@ -81,6 +81,9 @@ def _sticks(design: Design, member: Member, accuracy: float) -> bool:
 PLACES: Final = 9
 """Speeds of a range at which the growth rate is compared."""
 
+NEUTRAL: Final = 1e-7
+"""Decay per radian of rotation below which a disturbance is not said to die out: in a million turns it halves."""
+
 NAMED: Final = 3
 """Boundaries that the check names, those nearest to the worst speed."""
 
@@ -200,8 +203,10 @@ def _rate(motions: Sequence[LinearMotion], speed: float) -> float:
 def _stable(design: Design, speeds: SpeedRange) -> Check:
     low, high = design.case.speed_range
     where = f", slowest at {_rpm(speeds.worst_speed)}" if low < high else f" at {_rpm(speeds.worst_speed)}"
-    message = f"Every small disturbance dies out{where}, in the least stable balanced arrangement of the balls"
-    return coded("ABU103", "pass", message, speeds.growth, 0.0, "1/s")
+    neutral = abs(speeds.growth) < NEUTRAL * speeds.worst_speed
+    course = "No small disturbance grows" if neutral else f"Every small disturbance dies out{where}"
+    message = f"{course}, in the least stable balanced arrangement of the balls"
+    return coded("ABU103", "pass", message, 0.0 if neutral else speeds.growth, 0.0, "1/s")
 
 
 def _whirls(speed: float) -> Check:

@@ -8,7 +8,7 @@ import pytest
 import abu_calc
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.records import Frequency
-from abu_calc.features.design.region import true_region
+from abu_calc.features.design.region import SpeedRange, _stable, true_region
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble import hanging_bounds
@@ -157,6 +157,15 @@ def test_friction_that_does_not_hold_every_start_fails() -> None:
     hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
     check = true_region(design_of("msh-230", *hands)).check
     assert check.status == "fail" and " simulated start cases" in check.message
+
+
+def test_a_disturbance_that_hardly_decays_is_not_said_to_die_out() -> None:
+    """A millionth of 1/s at 600 rad/s: after a day nine tenths of it are left."""
+    design = design_of("msh-230")
+    check = _stable(design, SpeedRange((), 600.0, -1e-6, -1e-6, stable=True))
+    assert (check.status, check.value) == ("pass", 0.0) and check.message.startswith("No small disturbance grows")
+    check = _stable(design, SpeedRange((), 600.0, -1e-3, -1e-3, stable=True))
+    assert check.value == -1e-3 and check.message.startswith("Every small disturbance dies out")
 
 
 def test_bounds_over_the_range_and_at_rest() -> None:
