@@ -5,8 +5,8 @@
 The truth is integrated by SciPy's DOP853 at 1e-8; the banks that are compared with it by the compiled loop at 2e-4.
 Each machine has ten starts, 1 mm/s of noise and a mark; every fourth spindle is vertical. Every fifth machine is
 identified once more without its mark. The file has one line of JSON for each machine; these are not done again. A
-machine takes about a minute of one core. The lines kept here are of the first machines; the command goes on with them.
-`identification_earlier.jsonl` holds 18 machines by the method before its regression weighted far values down.
+machine takes one to two minutes of one core. The lines kept here are of the first machines; the command goes on with
+them.
 """
 
 import json
@@ -187,7 +187,7 @@ def summary(machines: Sequence[dict[str, Any]]) -> dict[str, Any]:
                 "given": len(of_name), "rms": round(float(np.sqrt(np.mean(np.square(apart)))), 4),
                 "median": round(float(np.median(np.abs(apart))), 4),
                 "largest": round(float(np.max(np.abs(apart))), 4),
-                "held": sum(holds(name, value, truth) for truth, value in of_name),
+                "held": int(sum(holds(name, value, truth) for truth, value in of_name)),
             }  # fmt: skip
     told["intervals"] = sum(len(of_name) for of_name in pairs.values())
     told["held"] = sum(part["held"] for part in told.values() if isinstance(part, dict))
