@@ -206,7 +206,7 @@ def _held(design: Design) -> Support:
     case, autobalancer = design.case, design.autobalancer
     balls = autobalancer.ball_count * autobalancer.ball_mass
     felt = case.body.effective_mass(autobalancer.mass, case.race_place)
-    Range("mass felt in the race plane", balls, unit="kg", open_low=True, key="autobalancer.ball_count",
+    Range("effective mass in the race plane", balls, unit="kg", open_low=True, key="autobalancer.ball_count",
           remedy="Fewer or smaller balls.").check(felt)  # fmt: skip
     return _support(case, felt - balls)
 
