@@ -18,6 +18,15 @@ from abu_calc.dynamics.averaging.resting_places import (
     SlowBalls,
     resting_places_of_races,
 )
+from abu_calc.features.declare.type_test_simulation import (
+    EXACT,
+    FRICTIONLESS,
+    FURTHER,
+    GOLDEN,
+    MOST_FURTHER,
+    HandleMeans,
+    orientations_of,
+)
 from abu_calc.features.two_races.case import LevelPlaceOnSpindle, TwoRaceCase, eccentric_needs
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.shaken_friction import remaining_band
@@ -25,19 +34,12 @@ from abu_calc.formulas.two_races import Pair, PlacedImbalance, lever_shares
 from abu_calc.formulas.type_test import acceleration_per_displacement
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.roots import root
-from abu_calc.foundation.units import to_si
-from abu_calc.standards.type_test import balancing_factor, usual_orientations
+from abu_calc.standards.type_test import balancing_factor
 
 DIRECTIONS: Final = 16
 """Angles from the eccentricity of the first race to that of the second, evenly spread: one machine each."""
-GOLDEN: Final = (math.sqrt(5) - 1) / 2
-"""Share of a turn between the angles of the test wheel in two series."""
 WEIGHT_FREE: Final = 720
 """Angles between both eccentricities for a mean without friction."""
-EXACT: Final = 0.002
-"""Share of an eccentricity to which the break-even one is searched."""
-FURTHER: Final = 1.3
-MOST_FURTHER: Final = 5
 
 Array = NDArray[np.float64]
 Loads = tuple[PlacedImbalance, ...]
@@ -65,13 +67,10 @@ class TestedSpindle:
         """The type test of a design at its rated speed; `upright`: with the spindle vertical in any case."""
         case = design.case
         test = case.table.type_test
-        usual = usual_orientations()
-        given = None if test is None else test.orientations
-        angles = given or tuple(360.0 * k / usual for k in range(usual))
         noise = None if test is None else test.background_a_hv_m_per_s2
         return cls(
             design, (_balls(design, 0, upright), _balls(design, 1, upright)),
-            case.places if case.table.machine.handle else (), tuple(to_si(angle, "deg") for angle in angles),
+            case.places if case.table.machine.handle else (), orientations_of(test),
             acceleration_per_displacement(case.speed), noise or 0.0, balancing_factor(),
         )  # fmt: skip
 
@@ -126,7 +125,7 @@ def carried(design: TwoRaceDesign, loads: Loads) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class TwoRaceTest:
+class TwoRaceTest(HandleMeans):
     """Runs with these imbalances on a spindle whose races have an eccentricity [m]: one orientation a run."""
 
     spindle: TestedSpindle
@@ -145,21 +144,6 @@ class TwoRaceTest:
             handle.name: np.hypot(spindle.gain * np.abs(np.array(spindle.shares(handle)) @ kept), spindle.background)
             for handle in spindle.handles
         }
-
-    @cached_property
-    def means(self) -> dict[str, float]:
-        """Mean a_hv of each handle [m/s²]."""
-        return {name: float(values.mean()) for name, values in self.values.items()}
-
-    @property
-    def highest(self) -> str:
-        """The handle with the highest mean."""
-        return max(self.means, key=self.means.__getitem__)
-
-    @property
-    def declared(self) -> float:
-        """The declared value [m/s²]: the mean at the highest handle, times the factor."""
-        return self.spindle.factor * self.means[self.highest]
 
     @property
     def friction_rms(self) -> float:
@@ -246,8 +230,7 @@ def search_two_race_break_even(test: TwoRaceTest, limit: float, starts: int) -> 
         high *= 2
     frictionless = root(ideal, 0.0, high, EXACT / 10 * high)
     if not spindle.band:
-        shares = (0.0, 0.5, 1.0, FURTHER)
-        points = ((share * frictionless, ideal(share * frictionless) + limit) for share in shares)
+        points = ((share * frictionless, ideal(share * frictionless) + limit) for share in FRICTIONLESS)
         return TwoRaceBreakEven(frictionless, frictionless, tuple(points))
     tried: dict[float, float] = {}
 

@@ -162,7 +162,7 @@ def _tested(
     if carried(design, design.case.wheels):
         progress("wheels in use")
         in_use = simulated_two_race_test(
-            spindle, _turned(design), eccentricity, starts, free=bool(design.case.unknown_phases)
+            spindle, design.case.turned(()), eccentricity, starts, free=bool(design.case.unknown_phases)
         )
     whole = TestedSpindle.of(design, upright=True)
     if whole.band > spindle.band:
@@ -171,11 +171,6 @@ def _tested(
     progress("break-even eccentricity")
     limit = max(_without(spindle, mounted).values())
     return TestedDesign(tuple(tests), worst, in_use, upright, search_two_race_break_even(worst, limit, starts))
-
-
-def _turned(design: TwoRaceDesign) -> tuple[PlacedImbalance, ...]:
-    """The wheels' imbalances, at their phases as far as the file gives them."""
-    return design.case.turned((0.0,) * len(design.case.wheels))
 
 
 def _without(spindle: TestedSpindle, mounted: Sequence[MountedWheel]) -> dict[str, float]:

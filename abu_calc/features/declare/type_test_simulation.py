@@ -7,7 +7,7 @@ another displacement at each start, and both move the handles: a_hv = W_h Ω²·
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, Stage
 from abu_calc.foundation.roots import root
 from abu_calc.foundation.units import to_si
+from abu_calc.inputs.type_test import TypeTest
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.type_test import background, band, type_test_body, upright_band
@@ -46,6 +47,44 @@ GOLDEN: Final = (math.sqrt(5) - 1) / 2
 Array = NDArray[np.float64]
 
 
+class _WithFactor(Protocol):
+    @property
+    def factor(self) -> float: ...
+
+
+class HandleMeans:
+    """Means over the runs of a type test, and the declared value; of runs with `values` and a `spindle`."""
+
+    spindle: _WithFactor
+
+    @cached_property
+    def values(self) -> dict[str, Array]:
+        """a_hv of each handle in each run [m/s²]."""
+        raise NotImplementedError
+
+    @cached_property
+    def means(self) -> dict[str, float]:
+        """Mean a_hv of each handle [m/s²]."""
+        return {name: float(values.mean()) for name, values in self.values.items()}
+
+    @property
+    def highest(self) -> str:
+        """The handle with the highest mean."""
+        return max(self.means, key=self.means.__getitem__)
+
+    @property
+    def declared(self) -> float:
+        """The declared value [m/s²]: the mean at the highest handle, times the factor."""
+        return self.spindle.factor * self.means[self.highest]
+
+
+def orientations_of(plan: TypeTest | None) -> tuple[float, ...]:
+    """Orientations of the test wheel [rad]: those of the file, or as many as the standard has, evenly spread."""
+    usual = usual_orientations()
+    given = None if plan is None else plan.orientations
+    return tuple(to_si(angle, "deg") for angle in given or (360.0 * k / usual for k in range(usual)))
+
+
 @dataclass(frozen=True)
 class Spindle:
     """What a type test of one design has in common [SI]: body without and with autobalancer, balls, orientations.
@@ -64,17 +103,13 @@ class Spindle:
     @classmethod
     def of(cls, case: Case, candidate: Candidate, *, upright: bool = False) -> "Spindle":
         """The type test of a design at its rated speed; `upright`: with the spindle vertical in any case."""
-        test = case.table.type_test
-        given = None if test is None else test.orientations
-        usual = usual_orientations()
-        angles = given or tuple(360.0 * k / usual for k in range(usual))
         body = type_test_body(case, candidate)
         balls = SlowBalls(
             candidate.ball_count, candidate.ball_mass * candidate.pitch_radius, candidate.pitch_radius, case.drag,
             case.inertia_factor, (upright_band if upright else band)(case, candidate), body.race_by_race, case.speed,
         )  # fmt: skip
         return cls(
-            type_test_body(case), body, balls, tuple(to_si(angle, "deg") for angle in angles),
+            type_test_body(case), body, balls, orientations_of(case.table.type_test),
             acceleration_per_displacement(case.speed), background(case.table), balancing_factor(),
         )  # fmt: skip
 
@@ -84,7 +119,7 @@ class Spindle:
 
 
 @dataclass(frozen=True, eq=False)
-class SimulatedTest:
+class SimulatedTest(HandleMeans):
     """Runs of a type test: an imbalance [kg m] on a spindle with a race eccentricity [m], one orientation a run."""
 
     spindle: Spindle
@@ -106,21 +141,6 @@ class SimulatedTest:
         square += 2 * (gain.cross * wheel.conj() * kept).real
         spindle = self.spindle
         return np.asarray(np.sqrt(spindle.gain**2 * np.maximum(square, 0.0) + spindle.background**2))
-
-    @cached_property
-    def means(self) -> dict[str, float]:
-        """Mean a_hv of each handle [m/s²]."""
-        return {name: float(values.mean()) for name, values in self.values.items()}
-
-    @property
-    def highest(self) -> str:
-        """The handle with the highest mean."""
-        return max(self.means, key=self.means.__getitem__)
-
-    @property
-    def declared(self) -> float:
-        """The declared value [m/s²]: the mean at the highest handle, times the factor."""
-        return self.spindle.factor * self.means[self.highest]
 
     @property
     def friction_rms(self) -> float:

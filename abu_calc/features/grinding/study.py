@@ -58,6 +58,7 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.two_races import TwoRaceFile
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
@@ -211,7 +212,7 @@ def grinding(
         )  # fmt: skip
     tables = machine.whole("grinding")
     with machine.located():
-        _refuse_idle(tables)
+        refuse_idle(tables)
         design = size_design(tables)
         work = analysis.at_work(design, accuracy, progress)
         work, loads = with_starts(work, loaded_ensemble(design, accuracy, progress, processors()))
@@ -298,7 +299,8 @@ def _orbits(work: Work, still: SteadyWork) -> Iterator[Orbit]:
             yield Orbit.through(name, run.path)
 
 
-def _refuse_idle(tables: MachineFile) -> None:
+def refuse_idle(tables: MachineFile | TwoRaceFile) -> None:
+    """Raise InputError for a file without [grinding]."""
     if tables.grinding is None:
         raise InputError(
             "this command needs the machine on its workpiece",

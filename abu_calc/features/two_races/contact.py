@@ -84,9 +84,9 @@ def pressed_wheels(case: TwoRaceCase) -> tuple[PressedWheel, ...]:
 
 
 def contact_of(
-    design: TwoRaceDesign, wheel: PressedWheel, phases: Sequence[float], *, bare: bool = False
+    design: TwoRaceDesign, wheel: PressedWheel, phases: Sequence[float] = (), *, bare: bool = False
 ) -> TiltingContact:
-    """The steady contact of a wheel; `bare`: of the machine without autobalancers."""
+    """The steady contact of a wheel; `bare`: of the machine without autobalancers. Without `phases` all are 0."""
     case = design.bare if bare else design.case
     swings = 1 - 1 / (8 * case.inertia_factor)  # balls swing at twice the speed in a backward whirl
     balls = () if bare else tuple(
@@ -98,7 +98,9 @@ def contact_of(
     )  # fmt: skip
 
 
-def resultants_at_work(design: TwoRaceDesign, wheel: PressedWheel, phases: Sequence[float]) -> tuple[complex, complex]:
+def resultants_at_work(
+    design: TwoRaceDesign, wheel: PressedWheel, phases: Sequence[float] = ()
+) -> tuple[complex, complex]:
     """Resultants [kg m] with which both races balance at work, races without eccentricity."""
     acting = PlacedImbalance(wheel.place, contact_of(design, wheel, phases).acting_imbalance())
     return balancing_resultants(design.case.races, [*design.case.turned(phases), acting])
@@ -106,9 +108,8 @@ def resultants_at_work(design: TwoRaceDesign, wheel: PressedWheel, phases: Seque
 
 def capacities_at_work(design: TwoRaceDesign, wheel: PressedWheel) -> Pair:
     """Capacities [kg m] that work requires of both races, over all unknown phases, with the worst eccentricities."""
-    case, zero = design.case, (0.0,) * len(design.case.wheels)
-    acting = contact_of(design, wheel, zero).acting_imbalance()
-    turned, off = case.turned(zero), eccentric_needs(case, case.speed)
+    case, acting = design.case, contact_of(design, wheel).acting_imbalance()
+    turned, off = case.turned(()), eccentric_needs(case, case.speed)
     needs = []
     for race in (0, 1):
         parts = [lever_shares(case.races, load.place)[race] * load.imbalance for load in turned]
@@ -131,16 +132,16 @@ def ball_angles(design: TwoRaceDesign, resultants: Sequence[complex]) -> tuple[t
     return tuple(angles)
 
 
-def growth_rates(design: TwoRaceDesign, wheel: PressedWheel, phases: Sequence[float]) -> tuple[float, ...] | None:
+def growth_rates(design: TwoRaceDesign, wheel: PressedWheel) -> tuple[float, ...] | None:
     """Largest growth rates [1/s] of small motions of light balls: evenly spread, then in other arrangements.
 
-    None if a race cannot carry its resultant.
+    Imbalances of unknown phase are in phase. None if a race cannot carry its resultant.
     """
-    resultants = resultants_at_work(design, wheel, phases)
+    resultants = resultants_at_work(design, wheel)
     even = ball_angles(design, resultants)
     if even is None:
         return None
-    contact, random = contact_of(design, wheel, phases), np.random.default_rng(SEED)
+    contact, random = contact_of(design, wheel), np.random.default_rng(SEED)
     drawn = (
         tuple(
             _drawn(race.design.autobalancer.ball_count, resultant / _moment(design, k), random)

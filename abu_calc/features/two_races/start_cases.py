@@ -189,11 +189,13 @@ def race_centre(design: TwoRaceDesign, start: StartCase) -> float:
 
 def _wheels(design: TwoRaceDesign, start: StartCase) -> tuple[PlacedImbalance, ...]:
     """Imbalances at the phases of this start case."""
-    return design.case.turned((0.0, *start.phases) if _first_is_unknown(design) else start.phases)
+    return design.case.turned(start_phases(design, start))
 
 
-def _first_is_unknown(design: TwoRaceDesign) -> bool:
-    return all(angle is None for angle in design.case.angles)
+def start_phases(design: TwoRaceDesign, start: StartCase) -> tuple[float, ...]:
+    """Phases of all imbalances whose phase is unknown, the first among them at 0 if none is given."""
+    none_known = all(angle is None for angle in design.case.angles)
+    return (0.0, *start.phases) if none_known else start.phases
 
 
 def wheels_share(design: TwoRaceDesign, race: int, start: StartCase) -> complex:

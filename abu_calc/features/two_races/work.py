@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from abu_calc.features.grinding.records import AxisMotion
+from abu_calc.features.grinding.study import refuse_idle
 from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.contact import (
@@ -42,10 +43,6 @@ AGREES: Final = 0.05
 """Relative difference of force between closed form and simulation that is permitted: averages leave out 2Ω swings."""
 UNSTEADY: Final = 1.0
 """Change [dB] of a level within the observed time above which a run has not come to an end."""
-NO_TABLE: Final = (
-    "Add a table [grinding] with press_force_N, cutting_coefficient and contact; `abu init FILE` writes a file that "
-    "shows it."
-)
 
 
 @dataclass(frozen=True)
@@ -109,11 +106,7 @@ def grind_two_races(
     if tables is None:
         raise InputError("this file has one race", remedy="Use `abu grinding FILE`.")
     with machine.located():
-        if tables.grinding is None:
-            raise InputError(
-                "this command needs the machine on its workpiece", place=Place(key="grinding"),
-                found="no [grinding] in the file", remedy=NO_TABLE,
-            )  # fmt: skip
+        refuse_idle(tables)
         design = choose_both(read_case(tables))
         wheels = pressed_wheels(design.case)
         if number is not None and not 1 <= number <= len(wheels):
@@ -138,7 +131,7 @@ def grind_two_races(
         wheel=worst.wheel,
         helps=None if any(row.helps is None for row in rows) and not any(row.helps is False for row in rows)
         else all(row.helps for row in rows),
-        contact=tables.grinding.contact,
+        contact=wheels[0].table.contact,
         level_before_db=worst.level_before_db,
         level_after_db=worst.level_after_db,
         level_at_once_db=worst.level_at_once_db,
@@ -164,19 +157,13 @@ def _judged(
     cases = [case for case in work_cases(design, wheel, turned) if above or case.pressed == "without"]
     counting = counted(progress, f"{wheel.name} at work: {{}} of {{}} runs", len(cases))
     runs = tuple(side_by_side(work_run, [(design, case, accuracy) for case in cases], workers, counting))
-    zero = _zero(design)
     return WheelRuns(
         wheel,
         runs,
         capacities_at_work(design, wheel),
-        growth_rates(design, wheel, zero) if above else None,
+        growth_rates(design, wheel) if above else None,
         agreement(design, wheel, StartCase("spread", 1.0, (0.0,) * unknown), accuracy / 5) if above else None,
     )
-
-
-def _zero(design: TwoRaceDesign) -> tuple[float, ...]:
-    """Imbalances of unknown phase in phase."""
-    return (0.0,) * len(design.case.wheels)
 
 
 def _badness(row: WheelAtWork) -> tuple[bool, float, float]:
@@ -186,9 +173,9 @@ def _badness(row: WheelAtWork) -> tuple[bool, float, float]:
 
 
 def _row(design: TwoRaceDesign, runs: WheelRuns) -> WheelAtWork:
-    wheel, zero = runs.wheel, _zero(design)
-    contact, bare = contact_of(design, wheel, zero), contact_of(design, wheel, zero, bare=True)
-    own = design.case.turned(zero)
+    wheel = runs.wheel
+    contact, bare = contact_of(design, wheel), contact_of(design, wheel, bare=True)
+    own = design.case.turned(())
     settled, without = runs.known("settled"), runs.known("without")
     at_work = [*settled, *runs.known("at once")]
     loudest = max(settled, key=lambda run: run.level, default=None)
@@ -235,7 +222,7 @@ def _reaction(wheel: PressedWheel, force: complex) -> TwoRaceReaction:
 
 
 def _races(design: TwoRaceDesign, runs: WheelRuns) -> Iterator[RaceAtWork]:
-    resultants = resultants_at_work(design, runs.wheel, _zero(design))
+    resultants = resultants_at_work(design, runs.wheel)
     angles = ball_angles(design, resultants)
     for index, (resultant, need) in enumerate(zip(resultants, runs.needs, strict=True)):
         yield RaceAtWork(
@@ -301,13 +288,10 @@ def _parting(wheel: PressedWheel) -> str:
     return "Wheel and workpiece part; levels include it"
 
 
-WORSE: Final = "Run the wheel truer (runout_mm), soften the contact, or press after the balls have settled."
-
-
-UNKNOWN: Final = {
-    True: 'Press harder, or set grinding.contact = "compliant" and its stiffness: the wheel may then part.',
-    False: "Permit a larger error (--accuracy), or press harder.",
-}
+LOUDER: Final = "Run the wheel truer (runout_mm), soften the contact, or press after the balls have settled."
+PULLS: Final = 'Press harder, or set grinding.contact = "compliant" and its stiffness: the wheel may then part.'
+NO_LEVEL: Final = "Permit a larger error (--accuracy), or press harder."
+"""Actions where runs are louder, where a rigid contact pulls, and where runs give no level."""
 
 
 def _lowered(runs: WheelRuns) -> Check:
@@ -321,25 +305,22 @@ def _lowered(runs: WheelRuns) -> Check:
             f"{len(given)} of {len(runs.known('settled', True))} runs pressed after the balls settled are not quieter"
         )
         text += f": {run.case.start.name}, {change:+.1f} dB"
-        return coded("ABU421", "fail", text, after, before, "dB", WORSE, of=name)
+        return coded("ABU421", "fail", text, after, before, "dB", LOUDER, of=name)
     missing = [*runs.lost("settled"), *runs.lost("without")]
-    pulled = any("pull" in reason for reason in missing)
     if missing or not runs.known("settled"):
         text = f"{len(missing)} runs gave no level: {missing[0]}" if missing else "No run gave a level"
-        return coded(
-            "ABU421", "not-done", text, after, before, "dB", UNKNOWN[pulled],
-            of=name,
-        )  # fmt: skip
+        action = PULLS if any("pull" in reason for reason in missing) else NO_LEVEL
+        return coded("ABU421", "not-done", text, after, before, "dB", action, of=name)
     stalled = (run for run in (*runs.known("settled"), *runs.known("at once")) if run.stalls)
-    doubts = [*(f"balls stall, {run.case.start.name}" for run in stalled)]
-    doubts += [
+    doubts = [
+        *(f"balls stall, {run.case.start.name}" for run in stalled),
         *(f"{run.case.start.name}, {change:+.1f} dB" for change, run in (*louder, *early)),
         *runs.lost("at once"),
     ]
     text = f"Level at the loudest place, loudest of {len(runs.known('settled'))} runs pressed after the balls settled"
     if doubts:
         text += f". Not quieter or in doubt in hot or cold oil, or pressed at once: {doubts[-1]}"
-    return coded("ABU421", verdict(True, not doubts), text, after, before, "dB", WORSE if doubts else None, of=name)
+    return coded("ABU421", verdict(True, not doubts), text, after, before, "dB", LOUDER if doubts else None, of=name)
 
 
 def _carried(design: TwoRaceDesign, runs: WheelRuns) -> Iterator[Check]:
@@ -366,7 +347,8 @@ def _still(runs: WheelRuns) -> Check:
     if passed and not safe:
         text += f"; {others:.3g} 1/s in another arrangement"
     remedy = None if passed and safe else "Change the contact stiffness, or raise rolling_drag_per_s of both races."
-    return coded("ABU423", verdict(passed, safe), text, even, 0.0, "1/s", remedy, of=name)
+    growth = even if abs(even) > GROWS else 0.0
+    return coded("ABU423", verdict(passed, safe), text, growth, 0.0, "1/s", remedy, of=name)
 
 
 def _agrees(runs: WheelRuns) -> Iterator[Check]:

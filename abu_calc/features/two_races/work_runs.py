@@ -17,7 +17,7 @@ from abu_calc.dynamics.trajectory import Samples
 from abu_calc.features.two_races.case import LevelPlaceOnSpindle
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.contact import PressedWheel, ball_angles, contact_of, resultants_at_work
-from abu_calc.features.two_races.start_cases import STILL, Start, StartCase, scene_of
+from abu_calc.features.two_races.start_cases import STILL, Start, StartCase, scene_of, start_phases
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
@@ -124,12 +124,6 @@ def _at(scene: Scene, angles: Sequence[float] | Array) -> Scene:
 def _pressed(scene: Scene, wheel: PressedWheel, design: TwoRaceDesign, start: StartCase) -> Scene:
     contact = wheel.effect(design.case, start_phases(design, start))
     return replace(scene, name="grinding", effects=in_order([*scene.effects, contact]))
-
-
-def start_phases(design: TwoRaceDesign, start: StartCase) -> tuple[float, ...]:
-    """Phases of all imbalances whose phase is unknown, the first among them at 0 if none is given."""
-    all_unknown = all(angle is None for angle in design.case.angles)
-    return (0.0, *start.phases) if all_unknown else start.phases
 
 
 def _observed(design: TwoRaceDesign, case: WorkCase, scene: Scene, accuracy: float) -> WorkRun:

@@ -6,7 +6,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.grinding.steady_contact import bare, runout_of
-from abu_calc.features.grinding.study import _cutting_power, _refuse_idle, _regions
+from abu_calc.features.grinding.study import _cutting_power, _regions, refuse_idle
 from abu_calc.foundation.errors import InputError
 from abu_calc.sizing import size
 from tests.features.grinding.test_command import STRAIGHT, worked
@@ -34,7 +34,7 @@ def test_a_face_has_no_regions_of_stiffness() -> None:
 
 def test_an_idle_machine_is_refused_with_the_table_it_lacks() -> None:
     with pytest.raises(InputError) as refused:
-        _refuse_idle(machine())
+        refuse_idle(machine())
     assert refused.value.place.key == "grinding" and "press_force_N" in str(refused.value.remedy)
     with pytest.raises(InputError, match="accuracy"):
         abu_calc.grinding(abu_calc.read(STRAIGHT), accuracy=2.0)

@@ -123,10 +123,10 @@ def test_size_adds_what_work_requires() -> None:
 
 
 def test_runs_at_work_that_are_balanced_do_not_grow() -> None:
-    growths = growth_rates(design_of(), pressed_wheels(design_of().case)[0], (0.0, 0.0))
+    growths = growth_rates(design_of(), pressed_wheels(design_of().case)[0])
     assert growths is not None and max(growths) < 1e-6
     stiff = design_of("grinding.contact_stiffness_N_per_m=2e6")
-    unstable = growth_rates(stiff, pressed_wheels(stiff.case)[0], (0.0, 0.0))
+    unstable = growth_rates(stiff, pressed_wheels(stiff.case)[0])
     assert unstable is not None and unstable[0] > 1.0
 
 
