@@ -3,13 +3,14 @@
 Steps of the swing arm are imported only if the machine has one.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
-from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor
+from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, why_not
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design, RaceDesign
 from abu_calc.sizing.drawing_requirements import drawing
@@ -55,11 +56,12 @@ def size_race(machine: MachineFile) -> RaceDesign:
     return RaceDesign(case, best, race, eccentricity, construction, checks)
 
 
-def instead(design: Design, candidate: Candidate, why: str) -> Design:
-    """The same machine with another candidate; `why` the first choice was not taken."""
-    others = tuple(pair for pair in design.choice.runners_up if pair[0] is not candidate)
-    choice = replace(design.choice, best=candidate, runners_up=((design.autobalancer, why), *others))
-    return _designed(design.case, design.imbalance, choice)
+def instead(design: Design, candidate: Candidate, why: str, tried: Sequence[Candidate] = ()) -> Design:
+    """The same machine with a runner-up; `why` the first choice and others that were `tried` were not taken."""
+    case, refused = design.case, {id(each) for each in (design.autobalancer, *tried)}
+    others = (design.autobalancer, *(each for each, _ in design.choice.runners_up if each is not candidate))
+    reasons = tuple((each, why if id(each) in refused else why_not(case, each, candidate)) for each in others)
+    return _designed(case, design.imbalance, replace(design.choice, best=candidate, runners_up=reasons))
 
 
 def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:

@@ -245,7 +245,7 @@ def choose(case: Case, imbalance: float) -> AutobalancerChoice:
     picked = sorted(others, key=lambda candidate: id(candidate) not in first)[:RUNNERS_UP]
     picked.sort(key=lambda candidate: _rank(case, candidate))
     return AutobalancerChoice(
-        best, tuple((candidate, _why_not(case, candidate, best)) for candidate in picked), len(ranking)
+        best, tuple((candidate, why_not(case, candidate, best)) for candidate in picked), len(ranking)
     )
 
 
@@ -271,7 +271,7 @@ def choose_for_motor(case: Case, imbalance: float) -> AutobalancerChoice:
     others = [judged(runner_up) for runner_up, _ in other.runners_up]
     return AutobalancerChoice(
         best,
-        tuple((runner_up, _why_not(case, runner_up, best)) for runner_up in others),
+        tuple((runner_up, why_not(case, runner_up, best)) for runner_up in others),
         choice.examined + other.examined,
     )
 
@@ -426,7 +426,8 @@ def _front(sound: list[Candidate]) -> list[Candidate]:
     return front
 
 
-def _why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
+def why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
+    """What a candidate falls short of, or in what it loses against the one that was chosen."""
     if not enough(case, candidate):
         return (
             f"capacity {candidate.capacity_ratio:.2f} times the required one; the margin is "
@@ -445,4 +446,6 @@ def _why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
     heavier = from_si(candidate.mass - best.mass, "g")
     finer = from_si(best.budget.residual - candidate.budget.residual, "um")
     gain = f"; residual {finer:.1f} µm less" if finer > 0.05 else ""
-    return f"{heavier:.1f} g heavier{gain}" if heavier > 0.05 else "equally heavy, with larger balls"
+    if abs(heavier) > 0.05:
+        return f"{abs(heavier):.1f} g {'heavier' if heavier > 0 else 'lighter'}{gain}"
+    return "equally heavy, with larger balls"

@@ -13,7 +13,8 @@ from typing import Annotated, Final, Self
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.features.design.start_search import SearchResult, worst_further
+from abu_calc.features.design.searched_checks import worst_further
+from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record

@@ -24,9 +24,9 @@ from abu_calc.features.design.records import (
     Vibration,
 )
 from abu_calc.features.design.region import true_region
-from abu_calc.features.design.start_search import with_searched
+from abu_calc.features.design.searched_checks import start_checks
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
-from abu_calc.features.design.verification import Proven, proven
+from abu_calc.features.design.verification import proven
 from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
@@ -46,7 +46,7 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
-from abu_calc.simulation.ensemble_checks import FULL, STARTS, ensemble_checks, level_check, not_simulated, unproven
+from abu_calc.simulation.ensemble_checks import FULL, STARTS, not_simulated, unproven
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SettlingEstimate, SimulatedScene
@@ -254,6 +254,8 @@ def size(
         region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress, balanced)
     stays = _on_work(design, runs, accuracy, progress)
+    started = start_checks(design, tried.ensemble, tried.searched, tried.change)
+    level = with_later_settling(started.pop("ABU401"), tried, accuracy)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
     lost = (not_simulated(fault.scene, fault.reason, answered=answered, mean=_mean(fault, work)) for fault in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
@@ -265,13 +267,10 @@ def size(
         checks=tuple(
             unproven(check, tried.starts)
             for check in (
-                *_checks(tried, [check for bearing in seats for check in bearing.checks], arm, accuracy),
+                *_checks(design, level, [check for bearing in seats for check in bearing.checks], arm),
                 *stays,
                 region.check,
-                *(
-                    with_searched(check, tried.searched, design)
-                    for check in ensemble_checks(design, tried.ensemble, tried.change)
-                ),
+                *started.values(),
                 *lost,
             )
         ),
@@ -388,17 +387,11 @@ def _with_lives(
     return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
 
 
-def _checks(
-    tried: Proven, seat_checks: Sequence[Check], arm: "ArmJudgement | None", accuracy: float
-) -> Iterator[Check]:
+def _checks(design: Design, level: Check, seat_checks: Sequence[Check], arm: "ArmJudgement | None") -> Iterator[Check]:
     """Checks of the sizing, the level by its worst start case and the arm's checks as they were judged."""
     held = {arm_check.code: arm_check for arm_check in arm.checks} if arm else {}
-    for check in tried.design.checks:
-        if check.code == "ABU401":
-            level = level_check(check, tried.ensemble, tried.change)
-            yield with_searched(with_later_settling(level, tried, accuracy), tried.searched, tried.design)
-        else:
-            yield held.pop(check.code, check)
+    for check in design.checks:
+        yield level if check.code == level.code else held.pop(check.code, check)
     yield from seat_checks
     yield from held.values()
 

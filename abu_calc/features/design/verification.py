@@ -9,7 +9,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import islice
 
-from abu_calc.features.design.start_search import SearchResult, search
+from abu_calc.features.design.searched_checks import start_checks
+from abu_calc.features.design.start_search import SearchResult, search, slowness
 from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import AbuError
@@ -17,7 +18,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
-from abu_calc.simulation.ensemble import simulate_first, simulate_members
+from abu_calc.simulation.ensemble import first_tolerance, simulate_first, simulate_members, start_once
 from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing import instead
@@ -195,9 +196,11 @@ def passes(design: Design, ensemble: Ensemble) -> bool:
 
 
 MOST_OTHERS, MOST_WORK, REMEDIES = 3, 600_000, 0.5
-"""Candidates that are tried when the best one does not pass, evaluations beyond which nothing more is tried, and the
+"""Candidates that are tried when the best one does not pass; evaluations beyond which nothing more is tried, and the
 share of these that remedies may take in any case."""
 
+LEVEL = "ABU401"
+"""Check of the idle level, with the worst friction case calculated."""
 
 NOT_SEARCHED = (
     "Further start cases were not simulated, since each takes long (--patience 300 allows them 300 s). All listed "
@@ -227,8 +230,9 @@ def proven(
 ) -> Proven:
     """The best candidate if it passes from every start at the drag given, else the next one that does.
 
-    If none does, the best one, with the first change that would make it pass. With one start or none nothing is
-    proven: the best candidate stands, and `unproven` takes the checks that need all start cases.
+    If it passes with a warning, the next one that passes without. If none passes, the best one, with the first change
+    that would make it pass. With one start or none nothing is proven: the best candidate stands, and `unproven` takes
+    the checks that need all start cases.
     """
     if not _carries(design):
         return Proven(design, None)
@@ -237,22 +241,18 @@ def proven(
     first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first):
         proof = _with_search(Proven(design, first), accuracy, progress, workers)
+        if (without := _without_warning(proof, accuracy, progress, workers)) is not None:
+            return without
         # After the search, whose time the patience that was asked for must not go to what only advises.
         return replace(proof, change=change_for_oils(design, first, accuracy, progress, workers))
     if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
-    spent, placed = first.work, design.case.table.start
-    others = (
-        candidate
-        for candidate, _ in design.choice.runners_up
-        # A file that places its balls has an angle for each.
-        if sound(design.case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count)
-    )
-    for runner_up in islice(others, MOST_OTHERS):
+    spent, tried = first.work, list[Candidate]()
+    for runner_up in islice(_runners_up(design), MOST_OTHERS):
         if spent > MOST_WORK:
             break
-        other = instead(design, runner_up, "does not pass from every start case")
-        ensemble = simulate_members(other, accuracy, within(progress, f"{_words(runner_up)} instead"), workers)
+        other = instead(design, runner_up, "does not pass from every start case", tried)
+        ensemble = simulate_members(other, accuracy, _trying(progress, runner_up), workers)
         spent += ensemble.work
         if passes(other, ensemble):
             text = (
@@ -260,8 +260,81 @@ def proven(
                 f"{_words(runner_up)} balls do."
             )
             return _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
+        tried.append(runner_up)
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, tried_change(design, first, left, accuracy, progress, workers))
+
+
+def _runners_up(design: Design) -> Iterator[Candidate]:
+    """Runners-up that fall short of nothing; a file that places its balls has an angle for each."""
+    placed = design.case.table.start
+    for candidate, _ in design.choice.runners_up:
+        if sound(design.case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count):
+            yield candidate
+
+
+def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven | None:
+    """The lightest runner-up that passes without a warning, if a design passes with one; None: none of those tried.
+
+    A runner-up is simulated only if nothing calculated warns that does not warn of the design, if its calculated level
+    keeps the limit, and if it comes well through the start case that is worst with the design. Nothing is tried where
+    only the estimate of rare settling times warns: it is much the same for all candidates.
+    """
+    design, ensemble, searched = proof.design, proof.ensemble, proof.searched
+    if ensemble is None or searched is None or searched.hurried or not _warned(proof):
+        return None
+    calculated = _calculated_doubts(design)
+    broken = [outcome for outcome in (*ensemble.outcomes, *searched.outcomes) if not _good(design, outcome)]
+    if not broken and LEVEL not in calculated:
+        return None
+    worst, spent, tried = max(broken, key=slowness, default=None), ensemble.work, list[Candidate]()
+    for runner_up in _runners_up(design):
+        if spent > MOST_WORK or patience.over():
+            break
+        other = instead(design, runner_up, "does not pass without a warning", tried)
+        tried.append(runner_up)
+        if not _calculated_doubts(other) <= calculated - {LEVEL} or not _comes_through(other, worst, accuracy):
+            continue
+        shown = _trying(progress, runner_up)
+        found = simulate_members(other, accuracy, shown, workers)
+        spent += found.work
+        if found.lost or not all(_good(other, outcome) for outcome in found.outcomes):
+            continue
+        trial = _with_search(Proven(other, found), accuracy, shown, workers)
+        if not _warned(trial):
+            lightest, codes = _words(design.autobalancer), ", ".join(_warned(proof))
+            text = (
+                f"{lightest} balls, the lightest choice, pass with a warning ({codes}). {_words(runner_up)} balls "
+                "pass without."
+            )
+            return replace(trial, warnings=(*trial.warnings, text))
+    return None
+
+
+def _warned(proof: Proven) -> list[str]:
+    """Codes of the checks by start cases that a design does not pass."""
+    checks = start_checks(proof.design, proof.ensemble, proof.searched)
+    return [code for code, check in checks.items() if check.status != "pass"]
+
+
+def _calculated_doubts(design: Design) -> set[str]:
+    """Codes of the calculated checks that a design does not pass."""
+    return {check.code for check in design.checks if check.status != "pass"}
+
+
+def _comes_through(design: Design, worst: StartOutcome | None, accuracy: float) -> bool:
+    """True if a design comes well through the start case of this outcome, or if that is not known.
+
+    Angles are of no use to another number of balls.
+    """
+    if worst is None or (worst.member.angles and len(worst.member.angles) != design.autobalancer.ball_count):
+        return True
+    outcome = start_once(design, worst.member, accuracy, first_tolerance(design))
+    return isinstance(outcome, StartOutcome) and _good(design, outcome)
+
+
+def _trying(progress: Progress, candidate: Candidate) -> Progress:
+    return within(progress, f"{_words(candidate)} instead")
 
 
 def _with_search(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven:

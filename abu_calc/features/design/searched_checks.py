@@ -1,0 +1,138 @@
+"""Checks that start cases decide, by the listed ones and by those that a search found, and what repeats the worst."""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Final
+
+from abu_calc.features.design.start_search import RARE, SearchResult, loudness, slowness
+from abu_calc.foundation.checks import Check
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check
+from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
+from abu_calc.sizing.design import Design
+
+
+def start_checks(
+    design: Design, ensemble: Ensemble | None, searched: SearchResult | None, change: TriedChange | None = None
+) -> dict[str, Check]:
+    """Checks by code that start cases decide: the idle level, balancing, settling, stalling.
+
+    `ensemble`: outcomes of the listed start cases; `searched`: of further ones; `change`: a simulated change.
+    """
+    closed = next(check for check in design.checks if check.code == "ABU401")
+    listed = (level_check(closed, ensemble, change), *ensemble_checks(design, ensemble, change))
+    return {check.code: with_searched(check, searched, design) for check in listed}
+
+
+def repeated(outcome: StartOutcome, design: Design) -> str:
+    """The options of `abu simulate` that repeat a start of a design, which they pin."""
+    member = outcome.member
+    angles = ", ".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
+    balls = design.autobalancer
+    sets = [
+        f"autobalancer.ball_count={balls.ball_count}",
+        f"autobalancer.ball_diameter_mm={from_si(balls.ball_diameter, 'mm'):.10g}",
+        *(_pinned_at(member.speed, design) if member.speed is not None else ()),
+        *([f"run_up.time_s={member.run_up:.10g}"] if member.run_up and not member.by_motor else []),
+        f"'start.angles_deg=[{angles}]'",
+    ]
+    scene = "--scene run-up " if member.run_up else ""
+    scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
+    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {entry}' for entry in sets)}"
+
+
+def _pinned_at(speed: float, design: Design) -> Iterator[str]:
+    """Entries that rate the machine at another speed [rad/s], with its race and imbalance as they are.
+
+    A motor runs up to its idle speed, whatever is rated.
+    """
+    if design.case.table.motor is None:
+        yield f"machine.speed_rpm={from_si(speed, 'rpm'):.10g}"
+        yield f"autobalancer.race_radius_mm={from_si(design.autobalancer.race_radius, 'mm'):.10g}"
+        yield f"wheel.imbalance_g_mm={from_si(design.imbalance.value, 'g_mm'):.10g}"
+
+
+def with_searched(check: Check, searched: SearchResult | None, design: Design) -> Check:
+    """A check of the listed starts that passes, with what a searched one breaks of it: that warns."""
+    if searched is None or check.status not in ("pass", "warn") or check.code not in BROKEN:
+        return check
+    breaks, order, words = BROKEN[check.code]
+    broken = [outcome for outcome in searched.outcomes if breaks(outcome, design)]
+    if not broken and searched.hurried:
+        return replace(
+            check, status="not-done", message=f"{check.message}. --patience ended the search of further start cases"
+        )
+    if not broken and searched.lost:
+        return replace(
+            check, status="warn", message=f"{check.message}. Further start cases without answer: {searched.lost}"
+        )
+    limit = design.case.table.limits.settling_time_s
+    rare = check.code == "ABU702" and searched.outcomes and searched.foreseen > limit
+    if not broken and not rare:
+        return check
+    worst = max(broken or searched.outcomes, key=order)
+    share = f"Further start cases: {len(broken)} of {len(searched.outcomes)} {words(worst)}"
+    if not broken:
+        share = (
+            f"By the slowest of {len(searched.drawn)} start cases, one of {1 / RARE:.0f} takes "
+            f"{searched.foreseen:.3g} s (limit {limit:g} s). The slowest further start case settles in "
+            f"{worst.settling_time_or_inf:.3g} s"
+        )
+    return replace(check, status="warn", message=f"{check.message}. {share}", remedy=check.remedy or NOT_TRIED)
+
+
+def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str, str, str]]:
+    """Code of each check that further start cases break or come near to, the worst case in words, options to repeat it.
+
+    The options are those of `abu simulate`. Settling times count, too, if one start case of 1000 would be late.
+    """
+    limit = design.case.table.limits.settling_time_s
+    for code, (breaks, order, _) in BROKEN.items():
+        broken = [outcome for outcome in searched.outcomes if breaks(outcome, design)]
+        if broken or (code == "ABU702" and searched.outcomes and searched.foreseen > limit):
+            yield code, NAMES[code], repeated(max(broken or searched.outcomes, key=order), design)
+
+
+def _late(outcome: StartOutcome, design: Design) -> bool:
+    return outcome.settling_time_or_inf > design.case.table.limits.settling_time_s
+
+
+def _loud(outcome: StartOutcome, design: Design) -> bool:
+    """True if the level, with the error of a simulated one, is not below its limit."""
+    return outcome.loudest + SLACK > design.case.level_limit
+
+
+def _time_in_words(outcome: StartOutcome) -> str:
+    return (
+        "never settle"
+        if math.isinf(outcome.settling_time_or_inf)
+        else f"settle too late, the slowest in {outcome.settling_time_or_inf:.3g} s"
+    )
+
+
+NOT_TRIED: Final = "No change was simulated; --full prints a command to try one."
+NAMES: Final = {
+    "ABU401": "loudest",
+    "ABU701": "one with the largest imbalance left",
+    "ABU702": "slowest",
+    "ABU704": "one with the slowest ball",
+}
+"""The start case that is repeated for each check."""
+
+Broken = tuple[Callable[[StartOutcome, Design], bool], Callable[[StartOutcome], float], Callable[[StartOutcome], str]]
+
+BROKEN: Final[dict[str, Broken]] = {
+    "ABU401": (
+        _loud,
+        loudness,
+        lambda outcome: f"may be too loud, the loudest with {outcome.loudest:.1f} ± {SLACK:g} dB",
+    ),
+    "ABU701": (lambda outcome, _: not outcome.balanced, lambda outcome: outcome.imbalance, lambda _: "do not balance"),
+    "ABU702": (_late, slowness, _time_in_words),
+    "ABU704": (lambda outcome, _: outcome.hanging, lambda outcome: outcome.slip, lambda _: "leave stalled balls"),
+}
+"""Rules of each check that start cases decide.
+
+They give the failing cases, the worst of these, and the words for the failure.
+"""
