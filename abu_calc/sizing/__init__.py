@@ -5,12 +5,12 @@ Steps of the swing arm are imported only if the machine has one.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
-from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, why_not
+from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, sound, why_not
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design, RaceDesign
 from abu_calc.sizing.drawing_requirements import drawing
@@ -27,18 +27,19 @@ from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_le
 if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
-__all__ = ["Design", "RaceDesign", "instead", "size", "size_race"]
+__all__ = ["Design", "RaceDesign", "doubts", "instead", "size", "size_race"]
 
 
 def size(machine: MachineFile) -> Design:
     """Size an autobalancer for a machine.
 
     The need depends on the machine with its autobalancer, so each candidate is judged by its own mass, and the steps
-    that come before it on paper (region, capacity, budget) are those of the candidate that was chosen.
+    that come before it on paper (region, capacity, budget) are those of the candidate that was chosen. A runner-up is
+    preferred to a lighter candidate that exceeds a limit of vibration, if only in the worst friction case.
     """
     case = read_case(machine)
     imbalance = find_imbalance(case)
-    return _designed(case, imbalance, choose_for_motor(case, imbalance.value))
+    return _quieter(_designed(case, imbalance, choose_for_motor(case, imbalance.value)))
 
 
 def size_race(machine: MachineFile) -> RaceDesign:
@@ -62,6 +63,30 @@ def instead(design: Design, candidate: Candidate, why: str, tried: Sequence[Cand
     others = (design.autobalancer, *(each for each, _ in design.choice.runners_up if each is not candidate))
     reasons = tuple((each, why if id(each) in refused else why_not(case, each, candidate)) for each in others)
     return _designed(case, design.imbalance, replace(design.choice, best=candidate, runners_up=reasons))
+
+
+def doubts(design: Design) -> set[str]:
+    """Codes of the calculated checks that a design does not pass."""
+    return {check.code for check in design.checks if check.status != "pass"}
+
+
+VIBRATION: Final = frozenset({"ABU401", "ABU404"})
+"""Checks of the idle level and of a_hv at the handles, worst friction cases included."""
+
+
+def _quieter(design: Design) -> Design:
+    """The lightest runner-up that keeps the limits of vibration if a design does not, and no check is lost by it."""
+    found = doubts(design)
+    if not found & VIBRATION or not design.frequency.balancing_possible:
+        return design
+    tried = list[Candidate]()
+    for runner_up, _ in design.choice.runners_up:
+        if sound(design.case, runner_up):
+            other = instead(design, runner_up, "too loud, if only in the worst friction case", tried)
+            if doubts(other) <= found - VIBRATION:
+                return other
+            tried.append(runner_up)
+    return design
 
 
 def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:

@@ -233,7 +233,9 @@ class AutobalancerChoice:
     where=(
         "The criteria rank in this order: capacity, strength, roundness of the race, residual-displacement budget, "
         "mass fraction, at most a dozen balls, least mass. At equal mass the smaller ball ranks first. For each "
-        "diameter and number, only the smallest sufficient race is ranked, because a larger one is heavier."
+        "diameter and number, only the smallest sufficient race is ranked, because a larger one is heavier. A "
+        "runner-up that keeps the limits of vibration is preferred to a lighter candidate that exceeds one, if only in "
+        "the worst friction case."
     ),
 )
 def choose(case: Case, imbalance: float) -> AutobalancerChoice:

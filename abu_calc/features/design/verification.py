@@ -21,8 +21,8 @@ from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import first_tolerance, simulate_first, simulate_members, start_once
 from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.sizing import instead
-from abu_calc.sizing.actions import pins, with_entries, words
+from abu_calc.sizing import doubts, instead
+from abu_calc.sizing.actions import overrides, pins, with_entries, words
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design, built
 from abu_calc.sizing.oil import overriding
@@ -255,10 +255,7 @@ def proven(
         ensemble = simulate_members(other, accuracy, _trying(progress, runner_up), workers)
         spent += ensemble.work
         if passes(other, ensemble):
-            text = (
-                f"{_words(design.autobalancer)} balls, the lightest choice, do not pass from every start case. "
-                f"{_words(runner_up)} balls do."
-            )
+            text = _instead(design, runner_up, "do not pass from every start case", "do")
             return _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
         tried.append(runner_up)
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
@@ -276,24 +273,24 @@ def _runners_up(design: Design) -> Iterator[Candidate]:
 def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven | None:
     """The lightest runner-up that passes without a warning, if a design passes with one; None: none of those tried.
 
-    A runner-up is simulated only if nothing calculated warns that does not warn of the design, if its calculated level
-    keeps the limit, and if it comes well through the start case that is worst with the design. Nothing is tried where
-    only the estimate of rare settling times warns: it is much the same for all candidates.
+    A runner-up is simulated only if nothing calculated warns that does not warn of the design, and if it comes well
+    through the start case that is worst with the design. Nothing is tried where a calculated level warns, which `size`
+    has tried to mend, or only the estimate of rare settling times: it is much the same for all candidates.
     """
     design, ensemble, searched = proof.design, proof.ensemble, proof.searched
     if ensemble is None or searched is None or searched.hurried or not _warned(proof):
         return None
-    calculated = _calculated_doubts(design)
+    calculated = doubts(design)
     broken = [outcome for outcome in (*ensemble.outcomes, *searched.outcomes) if not _good(design, outcome)]
-    if not broken and LEVEL not in calculated:
+    if not broken or LEVEL in calculated:
         return None
-    worst, spent, tried = max(broken, key=slowness, default=None), ensemble.work, list[Candidate]()
+    worst, spent, tried = max(broken, key=slowness), ensemble.work, list[Candidate]()
     for runner_up in _runners_up(design):
         if spent > MOST_WORK or patience.over():
             break
         other = instead(design, runner_up, "does not pass without a warning", tried)
         tried.append(runner_up)
-        if not _calculated_doubts(other) <= calculated - {LEVEL} or not _comes_through(other, worst, accuracy):
+        if not doubts(other) <= calculated or not _comes_through(other, worst, accuracy):
             continue
         shown = _trying(progress, runner_up)
         found = simulate_members(other, accuracy, shown, workers)
@@ -302,13 +299,17 @@ def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers
             continue
         trial = _with_search(Proven(other, found), accuracy, shown, workers)
         if not _warned(trial):
-            lightest, codes = _words(design.autobalancer), ", ".join(_warned(proof))
-            text = (
-                f"{lightest} balls, the lightest choice, pass with a warning ({codes}). {_words(runner_up)} balls "
-                "pass without."
-            )
+            text = _instead(design, runner_up, f"pass with a warning ({', '.join(_warned(proof))})", "pass without")
             return replace(trial, warnings=(*trial.warnings, text))
     return None
+
+
+def _instead(design: Design, chosen: Candidate, why: str, what: str) -> str:
+    """Sentences on the choice of a runner-up, which other commands, without these start cases, would not take."""
+    return (
+        f"{_words(design.autobalancer)} balls, the lightest choice, {why}. {_words(chosen)} balls {what}. "
+        f"Pin them for other commands: {' '.join(f'--set {entry}' for entry in overrides(pins(chosen)))}"
+    )
 
 
 def _warned(proof: Proven) -> list[str]:
@@ -317,17 +318,9 @@ def _warned(proof: Proven) -> list[str]:
     return [code for code, check in checks.items() if check.status != "pass"]
 
 
-def _calculated_doubts(design: Design) -> set[str]:
-    """Codes of the calculated checks that a design does not pass."""
-    return {check.code for check in design.checks if check.status != "pass"}
-
-
-def _comes_through(design: Design, worst: StartOutcome | None, accuracy: float) -> bool:
-    """True if a design comes well through the start case of this outcome, or if that is not known.
-
-    Angles are of no use to another number of balls.
-    """
-    if worst is None or (worst.member.angles and len(worst.member.angles) != design.autobalancer.ball_count):
+def _comes_through(design: Design, worst: StartOutcome, accuracy: float) -> bool:
+    """True if a design comes well through the start case of this outcome, or has another number of balls for it."""
+    if worst.member.angles and len(worst.member.angles) != design.autobalancer.ball_count:
         return True
     outcome = start_once(design, worst.member, accuracy, first_tolerance(design))
     return isinstance(outcome, StartOutcome) and _good(design, outcome)

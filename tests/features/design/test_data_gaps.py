@@ -58,9 +58,9 @@ def test_drag_rates_have_the_settling_times_of_the_start_cases(sized: SizeResult
     assert gap.settling_time_s == slowest and gap.level_db[0] == gap.level_db[1] == sized.vibration.level_after_db
 
 
-def test_the_value_that_decides_the_verdict_is_first(machine: Machine) -> None:
+def test_the_value_that_decides_the_verdict_is_first(machine: Machine, sized: SizeResult) -> None:
     """On a vertical spindle friction decides: on the horizontal one gravity shakes it out."""
-    gaps = size(machine.changed({"machine.spindle_axis": "vertical"})).data_gaps
+    gaps = changed(machine.changed({"machine.spindle_axis": "vertical"}), sized).data_gaps
     assert [gap.decides for gap in gaps] == [True, False, False]
     first, *others = gaps
     assert max(first.worst_friction_level_db) > 109 > min(first.worst_friction_level_db)

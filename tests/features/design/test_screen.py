@@ -129,8 +129,12 @@ def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> 
 
 
 def test_a_case_beyond_its_limit_points_to_its_action() -> None:
-    """The worst friction case warns; the number of its action stands below, with what it changes."""
-    lines = once("size", "avtovaz-707-222", "--set", "machine.spindle_axis=vertical").out
+    """The worst friction case of the choice for a horizontal spindle warns on a vertical one; the number of its action
+    stands below, with what it changes.
+    """
+    balls = "ball_count=4", "ball_diameter_mm=15.875", "race_radius_mm=31"
+    entries = ("machine.spindle_axis=vertical", *(f"autobalancer.{entry}" for entry in balls))
+    lines = once("size", "avtovaz-707-222", *(part for entry in entries for part in ("--set", entry))).out
     assert row_of(lines, "worst friction case").split() == ["113.5", "109", "WARN", "1"]
     assert "spindle held vertical" not in lines
     assert re.search(r"1 WARN ABU401: Set .* from 113\.5 to \d+\.\d dB \(calculated\)", flat(lines))

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import abu_calc
+from abu_calc.features.design.searched_checks import with_searched, worst_further
 from abu_calc.features.design.start_search import (
     NEAR,
     PARTS,
@@ -26,8 +27,6 @@ from abu_calc.features.design.start_search import (
     neighbours,
     search,
     tail_shape,
-    with_searched,
-    worst_further,
 )
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read_machine

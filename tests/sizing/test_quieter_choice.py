@@ -1,0 +1,54 @@
+"""A runner-up that keeps the limits of vibration is chosen before a lighter candidate that does not."""
+
+import pytest
+
+from abu_calc.inputs.read_machine import read_machine
+from abu_calc.sizing import doubts, size
+from abu_calc.sizing.actions import pins, with_entries
+from abu_calc.sizing.balls import Candidate, sound
+from abu_calc.sizing.design import Design
+
+TOO_LOUD = "too loud, if only in the worst friction case"
+
+
+def design(name: str, **changes: object) -> Design:
+    table = read_machine(name).whole("size")
+    return size(with_entries(table, {key.replace("__", "."): value for key, value in changes.items()}))
+
+
+def pinned(chosen: Design, candidate: Candidate) -> Design:
+    """The machine with the balls and the race of a candidate."""
+    return size(with_entries(chosen.case.table, pins(candidate)))
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [("avtovaz-707-370", {}), ("avtovaz-707-222", {"machine__spindle_axis": "vertical"})],
+)
+def test_a_lighter_candidate_that_is_too_loud_is_passed_over(name: str, changes: dict[str, object]) -> None:
+    chosen = design(name, **changes)
+    assert not doubts(chosen)
+    lightest, why = chosen.choice.runners_up[0]
+    assert why == TOO_LOUD and lightest.mass < chosen.autobalancer.mass
+    assert doubts(pinned(chosen, lightest)) == {"ABU401"}
+    same = pinned(chosen, chosen.autobalancer)
+    assert same.speed_levels == chosen.speed_levels and not doubts(same)
+
+
+def test_reasons_compare_with_the_candidate_that_was_chosen() -> None:
+    chosen = design("avtovaz-707-370")
+    for other, why in chosen.choice.runners_up[1:]:
+        assert why.startswith(f"{1e3 * (other.mass - chosen.autobalancer.mass):.1f} g heavier")
+
+
+def test_the_lightest_stays_where_no_runner_up_is_quieter() -> None:
+    chosen = design("angle-grinder-125")
+    assert doubts(chosen) == {"ABU401", "ABU404"}
+    for other, _ in chosen.choice.runners_up:
+        assert other.mass > chosen.autobalancer.mass
+        assert not sound(chosen.case, other) or doubts(pinned(chosen, other)) & {"ABU401", "ABU404"}
+
+
+def test_pinned_balls_stay_as_they_are() -> None:
+    lightest = design("avtovaz-707-370").choice.runners_up[0][0]
+    assert pinned(design("avtovaz-707-370"), lightest).choice.runners_up == ()
