@@ -69,8 +69,15 @@ def test_the_level_where_no_handle_is_given(idle: SimulateResult) -> None:
 @pytest.mark.parametrize("offset", [15.0, pytest.param(0.0, marks=pytest.mark.slow)])
 def test_levels_at_the_handles(offset: float) -> None:
     """Forces of imbalance at the wheel and of balls in the race plane on a free rigid body, Newton and Euler."""
-    machine = abu_calc.read("msh-230").changed({**HELD, "autobalancer.plane_offset_mm": offset})
-    result, design, tables = abu_calc.simulate(machine), abu_calc.size(machine), machine.whole()
+    held = abu_calc.read("msh-230").changed({**HELD, "autobalancer.plane_offset_mm": offset})
+    design = abu_calc.size(held)
+    machine = held.changed(
+        {
+            f"autobalancer.{key}": getattr(design.autobalancer, key)
+            for key in ("ball_count", "ball_diameter_mm", "race_radius_mm")
+        }
+    )
+    result, tables = abu_calc.simulate(machine), machine.whole()
     assert tables.autobalancer is not None
     mass = tables.machine.mass_kg + tables.wheel.mass_kg + design.autobalancer.mass_g * 1e-3
     wheel, race = WHEEL * 1e-3, (WHEEL + offset) * 1e-3

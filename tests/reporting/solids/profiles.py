@@ -1,8 +1,10 @@
 """Random profiles of turned parts, of straight edges and arcs."""
 
+import math
+
 from hypothesis import strategies as st
 
-from abu_calc.reporting.solids.assembly import ProfileCorner, RevolvedSolid
+from abu_calc.reporting.solids.assembly import SAME, ProfileCorner, RevolvedSolid
 
 LENGTHS = st.floats(0.5, 200.0)
 
@@ -24,7 +26,7 @@ def turned_solids(draw: st.DrawFn) -> RevolvedSolid:
     for index in reversed(range(len(top))):
         px, pr, _ = top[index]
         bulge = -top[index - 1][2] if index else 0.0
-        if not back or (px, pr) != back[-1][:2]:
+        if not back or math.dist((px, pr), back[-1][:2]) >= SAME:
             back.append((px, pr, bulge))
         else:
             back[-1] = (px, pr, bulge)
