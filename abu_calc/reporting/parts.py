@@ -86,27 +86,27 @@ def told(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
 
 def without_entries(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     """Each group with its grade, reason and action; an action that stands above is referred to."""
-    lines, code_of, said = list[Paragraph](), dict[str, str](), SaidOfEntries()
+    lines, code_of, said = list[Paragraph](), dict[str, str](), SaidSentences()
     for alike in groups:
         action, code = alike[0].remedy or "", alike[0].code
         first = code_of.setdefault(action, code)
         if action and first != code:
             lines.append(_reason(alike, f"See the action of {first}."))
         else:
-            lines.append(_reason(alike, said.rest_of(action, alike[0].overrides)))
+            lines.append(_reason(alike, said.unsaid(action, alike[0].overrides)))
     return lines
 
 
 _NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
 
 
-class SaidOfEntries:
+class SaidSentences:
     """Sentences of the actions that stand on a screen, by their entries: another action with them repeats none."""
 
     def __init__(self) -> None:
         self._said = dict[tuple[str, ...], list[str]]()
 
-    def rest_of(self, action: str, entries: tuple[str, ...]) -> str:
+    def unsaid(self, action: str, entries: tuple[str, ...]) -> str:
         """The action without the sentences that an action with the same entries has said."""
         if not entries:
             return action

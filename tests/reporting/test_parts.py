@@ -6,7 +6,7 @@ from typing import Any
 from abu_calc.foundation.checks import Check, Grade
 from abu_calc.reporting.blocks import Heading, Paragraph
 from abu_calc.reporting.parts import (
-    SaidOfEntries,
+    SaidSentences,
     default_blocks,
     limit_in_file,
     limit_of,
@@ -104,8 +104,8 @@ def test_a_measurement_is_above_or_below_the_prediction() -> None:
 
 
 def test_actions_with_the_same_entries_say_each_sentence_once() -> None:
-    said = SaidOfEntries()
-    assert said.rest_of("Set a = 1: b rises. All else holds.", ("a=1",)) == "Set a = 1: b rises. All else holds."
-    assert said.rest_of("Set a = 1: c falls. All else holds.", ("a=1",)) == "Set a = 1: c falls."
-    assert said.rest_of("Set a = 2: c falls. All else holds.", ("a=2",)) == "Set a = 2: c falls. All else holds."
-    assert said.rest_of("All else holds.", ()) == said.rest_of("All else holds.", ()) == "All else holds."
+    said = SaidSentences()
+    assert said.unsaid("Set a = 1: b rises. All else holds.", ("a=1",)) == "Set a = 1: b rises. All else holds."
+    assert said.unsaid("Set a = 1: c falls. All else holds.", ("a=1",)) == "Set a = 1: c falls."
+    assert said.unsaid("Set a = 2: c falls. All else holds.", ("a=2",)) == "Set a = 2: c falls. All else holds."
+    assert said.unsaid("All else holds.", ()) == said.unsaid("All else holds.", ()) == "All else holds."

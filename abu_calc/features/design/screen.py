@@ -13,7 +13,7 @@ from abu_calc.features.swing_arm.view import arm_bounds, arm_line, short_advice
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.units import to_si
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, level_text, number
-from abu_calc.reporting.parts import RANK, WORD, SaidOfEntries, file_of, paste_lines, unlike, value_and_limit
+from abu_calc.reporting.parts import RANK, WORD, SaidSentences, file_of, paste_lines, unlike, value_and_limit
 from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by, verdict_line
 from abu_calc.reporting.text import height
 from abu_calc.simulation.vibration_records import HandleLevels
@@ -423,10 +423,10 @@ def action_groups(checks: Sequence[Check], in_tables: frozenset[int]) -> list[li
 
     `in_tables`: numbers whose case stands in a table above; if these have an action, it alone is printed.
     """
-    groups, printed, said = list[list[Paragraph]](), set[tuple[str, ...]](), SaidOfEntries()
+    groups, printed, said = list[list[Paragraph]](), set[tuple[str, ...]](), SaidSentences()
     for k, alike in enumerate(unlike(checks), 1):
         first = alike[0]
-        todo = said.rest_of(first.remedy or "", first.overrides)
+        todo = said.unsaid(first.remedy or "", first.overrides)
         codes = ", ".join(check.code for check in alike[:3]) + (f" and {len(alike) - 3} more" * (len(alike) > 3))
         start = f"{k} {WORD[first.status]} {codes}"
         if k in in_tables and todo:

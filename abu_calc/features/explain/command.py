@@ -1,4 +1,4 @@
-"""`abu explain [STEP|CODE|EFFECT|KEY]`: a step's formulas, a check's question, an effect, or a key of machine files."""
+"""`abu explain [STEP|CODE|EFFECT|KEY|TABLE]`: a step's formulas, a check's question, an effect, a key or a table."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 What = Annotated[
     str | None,
-    typer.Argument(metavar="STEP|CODE|EFFECT|KEY", help="Step, code of a check, effect, or key of a machine file."),
+    typer.Argument(
+        metavar="STEP|CODE|EFFECT|KEY|TABLE", help="Step, code of a check, effect, or key or table of a machine file."
+    ),
 ]
 
 

@@ -42,7 +42,7 @@ SETS: Final = 40
 how far the likelihood falls to the truth, for the intervals."""
 ODD: Final = 2.0
 """Squared distance of a start, over that of the farthest of 400 simulated ones, above which it is unlike them."""
-ROUGH, ROOM, LEAST_SHARE = 8.0, 0.25, 0.4
+ROUGH, ROOM, LEAST_BOX = 8.0, 0.25, 0.4
 """The last box: where the likelihood has fallen by less than the first, with a share of room, no less than a share of
 the box before."""
 COVERED: Final = 0.95
@@ -215,7 +215,7 @@ def _likely(regression: Regression, features: Features, best: Best, parts: Seque
     low, high, width = box.low.copy(), box.high.copy(), box.high - box.low
     for part in parts:
         ends = np.clip(regression.interval(features, best, part, ROUGH), box.low[part], box.high[part])
-        room = max(ROOM * (ends[1] - ends[0]), (LEAST_SHARE * width[part] - (ends[1] - ends[0])) / 2)
+        room = max(ROOM * (ends[1] - ends[0]), (LEAST_BOX * width[part] - (ends[1] - ends[0])) / 2)
         low[part], high[part] = ends[0] - room, ends[1] + room
     low[2:], high[2:] = np.maximum(low[2:], box.low[2:]), np.minimum(high[2:], box.high[2:])
     return Box(low, high)

@@ -98,15 +98,15 @@ def grouped(scene: Scene, ends: Sequence[EndState]) -> list[tuple[EndState, ...]
     return [tuple(end for end, own in zip(ends, labels, strict=True) if own == label) for label in sorted(set(labels))]
 
 
-def alike(scene: Scene, one: EndState, other: EndState) -> bool:
+def alike(scene: Scene, end: EndState, other: EndState) -> bool:
     """True if two ends belong to one attractor."""
-    if one.kind != other.kind:
+    if end.kind != other.kind:
         return False
-    if one.kind in ("balanced", "resting", "chaotic"):
+    if end.kind in ("balanced", "resting", "chaotic"):
         return True
-    apart = max(abs(a - b) for a, b in zip(one.ball_speeds, other.ball_speeds, strict=True))
-    quiet = max(min(one.velocity, other.velocity), 1e-300)
-    louder = 20 * math.log10(max(one.velocity, other.velocity, 1e-300) / quiet)
+    apart = max(abs(a - b) for a, b in zip(end.ball_speeds, other.ball_speeds, strict=True))
+    quiet = max(min(end.velocity, other.velocity), 1e-300)
+    louder = 20 * math.log10(max(end.velocity, other.velocity, 1e-300) / quiet)
     return apart <= ALIKE_SPEED * scene.speed and louder <= ALIKE_LEVEL
 
 

@@ -3,7 +3,7 @@
 import math
 import shlex
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Annotated, Final, Self
 
@@ -296,8 +296,3 @@ def _check(found: FoundAttractors) -> Check:
         message += f", {len(found.undecided)} without a decided end"
     remedy = "Raise the viscous drag rate, or the damping of the support; the table lists where starts end."
     return coded("ABU804", "warn", message, float(others + len(found.undecided)), 0.0, "starts", remedy)
-
-
-def kinds(groups: Sequence[Attractor]) -> str:
-    """Kinds in a line, with their shares of drawn starts."""
-    return "; ".join(f"{each.text}: {each.share:.1%} ({each.low:.1%} … {each.high:.1%})" for each in groups)

@@ -307,7 +307,7 @@ def _of_two_races(source: Machine, tables: TwoRaceFile, ask: SweepRequest, accur
     if building:
         ways |= dict(two_race_starts(design.case, frozenset(ways)))
     sample = _sample(ways, ask, "two races" if building else ask.what)
-    known = {key for key in ways if key.startswith(PHASE[:12])} - set(phase_keys(design.case))
+    known = {key for key in ways if key.startswith(PHASE.partition("{")[0])} - set(phase_keys(design.case))
     if known:
         raise InputError(
             "the phase of this imbalance is known, or it is the one that others are measured from",

@@ -131,13 +131,13 @@ def built_two_races(design: TwoRaceDesign, table: TwoRaceFile) -> TwoRaceDesign:
     first, second = (race.design.autobalancer.housing.mass for race in design.races)
     case = bare.carrying((first, second))
 
-    def one(index: int) -> SizedRace:
+    def built(index: int) -> SizedRace:
         """A race of this machine, for the capacity that the design was made for."""
         race = design.races[index]
         machine = one_race_machine(case, index, race.need)
         return SizedRace(case.races[index], race.need, race.typical, race.shares, built_race(race.design, machine))
 
-    return TwoRaceDesign(case, bare, (one(0), one(1)))
+    return TwoRaceDesign(case, bare, (built(0), built(1)))
 
 
 def capacity_ratio(design: TwoRaceDesign, start: StartCase) -> float:

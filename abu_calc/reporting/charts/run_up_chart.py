@@ -17,10 +17,7 @@ def run_up_chart(balls: Points, without: Points, bare: str = "without autobalanc
 
 
 def _text(balls: Points, without: Points, bare: str) -> str:
-    highest = max((value for _, value in balls), default=0.0)
-    if not without:
-        return f"Largest displacement in the run-up: {highest:.0f} µm with balls; at the end {balls[-1][1]:.1f} µm."
-    return (
-        f"Largest displacement in the run-up: {max(value for _, value in without):.0f} µm {bare}, "
-        f"{highest:.0f} µm with balls; at the end {without[-1][1]:.1f} and {balls[-1][1] if balls else 0.0:.1f} µm."
-    )
+    named = [(curve, name) for curve, name in ((without, bare), (balls, "with balls")) if curve]
+    highest = ", ".join(f"{max(value for _, value in curve):.0f} µm {name}" for curve, name in named)
+    at_end = " and ".join(f"{curve[-1][1]:.1f}" for curve, _ in named)
+    return f"Largest displacement in the run-up: {highest}; at the end {at_end} µm."
