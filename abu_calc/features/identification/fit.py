@@ -57,6 +57,10 @@ SURE_UM: Final = 0.3
 in the median, more than their starts scatter."""
 UNSURE_UM: Final = 8.0
 """Half of the interval of a component of the eccentricity [µm] above which none is given."""
+VAGUE: Final = 4.0
+"""Factor between a drag rate and an end of its interval, or a lever arm and its upper end, above which none is given:
+known machines with such intervals came out off by up to a factor of two. An arm may well be next to none.
+"""
 NAMES: Final = ("drag rate", "lever arm", "eccentricity", "eccentricity")
 """Names of the unknowns."""
 
@@ -122,6 +126,15 @@ class Estimate:
         wide, narrow = WIDE.place(self.best.point), self.box.place(self.best.point)
         places = zip(NAMES if marked else NAMES[:2], wide, narrow, strict=False)
         return tuple(dict.fromkeys(name for name, *both in places if not all(0.01 < place < 0.99 for place in both)))
+
+    @property
+    def vague(self) -> tuple[str, ...]:
+        """Names of drag rate and lever arm whose intervals say little; beside a vague drag rate an arm is vague, too."""
+        drag, lever = (float(value) for value in self.best.point[:2])
+        (low, high), (_, upper) = self.intervals[:2]
+        if max(high - drag, drag - low) > math.log(VAGUE):
+            return NAMES[:2]
+        return NAMES[1:2] if upper - lever > math.log(VAGUE) else ()
 
 
 def without_balls(scene: Scene) -> complex:
@@ -264,6 +277,7 @@ def identified_values(measured: Measured, estimate: Estimate, mark_angle: float)
     """The values that are known."""
     marked = measured.reading.marked
     edge = estimate.at_the_edge(marked=marked)
+    unknown = {*edge, *estimate.vague}
     ends = [np.exp(interval) for interval in estimate.intervals[:2]]
     drag, friction = (
         IdentifiedValue(value=float(value) * unit, low=float(low) * unit, high=float(high) * unit)
@@ -271,7 +285,7 @@ def identified_values(measured: Measured, estimate: Estimate, mark_angle: float)
     )
     known = marked and NAMES[2] not in edge and estimate.offset_error <= estimate.offset_allowed
     eccentricity, angle = _offset(estimate, measured.reading.phase_error, mark_angle) if known else (None, None)
-    return None if NAMES[0] in edge else drag, None if NAMES[1] in edge else friction, eccentricity, angle
+    return None if NAMES[0] in unknown else drag, None if NAMES[1] in unknown else friction, eccentricity, angle
 
 
 def _offset(estimate: Estimate, phase_error: float, mark_angle: float) -> tuple[IdentifiedValue, IdentifiedValue]:

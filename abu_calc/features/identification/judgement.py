@@ -10,7 +10,7 @@ from abu_calc.features.identification.estimate import (
     DECAY,
     end_of,
 )
-from abu_calc.features.identification.fit import SETS, Estimate, Measured
+from abu_calc.features.identification.fit import SETS, VAGUE, Estimate, Measured
 from abu_calc.foundation.checks import Check, coded
 
 FEWEST: Final = 8
@@ -38,6 +38,7 @@ def checks_of(scene: Scene, measured: Measured, estimate: Estimate | None) -> It
         "not-done" if edge else "pass",
         f"At the edge of the range: {', '.join(edge)}" if edge else "All values lie inside",
     )
+    yield _intervals(estimate)
     mean = complex(np.mean([end_of(track) for track in measured.tracks])) * 1e6
     yield from _of_the_ends(mean, measured.end_error, estimate, marked=marked)
     yield _trend(measured)
@@ -63,6 +64,13 @@ def checks_of(scene: Scene, measured: Measured, estimate: Estimate | None) -> It
         if odd is None
         else f"{measured.starts[odd].file} is unlike the starts simulated with the identified values",
     )
+
+
+def _intervals(estimate: Estimate) -> Check:
+    vague = " and ".join(estimate.vague)
+    if vague:
+        return coded("ABU1110", "not-done", f"Intervals reach farther than a factor of {VAGUE:g}: {vague}")
+    return coded("ABU1110", "pass", f"Intervals of drag rate and lever arm are within a factor of {VAGUE:g}")
 
 
 def _of_the_ends(mean: complex, error: float, estimate: Estimate, *, marked: bool) -> Iterator[Check]:
