@@ -1,12 +1,15 @@
 """A runner-up that keeps the limits of vibration is chosen before a lighter candidate that does not."""
 
+from pathlib import Path
+
 import pytest
 
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.sizing import doubts, size
+from abu_calc.sizing import doubts, may_replace, size
 from abu_calc.sizing.actions import pins, with_entries
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design
+from tests.studies.random_machines import family_of, machine_text
 
 TOO_LOUD = "too loud, if only in the worst friction case"
 
@@ -21,12 +24,15 @@ def pinned(chosen: Design, candidate: Candidate) -> Design:
     return size(with_entries(chosen.case.table, pins(candidate)))
 
 
-@pytest.mark.parametrize(
-    ("name", "changes"),
-    [("avtovaz-707-370", {}), ("avtovaz-707-222", {"machine__spindle_axis": "vertical"})],
-)
-def test_a_lighter_candidate_that_is_too_loud_is_passed_over(name: str, changes: dict[str, object]) -> None:
-    chosen = design(name, **changes)
+def random_design(seed: int, folder: Path) -> Design:
+    file = folder / "machine.toml"
+    file.write_text(machine_text(seed, family_of(seed)), encoding="utf-8")
+    return design(str(file))
+
+
+@pytest.mark.parametrize("name", ["avtovaz-707-370", 32, 57])
+def test_a_lighter_candidate_that_is_too_loud_is_passed_over(name: str | int, tmp_path: Path) -> None:
+    chosen = design(name) if isinstance(name, str) else random_design(name, tmp_path)
     assert not doubts(chosen)
     lightest, why = chosen.choice.runners_up[0]
     assert why == TOO_LOUD and lightest.mass < chosen.autobalancer.mass
@@ -52,3 +58,15 @@ def test_the_lightest_stays_where_no_runner_up_is_quieter() -> None:
 def test_pinned_balls_stay_as_they_are() -> None:
     lightest = design("avtovaz-707-370").choice.runners_up[0][0]
     assert pinned(design("avtovaz-707-370"), lightest).choice.runners_up == ()
+
+
+def test_three_balls_that_friction_may_hold_replace_no_more() -> None:
+    """Upright, three balls would keep the limit of the worst friction case; shaken by gravity, three are as good as
+    four.
+    """
+    upright = design("avtovaz-707-222", machine__spindle_axis="vertical")
+    three = next(each for each, _ in upright.choice.runners_up if each.ball_count == 3)
+    assert upright.autobalancer.ball_count == 4 and not doubts(pinned(upright, three))
+    assert not may_replace(upright.case, three)
+    level = design("avtovaz-707-222")
+    assert may_replace(level.case, three) and may_replace(upright.case, upright.autobalancer)

@@ -21,7 +21,7 @@ from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import first_tolerance, simulate_first, simulate_members, start_once
 from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.sizing import doubts, instead
+from abu_calc.sizing import doubts, instead, may_replace
 from abu_calc.sizing.actions import overrides, pins, with_entries, words
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design, built
@@ -288,6 +288,8 @@ def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers
     for runner_up in _runners_up(design):
         if spent > MOST_WORK or patience.over():
             break
+        if not may_replace(design.case, runner_up):
+            continue
         other = instead(design, runner_up, "does not pass without a warning", tried)
         tried.append(runner_up)
         if not doubts(other) <= calculated or not _comes_through(other, worst, accuracy):

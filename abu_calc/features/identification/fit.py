@@ -129,7 +129,7 @@ class Estimate:
 
     @property
     def vague(self) -> tuple[str, ...]:
-        """Names of drag rate and lever arm whose intervals say little; beside a vague drag rate an arm is vague, too."""
+        """Names of drag rate and lever arm whose intervals say little: an arm is vague, too, if the drag rate is."""
         drag, lever = (float(value) for value in self.best.point[:2])
         (low, high), (_, upper) = self.intervals[:2]
         if max(high - drag, drag - low) > math.log(VAGUE):
