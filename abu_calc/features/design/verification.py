@@ -271,18 +271,19 @@ def _runners_up(design: Design) -> Iterator[Candidate]:
 
 
 def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven | None:
-    """The lightest runner-up that passes without a warning, if a design passes with one; None: none of those tried.
+    """The lightest runner-up that passes without a warning, if further start cases break a limit with a design.
 
-    A runner-up is simulated only if nothing calculated warns that does not warn of the design, and if it comes well
-    through the start case that is worst with the design. Nothing is tried where a calculated level warns, which `size`
-    has tried to mend, or only the estimate of rare settling times: it is much the same for all candidates.
+    None: none of those tried does. A runner-up is simulated only if nothing calculated warns that does not warn of the
+    design, and if it comes well through the start case that is worst with the design. Nothing is tried where a
+    calculated level warns, which `size` has tried to mend, nor where only the estimate of rare settling times or hot or
+    cold oil do: these are much the same for all candidates, and `change_for_oils` finds another drag rate.
     """
     design, ensemble, searched = proof.design, proof.ensemble, proof.searched
-    if ensemble is None or searched is None or searched.hurried or not _warned(proof):
-        return None
     calculated = doubts(design)
-    broken = [outcome for outcome in (*ensemble.outcomes, *searched.outcomes) if not _good(design, outcome)]
-    if not broken or LEVEL in calculated:
+    if ensemble is None or searched is None or searched.hurried or LEVEL in calculated:
+        return None
+    broken = [outcome for outcome in searched.outcomes if not _good(design, outcome)]
+    if not broken:
         return None
     worst, spent, tried = max(broken, key=slowness), ensemble.work, list[Candidate]()
     for runner_up in _runners_up(design):
