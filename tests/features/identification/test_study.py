@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import pytest
 import abu_calc
 from abu_calc.features.identification.bank import WIDE
 from abu_calc.features.identification.estimate import Best
-from abu_calc.features.identification.fit import Estimate
+from abu_calc.features.identification.fit import Estimate, identified_values
 from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.scene import read_any
@@ -203,6 +204,29 @@ def test_an_eccentricity_within_its_own_interval_is_not_known(half: float, given
     assert estimate.at_the_edge(marked=True) == ()
     edge = Estimate(Best(np.array([2.5, math.log(0.3), 3.0, 4.0]), 0.0), WIDE, intervals, 0.1, 0.5, 0.0, 1.0, 1)
     assert edge.at_the_edge(marked=True) == ("lever arm",)
+
+
+@pytest.mark.parametrize(
+    ("drag", "arm", "vague"),
+    [
+        ((10.0, 81.0), (1.0, 4.0), ("drag rate", "lever arm")),
+        ((4.9, 30.0), (1.9, 2.1), ("drag rate", "lever arm")),
+        ((10.0, 30.0), (0.3, 7.9), ()),
+        ((19.0, 21.0), (0.3, 8.1), ("lever arm",)),
+    ],
+    ids=["far above", "far below", "friction next to none", "friction far above"],
+)
+def test_a_value_whose_interval_says_little_is_not_given(
+    drag: tuple[float, float], arm: tuple[float, float], vague: tuple[str, ...]
+) -> None:
+    """Of 20 1/s and 2 µm; a lever arm goes with its drag rate."""
+    ends = [(math.log(low), math.log(high)) for low, high in (drag, arm)]
+    best = Best(np.array([math.log(20.0), math.log(2.0), 3.0, 4.0]), 0.0)
+    estimate = Estimate(best, WIDE, (*ends, (2.5, 3.5), (3.5, 4.5)), 0.1, 0.5, 0.0, 1.0, 1)
+    assert estimate.vague == vague
+    measured = SimpleNamespace(reading=SimpleNamespace(marked=True, phase_error=0.0))
+    values = dict(zip(("drag rate", "lever arm"), identified_values(measured, estimate, 0.0), strict=False))  # type: ignore[arg-type]
+    assert [name for name, value in values.items() if value is None] == list(vague)
 
 
 @pytest.mark.hard
