@@ -26,6 +26,7 @@ from abu_calc.features.declare.type_test_simulation import (
     causes,
     search_break_even,
     simulated_test,
+    with_autobalancer,
 )
 from abu_calc.formulas.type_test import MANY, evenly, mean_over_orientations
 from abu_calc.foundation.checks import Check, coded, verdict
@@ -58,8 +59,6 @@ from abu_calc.sizing.type_test import (
 from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels
 
 NUMBER: Final = Range("number of starts", 100, 1_000_000, key="starts")
-NORMAL_95: Final = 1.6449
-"""95 % of a normal distribution lie below its mean and so many standard deviations."""
 
 
 @record
@@ -296,32 +295,19 @@ def _band(shares: tuple[float, float], value: float) -> tuple[float, float]:
 
 def _with(design: Design, tested: _Tested, band: tuple[float, float] | None) -> WithAutobalancer:
     test = tested.test
-    plan, name, factor = design.case.table.type_test, test.highest, test.spindle.factor
-    runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
-    mean, series = test.means[name], test.deviation_of_series(name, runs)
-    low, middle, high = (float(x) for x in np.quantile(test.values[name], (0.05, 0.5, 0.95)))
-    spread = NORMAL_95 * factor * series / math.sqrt(operators)
     spindle = test.spindle
     ideal = max(
         mean_over_orientations(gain, test.imbalance, test.eccentricity, evenly(MANY), spindle.background / spindle.gain)
         for gain in spindle.body.gains
     )
-    return WithAutobalancer(
-        handle=name,
-        a_hv_m_per_s2=mean,
-        standard_error_m_per_s2=test.standard_error(name),
-        p05=low,
-        p50=middle,
-        p95=high,
-        factor=factor,
-        declared_m_per_s2=test.declared,
-        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series)),
-        declared_low_m_per_s2=max(test.declared - spread, 0.0),
-        declared_high_m_per_s2=test.declared + spread,
-        no_friction_m_per_s2=spindle.gain * ideal,
+    return with_autobalancer(
+        test,
+        design.case.table.type_test,
+        (test.deviation_of_series(test.highest), 0.0),
+        spindle.gain * ideal,
+        tested.upright,
         shaken_free=tested.upright is not None and not spindle.balls.band,
-        upright_m_per_s2=None if tested.upright is None else tested.upright.means[tested.upright.highest],
-        declared_band_m_per_s2=None if band is None else _band(band, test.declared),
+        band=None if band is None else _band(band, test.declared),
     )
 
 

@@ -32,6 +32,7 @@ from abu_calc.features.declare.two_race_test import (
     search_two_race_break_even,
     simulated_two_race_test,
 )
+from abu_calc.features.declare.type_test_simulation import with_autobalancer
 from abu_calc.features.two_races.advice import changed
 from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
@@ -48,8 +49,6 @@ from abu_calc.sizing.actions import SIMULATED
 from abu_calc.sizing.type_test import ChosenWheel, chosen_wheel_of, weighted_speed
 from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels
 
-NORMAL_95: Final = 1.6449
-"""95 % of a normal distribution lie below its mean and so many standard deviations."""
 SHARES_OF_BREAK_EVEN: Final = (0.9, 0.6)
 SHARES_OF_IDEAL: Final = (0.5, 0.25)
 SMOOTHER: Final = (0.5, 0.25)
@@ -322,30 +321,15 @@ def _plan(spindle: TestedSpindle, worst: TwoRaceTest | None) -> Plan:
 
 
 def _with(tested: TestedDesign) -> WithAutobalancer:
-    test = tested.worst
-    spindle, name = test.spindle, test.highest
-    plan, factor, mean = spindle.design.case.table.type_test, test.spindle.factor, test.means[name]
-    runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
-    series, machines = test.spread(name)
-    low, middle, high = (float(x) for x in np.quantile(test.values[name], (0.05, 0.5, 0.95)))
-    spread = NORMAL_95 * factor * float(np.hypot(machines, series / np.sqrt(runs * operators)))
-    upright = tested.upright
-    return WithAutobalancer(
-        handle=name,
-        a_hv_m_per_s2=mean,
-        standard_error_m_per_s2=test.standard_error(name),
-        p05=low,
-        p50=middle,
-        p95=high,
-        factor=factor,
-        declared_m_per_s2=test.declared,
-        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series / float(np.sqrt(runs)))),
-        declared_low_m_per_s2=max(test.declared - spread, 0.0),
-        declared_high_m_per_s2=test.declared + spread,
-        no_friction_m_per_s2=mean_without_friction(spindle, test.eccentricity),
+    test, upright = tested.worst, tested.upright
+    spindle = test.spindle
+    return with_autobalancer(
+        test,
+        spindle.design.case.table.type_test,
+        test.spread(test.highest),
+        mean_without_friction(spindle, test.eccentricity),
+        upright,
         shaken_free=upright is not None and not spindle.band,
-        upright_m_per_s2=None if upright is None else upright.means[upright.highest],
-        declared_band_m_per_s2=None,
     )
 
 

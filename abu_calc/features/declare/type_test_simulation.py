@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.averaging.resting_places import SEED, RestingPlaces, SlowBalls, resting_places
+from abu_calc.features.declare.records import WithAutobalancer
 from abu_calc.formulas.type_test import (
     MANY,
     HandleGain,
@@ -30,7 +31,7 @@ from abu_calc.inputs.type_test import TypeTest
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.type_test import background, band, type_test_body, upright_band
-from abu_calc.standards.type_test import balancing_factor, usual_orientations
+from abu_calc.standards.type_test import balancing_factor, declared_uncertainty, reproducibility, usual_orientations
 
 STARTS: Final = 10_000
 """Starts that are simulated; means are then known to about 1 %."""
@@ -76,6 +77,52 @@ class HandleMeans:
     def declared(self) -> float:
         """The declared value [m/s²]: the mean at the highest handle, times the factor."""
         return self.spindle.factor * self.means[self.highest]
+
+    def standard_error(self, name: str) -> float:
+        """Standard error of the mean at a handle [m/s²]."""
+        raise NotImplementedError
+
+
+NORMAL_95: Final = 1.6449
+"""Standard deviations that 5 % of a normal distribution lie beyond."""
+
+
+def with_autobalancer(
+    test: HandleMeans,
+    plan: TypeTest | None,
+    spread: tuple[float, float],
+    no_friction: float,
+    upright: HandleMeans | None,
+    *,
+    shaken_free: bool,
+    band: tuple[float, float] | None = None,
+) -> WithAutobalancer:
+    """The type test at its highest handle.
+
+    `spread`: standard deviations [m/s²] of series with one run at each orientation, and of the machines; `no_friction`:
+    a_hv without friction [m/s²]; `upright`: the test with the spindle vertical; `band` [m/s²]: of the declared value.
+    """
+    name, factor, (series, machines) = test.highest, test.spindle.factor, spread
+    runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
+    low, middle, high = (float(value) for value in np.quantile(test.values[name], (0.05, 0.5, 0.95)))
+    away = NORMAL_95 * factor * math.hypot(machines, series / math.sqrt(runs * operators))
+    return WithAutobalancer(
+        handle=name,
+        a_hv_m_per_s2=test.means[name],
+        standard_error_m_per_s2=test.standard_error(name),
+        p05=low,
+        p50=middle,
+        p95=high,
+        factor=factor,
+        declared_m_per_s2=test.declared,
+        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series / math.sqrt(runs))),
+        declared_low_m_per_s2=max(test.declared - away, 0.0),
+        declared_high_m_per_s2=test.declared + away,
+        no_friction_m_per_s2=no_friction,
+        shaken_free=shaken_free,
+        upright_m_per_s2=None if upright is None else upright.means[upright.highest],
+        declared_band_m_per_s2=band,
+    )
 
 
 def orientations_of(plan: TypeTest | None) -> tuple[float, ...]:
@@ -152,9 +199,9 @@ class SimulatedTest(HandleMeans):
         series = self._series(name)
         return float(series.std(ddof=1) / math.sqrt(len(series)))
 
-    def deviation_of_series(self, name: str, runs: int) -> float:
-        """Standard deviation [m/s²] of a series: its mean over the orientations, with so many runs at each."""
-        return float(self._series(name).std(ddof=1) / math.sqrt(runs))
+    def deviation_of_series(self, name: str) -> float:
+        """Standard deviation [m/s²] of a series: its mean over the orientations, with one run at each."""
+        return float(self._series(name).std(ddof=1))
 
     def _series(self, name: str) -> Array:
         """Means of one run at each orientation."""

@@ -71,7 +71,7 @@ def test_values_of_the_handles(pair: tuple[Reference, SimulatedTest]) -> None:
         values = test.values[name]
         assert test.means[name] == pytest.approx(mean, abs=3 * math.hypot(error, values.std() / math.sqrt(RUNS)))
         assert np.quantile(values, (0.05, 0.5, 0.95)) == pytest.approx(percentiles, rel=0.05)
-        assert test.deviation_of_series(name, 1) == pytest.approx(deviation, rel=0.05)
+        assert test.deviation_of_series(name) == pytest.approx(deviation, rel=0.05)
 
 
 def test_displacements_that_friction_leaves(pair: tuple[Reference, SimulatedTest]) -> None:
