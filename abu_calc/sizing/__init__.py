@@ -92,12 +92,21 @@ def _quieter(design: Design) -> Design:
         return design
     tried = list[Candidate]()
     for runner_up, _ in design.choice.runners_up:
-        if may_replace(design.case, runner_up):
+        if not may_replace(design.case, runner_up):
+            continue
+        if _keeps_level(design, runner_up):
             other = instead(design, runner_up, "too loud, if only in the worst friction case", tried)
             if doubts(other) <= found - VIBRATION:
                 return other
-            tried.append(runner_up)
+        tried.append(runner_up)
     return design
+
+
+def _keeps_level(design: Design, candidate: Candidate) -> bool:
+    """True if the idle level with a candidate keeps its limit, even in the worst friction case."""
+    case, imbalance = design.case, design.imbalance.value
+    levels = speed_levels(case, imbalance, candidate, worst_residuals(case, imbalance, candidate), possible=True)
+    return levels is not None and max(levels.highest.level_after, levels.arranged.level_after) <= case.level_limit
 
 
 def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:
