@@ -27,7 +27,7 @@ from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_le
 if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
-__all__ = ["Design", "RaceDesign", "doubts", "instead", "may_replace", "size", "size_race"]
+__all__ = ["Design", "RaceDesign", "doubts", "instead", "may_replace", "size", "size_race", "usable"]
 
 
 def size(machine: MachineFile) -> Design:
@@ -79,10 +79,16 @@ FREE: Final = 4
 a vertical spindle with a lever arm of 2.8 µm and 83 % of the capacity in use."""
 
 
+def usable(case: Case, candidate: Candidate) -> bool:
+    """True if a candidate falls short of nothing; a file that places its balls has an angle for each."""
+    placed = case.table.start
+    return sound(case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count)
+
+
 def may_replace(case: Case, candidate: Candidate) -> bool:
-    """True if a runner-up falls short of nothing, and if its balls are many or gravity shakes all friction out."""
+    """True if a usable runner-up has many balls, or none that friction may hold since gravity shakes it out."""
     free = candidate.ball_count >= FREE or band(replace(case, speed=case.speed_range[1]), candidate) == 0
-    return free and sound(case, candidate)
+    return free and usable(case, candidate)
 
 
 def _quieter(design: Design) -> Design:

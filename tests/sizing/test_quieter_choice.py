@@ -70,3 +70,11 @@ def test_three_balls_that_friction_may_hold_replace_no_more() -> None:
     assert not may_replace(upright.case, three)
     level = design("avtovaz-707-222")
     assert may_replace(level.case, three) and may_replace(upright.case, upright.autobalancer)
+
+
+def test_a_file_that_places_its_balls_keeps_their_number() -> None:
+    angles = [0.0, 60.0, 120.0, 180.0, 240.0]
+    placed = design("avtovaz-707-370", start__angles_deg=angles)
+    assert placed.autobalancer.ball_count == 5 and doubts(placed) == {"ABU401"}
+    free = design("avtovaz-707-370", start__angles_deg=[*angles, 300.0])
+    assert free.autobalancer.ball_count == 6 and not doubts(free)

@@ -21,9 +21,9 @@ from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import first_tolerance, simulate_first, simulate_members, start_once
 from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.sizing import doubts, instead, may_replace
+from abu_calc.sizing import doubts, instead, may_replace, usable
 from abu_calc.sizing.actions import overrides, pins, with_entries, words
-from abu_calc.sizing.balls import Candidate, sound
+from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design, built
 from abu_calc.sizing.oil import overriding
 
@@ -248,7 +248,8 @@ def proven(
     if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
     spent, tried = first.work, list[Candidate]()
-    for runner_up in islice(_runners_up(design), MOST_OTHERS):
+    others = (candidate for candidate, _ in design.choice.runners_up if usable(design.case, candidate))
+    for runner_up in islice(others, MOST_OTHERS):
         if spent > MOST_WORK:
             break
         other = instead(design, runner_up, "does not pass from every start case", tried)
@@ -260,14 +261,6 @@ def proven(
         tried.append(runner_up)
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, tried_change(design, first, left, accuracy, progress, workers))
-
-
-def _runners_up(design: Design) -> Iterator[Candidate]:
-    """Runners-up that fall short of nothing; a file that places its balls has an angle for each."""
-    placed = design.case.table.start
-    for candidate, _ in design.choice.runners_up:
-        if sound(design.case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count):
-            yield candidate
 
 
 def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven | None:
@@ -286,7 +279,7 @@ def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers
     if not broken:
         return None
     worst, spent, tried = max(broken, key=slowness), ensemble.work, list[Candidate]()
-    for runner_up in _runners_up(design):
+    for runner_up, _ in design.choice.runners_up:
         if spent > MOST_WORK or patience.over():
             break
         if not may_replace(design.case, runner_up):
