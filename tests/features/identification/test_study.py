@@ -173,7 +173,9 @@ def test_oil_that_warms_from_start_to_start_is_noticed(tmp_path: Path, monkeypat
 def test_an_eccentricity_that_friction_hides_is_not_given_wrongly(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A vertical spindle with a lever arm of 12 µm: the interval holds the truth, or nothing is given."""
+    """A vertical spindle with a lever arm of 12 µm: the interval of the eccentricity holds the truth, or none is given;
+    that of the arm does, or the fit is called poor.
+    """
     monkeypatch.setenv(FOLDER, str(tmp_path / "cache"))
     path = scene_file(tmp_path)
     path.write_text(path.read_text(encoding="utf-8").replace("gravity = {}\n", ""), encoding="utf-8")
@@ -190,7 +192,9 @@ def test_an_eccentricity_that_friction_hides_is_not_given_wrongly(
     length = result.race_eccentricity_mm
     assert (length is None) == (result.race_eccentricity_angle_deg is None) == (result.status == "not-done")
     assert length is None or length.low <= abs(OFFSET) * 1e3 <= length.high
-    assert result.rolling_friction_mm.low <= 0.012 <= result.rolling_friction_mm.high
+    poor = next(check for check in result.checks if check.code == "ABU1107").status == "warn"
+    friction = result.rolling_friction_mm
+    assert poor or friction is None or friction.low <= 0.012 <= friction.high
 
 
 @pytest.mark.parametrize(("half", "given"), [(3.0, True), (6.0, False), (9.0, False)])
