@@ -9,8 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import islice
 
-from abu_calc.features.design.searched_checks import start_checks
-from abu_calc.features.design.start_search import SearchResult, search, slowness
+from abu_calc.features.design.start_search import SearchResult, search
 from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import AbuError
@@ -18,10 +17,10 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
-from abu_calc.simulation.ensemble import first_tolerance, simulate_first, simulate_members, start_once
+from abu_calc.simulation.ensemble import simulate_first, simulate_members
 from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.sizing import doubts, instead, may_replace, usable
+from abu_calc.sizing import instead, usable
 from abu_calc.sizing.actions import overrides, pins, with_entries, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design, built
@@ -199,9 +198,6 @@ MOST_OTHERS, MOST_WORK, REMEDIES = 3, 600_000, 0.5
 """Candidates that are tried when the best one does not pass; evaluations beyond which nothing more is tried, and the
 share of these that remedies may take in any case."""
 
-LEVEL = "ABU401"
-"""Check of the idle level, with the worst friction case calculated."""
-
 NOT_SEARCHED = (
     "Further start cases were not simulated, since each takes long (--patience 300 allows them 300 s). All listed "
     "start cases pass."
@@ -230,9 +226,8 @@ def proven(
 ) -> Proven:
     """The best candidate if it passes from every start at the drag given, else the next one that does.
 
-    If it passes with a warning, the next one that passes without. If none passes, the best one, with the first change
-    that would make it pass. With one start or none nothing is proven: the best candidate stands, and `unproven` takes
-    the checks that need all start cases.
+    If none does, the best one, with the first change that would make it pass. With one start or none nothing is
+    proven: the best candidate stands, and `unproven` takes the checks that need all start cases.
     """
     if not _carries(design):
         return Proven(design, None)
@@ -241,8 +236,6 @@ def proven(
     first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first):
         proof = _with_search(Proven(design, first), accuracy, progress, workers)
-        if (without := _without_warning(proof, accuracy, progress, workers)) is not None:
-            return without
         # After the search, whose time the patience that was asked for must not go to what only advises.
         return replace(proof, change=change_for_oils(design, first, accuracy, progress, workers))
     if not design.frequency.balancing_possible or patience.over():
@@ -253,77 +246,19 @@ def proven(
         if spent > MOST_WORK:
             break
         other = instead(design, runner_up, "does not pass from every start case", tried)
-        ensemble = simulate_members(other, accuracy, _trying(progress, runner_up), workers)
+        ensemble = simulate_members(other, accuracy, within(progress, f"{_words(runner_up)} instead"), workers)
         spent += ensemble.work
         if passes(other, ensemble):
-            text = _instead(design, runner_up, "do not pass from every start case", "do")
+            # Other commands, without these start cases, would not take the runner-up.
+            text = (
+                f"{_words(design.autobalancer)} balls, the first choice, do not pass from every start case. "
+                f"{_words(runner_up)} balls do. Pin them for other commands: "
+                f"{' '.join(f'--set {entry}' for entry in overrides(pins(runner_up)))}"
+            )
             return _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
         tried.append(runner_up)
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, tried_change(design, first, left, accuracy, progress, workers))
-
-
-def _without_warning(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven | None:
-    """The lightest runner-up that passes without a warning, if further start cases break a limit with a design.
-
-    None: none of those tried does. A runner-up is simulated only if nothing calculated warns that does not warn of the
-    design, and if it comes well through the start case that is worst with the design. Nothing is tried where a
-    calculated level warns, which `size` has tried to mend, nor where only the estimate of rare settling times or hot or
-    cold oil do: these are much the same for all candidates, and `change_for_oils` finds another drag rate.
-    """
-    design, ensemble, searched = proof.design, proof.ensemble, proof.searched
-    calculated = doubts(design)
-    if ensemble is None or searched is None or searched.hurried or LEVEL in calculated:
-        return None
-    broken = [outcome for outcome in searched.outcomes if not _good(design, outcome)]
-    if not broken:
-        return None
-    worst, spent, tried = max(broken, key=slowness), ensemble.work, list[Candidate]()
-    for runner_up, _ in design.choice.runners_up:
-        if spent > MOST_WORK or patience.over():
-            break
-        if not may_replace(design.case, runner_up):
-            continue
-        other = instead(design, runner_up, "does not pass without a warning", tried)
-        tried.append(runner_up)
-        if not doubts(other) <= calculated or not _comes_through(other, worst, accuracy):
-            continue
-        shown = _trying(progress, runner_up)
-        found = simulate_members(other, accuracy, shown, workers)
-        spent += found.work
-        if found.lost or not all(_good(other, outcome) for outcome in found.outcomes):
-            continue
-        trial = _with_search(Proven(other, found), accuracy, shown, workers)
-        if not _warned(trial):
-            text = _instead(design, runner_up, f"pass with a warning ({', '.join(_warned(proof))})", "pass without")
-            return replace(trial, warnings=(*trial.warnings, text))
-    return None
-
-
-def _instead(design: Design, chosen: Candidate, why: str, what: str) -> str:
-    """Sentences on the choice of a runner-up, which other commands, without these start cases, would not take."""
-    return (
-        f"{_words(design.autobalancer)} balls, the lightest choice, {why}. {_words(chosen)} balls {what}. "
-        f"Pin them for other commands: {' '.join(f'--set {entry}' for entry in overrides(pins(chosen)))}"
-    )
-
-
-def _warned(proof: Proven) -> list[str]:
-    """Codes of the checks by start cases that a design does not pass."""
-    checks = start_checks(proof.design, proof.ensemble, proof.searched)
-    return [code for code, check in checks.items() if check.status != "pass"]
-
-
-def _comes_through(design: Design, worst: StartOutcome, accuracy: float) -> bool:
-    """True if a design comes well through the start case of this outcome, or has another number of balls for it."""
-    if worst.member.angles and len(worst.member.angles) != design.autobalancer.ball_count:
-        return True
-    outcome = start_once(design, worst.member, accuracy, first_tolerance(design))
-    return isinstance(outcome, StartOutcome) and _good(design, outcome)
-
-
-def _trying(progress: Progress, candidate: Candidate) -> Progress:
-    return within(progress, f"{_words(candidate)} instead")
 
 
 def _with_search(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven:
