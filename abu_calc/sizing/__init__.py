@@ -27,7 +27,7 @@ from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_le
 if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
-__all__ = ["Design", "RaceDesign", "doubts", "instead", "may_replace", "size", "size_race", "usable"]
+__all__ = ["Design", "RaceDesign", "instead", "no_worse", "size", "size_race", "usable"]
 
 
 def size(machine: MachineFile) -> Design:
@@ -43,7 +43,7 @@ def size(machine: MachineFile) -> Design:
 
 
 def size_race(machine: MachineFile) -> RaceDesign:
-    """Balls and race that `size` gives for a machine, without levels, requirements of the drawing and advice.
+    """Lightest balls and race of a machine, without levels, requirements of the drawing and advice.
 
     These take most of the time of `size` if the race has many balls.
     """
@@ -57,26 +57,16 @@ def size_race(machine: MachineFile) -> RaceDesign:
     return RaceDesign(case, best, race, eccentricity, construction, checks)
 
 
-def instead(design: Design, candidate: Candidate, why: str, tried: Sequence[Candidate] = ()) -> Design:
-    """The same machine with a runner-up; `why` the first choice and others that were `tried` were not taken."""
-    case, refused = design.case, {id(each) for each in (design.autobalancer, *tried)}
+Refused = Sequence[tuple[Candidate, str]]
+"""Candidates that were not taken, and why."""
+
+
+def instead(design: Design, candidate: Candidate, refused: Refused) -> Design:
+    """The same machine with a runner-up. The others compare with it, but for those that were refused."""
+    case, told = design.case, {id(each): why for each, why in refused}
     others = (design.autobalancer, *(each for each, _ in design.choice.runners_up if each is not candidate))
-    reasons = tuple((each, why if id(each) in refused else why_not(case, each, candidate)) for each in others)
+    reasons = tuple((each, told.get(id(each)) or why_not(case, each, candidate)) for each in others)
     return _designed(case, design.imbalance, replace(design.choice, best=candidate, runners_up=reasons))
-
-
-def doubts(design: Design) -> set[str]:
-    """Codes of the calculated checks that a design does not pass."""
-    return {check.code for check in design.checks if check.status != "pass"}
-
-
-VIBRATION: Final = frozenset({"ABU401", "ABU404"})
-"""Checks of the idle level and of a_hv at the handles, worst friction cases included."""
-
-
-FREE: Final = 4
-"""Balls, at least, of which friction hardly ever holds one on the heavy side: of three it did so in 2 of 70 starts, on
-a vertical spindle with a lever arm of 2.8 µm and 83 % of the capacity in use."""
 
 
 def usable(case: Case, candidate: Candidate) -> bool:
@@ -85,27 +75,70 @@ def usable(case: Case, candidate: Candidate) -> bool:
     return sound(case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count)
 
 
-def may_replace(case: Case, candidate: Candidate) -> bool:
-    """True if a usable runner-up has many balls, or none that friction may hold since gravity shakes it out."""
-    free = candidate.ball_count >= FREE or band(replace(case, speed=case.speed_range[1]), candidate) == 0
-    return free and usable(case, candidate)
+VIBRATION: Final = frozenset({"ABU401", "ABU404"})
+"""Checks of the idle level and of a_hv at the handles, worst friction cases included."""
+TOO_LOUD: Final = "too loud, if only in the worst friction case"
+MAY_HANG: Final = "friction may hold one of so few balls on the heavy side"
+"""Reasons against candidates."""
+FREE: Final = 4
+"""Balls, at least, of which friction hardly ever holds one on the heavy side: of three it did so in 2 of 70 starts, on
+a vertical spindle with a lever arm of 2.8 µm and 83 % of the capacity in use."""
 
 
 def _quieter(design: Design) -> Design:
-    """The lightest runner-up that keeps the limits of vibration if a design does not, and no check is lost by it."""
-    found = doubts(design)
-    if not found & VIBRATION or not design.frequency.balancing_possible:
+    """The lightest runner-up that keeps the limits of vibration if a design does not, else one that warns if it fails.
+
+    No other check may come out worse. Fewer than four balls replace no more of them, unless gravity shakes all friction
+    out.
+    """
+    case, least = design.case, _loudness(design)
+    if not least or not design.frequency.balancing_possible:
         return design
-    tried = list[Candidate]()
+    fails, chosen, refused = least > GRADES.index("warn"), design, [(design.autobalancer, TOO_LOUD)]
     for runner_up, _ in design.choice.runners_up:
-        if not may_replace(design.case, runner_up):
+        if not usable(case, runner_up):
             continue
-        if _keeps_level(design, runner_up):
-            other = instead(design, runner_up, "too loud, if only in the worst friction case", tried)
-            if doubts(other) <= found - VIBRATION:
-                return other
-        tried.append(runner_up)
-    return design
+        if not _free(case, runner_up):
+            refused.append((runner_up, MAY_HANG))
+            continue
+        if fails or _keeps_level(design, runner_up):
+            other = instead(design, runner_up, refused)
+            if not no_worse(other, design):
+                continue
+            if (loudness := _loudness(other)) < least:
+                chosen, least = other, loudness
+            if not loudness:
+                break
+        refused.append((runner_up, TOO_LOUD))
+    return chosen
+
+
+GRADES: Final = ("pass", "warn", "not-done", "fail")
+"""Grades, the best first."""
+
+
+def _grades(design: Design) -> dict[str, int]:
+    """Worst grade of each calculated check, by its code."""
+    found = dict[str, int]()
+    for check in design.checks:
+        found[check.code] = max(found.get(check.code, 0), GRADES.index(check.status))
+    return found
+
+
+def _loudness(design: Design) -> int:
+    """Worst grade of the checks of vibration."""
+    return max((grade for code, grade in _grades(design).items() if code in VIBRATION), default=0)
+
+
+def no_worse(other: Design, design: Design) -> bool:
+    """True if no calculated check of another design comes out worse."""
+    before = _grades(design)
+    return all(grade <= before.get(code, 0) for code, grade in _grades(other).items())
+
+
+def _free(case: Case, candidate: Candidate) -> bool:
+    """True if friction hardly ever holds a ball on the heavy side."""
+    return candidate.ball_count >= FREE or band(replace(case, speed=case.speed_range[1]), candidate) == 0
 
 
 def _keeps_level(design: Design, candidate: Candidate) -> bool:

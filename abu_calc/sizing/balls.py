@@ -235,7 +235,7 @@ class AutobalancerChoice:
         "mass fraction, at most a dozen balls, least mass. At equal mass the smaller ball ranks first. For each "
         "diameter and number, only the smallest sufficient race is ranked, because a larger one is heavier. A "
         "runner-up that keeps the limits of vibration is preferred to a lighter candidate that exceeds one, if only in "
-        "the worst friction case."
+        "the worst friction case. It has four balls or more unless gravity shakes all friction out."
     ),
 )
 def choose(case: Case, imbalance: float) -> AutobalancerChoice:

@@ -5,13 +5,16 @@ from pathlib import Path
 import pytest
 
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.sizing import doubts, may_replace, size
+from abu_calc.sizing import MAY_HANG, TOO_LOUD, size
 from abu_calc.sizing.actions import pins, with_entries
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design
 from tests.studies.random_machines import family_of, machine_text
 
-TOO_LOUD = "too loud, if only in the worst friction case"
+
+def doubts(chosen: Design) -> set[str]:
+    """Codes of the calculated checks that a design does not pass."""
+    return {check.code for check in chosen.checks if check.status != "pass"}
 
 
 def design(name: str, **changes: object) -> Design:
@@ -61,15 +64,43 @@ def test_pinned_balls_stay_as_they_are() -> None:
 
 
 def test_three_balls_that_friction_may_hold_replace_no_more() -> None:
-    """Upright, three balls would keep the limit of the worst friction case; shaken by gravity, three are as good as
-    four.
-    """
+    """Upright, three balls would keep the limit of the worst friction case; gravity shakes them free."""
     upright = design("avtovaz-707-222", machine__spindle_axis="vertical")
-    three = next(each for each, _ in upright.choice.runners_up if each.ball_count == 3)
+    three, why = next(pair for pair in upright.choice.runners_up if pair[0].ball_count == 3)
     assert upright.autobalancer.ball_count == 4 and not doubts(pinned(upright, three))
-    assert not may_replace(upright.case, three)
-    level = design("avtovaz-707-222")
-    assert may_replace(level.case, three) and may_replace(upright.case, upright.autobalancer)
+    assert why.endswith("heavier; residual 0.1 µm less")  # the lightest stayed
+
+
+def test_what_was_refused_says_why(tmp_path: Path) -> None:
+    chosen = random_design(175, tmp_path)
+    reasons = {candidate.ball_count: why for candidate, why in chosen.choice.runners_up}
+    assert reasons[3] == MAY_HANG and TOO_LOUD in reasons.values()
+
+
+GRADES = ("pass", "warn", "not-done", "fail")
+
+
+def grades(chosen: Design) -> dict[str, int]:
+    """Worst grade of each calculated check."""
+    found: dict[str, int] = {}
+    for check in chosen.checks:
+        found[check.code] = max(found.get(check.code, 0), GRADES.index(check.status))
+    return found
+
+
+@pytest.mark.parametrize("seed", [10, 12, 32, 36, 75, 110])
+def test_no_check_comes_out_worse_than_with_the_lightest(seed: int, tmp_path: Path) -> None:
+    """Limits about the values of the candidates: what warns must not fail for another check, and less is better."""
+    lightest = random_design(seed, tmp_path)
+    handles = [check.value for check in design(str(tmp_path / "machine.toml"), limits__a_hv_m_per_s2=9.0).checks
+               if check.code == "ABU404"]  # fmt: skip
+    assert handles[0] is not None
+    for share in (0.9, 0.99, 1.0, 1.02):
+        chosen = design(str(tmp_path / "machine.toml"), limits__a_hv_m_per_s2=share * handles[0])
+        sounds = [chosen.autobalancer, *(each for each, _ in chosen.choice.runners_up if sound(chosen.case, each))]
+        first = grades(pinned(chosen, min(sounds, key=lambda each: each.mass)))
+        assert all(grade <= first[code] for code, grade in grades(chosen).items()), share
+    assert lightest.choice.runners_up
 
 
 def test_a_file_that_places_its_balls_keeps_their_number() -> None:

@@ -18,6 +18,7 @@ from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by,
 from abu_calc.reporting.text import height
 from abu_calc.simulation.vibration_records import HandleLevels
 from abu_calc.sizing.case import WHEEL_PLANE
+from abu_calc.sizing.vibration import decibels
 from abu_calc.standards.balls import inch_size
 
 INERTIA: Final = "modelled as a point mass"
@@ -293,7 +294,9 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
     cases = [TableCase(WITHOUT, _db(vibration.level_before_db))]
 
     def judged(label: str, level: float | None, *, decides: bool) -> TableCase:
-        return TableCase(label, _db(level), *_graded(level, check, numbers, decides=decides))
+        limit = None if check is None else check.limit
+        text = _db(level) if level is None or level < 0 or limit is None else decibels(level, limit).removesuffix(" dB")
+        return TableCase(label, text, *_graded(level, check, numbers, decides=decides))
 
     if many_starts is not None:
         cases.append(judged("Idle, with: median of the start cases", many_starts.predicted_level_db, decides=True))

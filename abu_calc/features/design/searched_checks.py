@@ -111,7 +111,7 @@ def _time_in_words(outcome: StartOutcome) -> str:
     )
 
 
-NOT_TRIED: Final = "No change was simulated; --full prints a command to try one."
+NOT_TRIED: Final = "No change was simulated; --full prints a command that repeats the start case, to try one."
 NAMES: Final = {
     "ABU401": "loudest",
     "ABU701": "one with the largest imbalance left",

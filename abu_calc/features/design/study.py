@@ -275,9 +275,9 @@ def size(
             )
         ),
         warnings=merged(
+            *tried.warnings,
             *machine.warnings,
             *_types_taken(seats),
-            *tried.warnings,
             *design.warnings,
             *remarks,
             *_under_load(work, loads, bound),

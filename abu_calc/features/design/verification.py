@@ -7,7 +7,6 @@ named.
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import islice
 
 from abu_calc.features.design.start_search import SearchResult, search
 from abu_calc.formulas.suspension import Springs
@@ -20,7 +19,7 @@ from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import simulate_first, simulate_members
 from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.sizing import instead, usable
+from abu_calc.sizing import instead, no_worse, usable
 from abu_calc.sizing.actions import overrides, pins, with_entries, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design, built
@@ -198,6 +197,9 @@ MOST_OTHERS, MOST_WORK, REMEDIES = 3, 600_000, 0.5
 """Candidates that are tried when the best one does not pass; evaluations beyond which nothing more is tried, and the
 share of these that remedies may take in any case."""
 
+LATE = "does not pass from every start case"
+"""Reason against a candidate."""
+
 NOT_SEARCHED = (
     "Further start cases were not simulated, since each takes long (--patience 300 allows them 300 s). All listed "
     "start cases pass."
@@ -240,12 +242,14 @@ def proven(
         return replace(proof, change=change_for_oils(design, first, accuracy, progress, workers))
     if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
-    spent, tried = first.work, list[Candidate]()
-    others = (candidate for candidate, _ in design.choice.runners_up if usable(design.case, candidate))
-    for runner_up in islice(others, MOST_OTHERS):
+    spent, refused = first.work, [(design.autobalancer, LATE)]
+    others = [candidate for candidate, _ in design.choice.runners_up if usable(design.case, candidate)]
+    # Those that were passed over for a calculated check come last.
+    others.sort(key=lambda candidate: not no_worse(instead(design, candidate, ()), design))
+    for runner_up in others[:MOST_OTHERS]:
         if spent > MOST_WORK:
             break
-        other = instead(design, runner_up, "does not pass from every start case", tried)
+        other = instead(design, runner_up, refused)
         ensemble = simulate_members(other, accuracy, within(progress, f"{_words(runner_up)} instead"), workers)
         spent += ensemble.work
         if passes(other, ensemble):
@@ -255,8 +259,9 @@ def proven(
                 f"{_words(runner_up)} balls do. Pin them for other commands: "
                 f"{' '.join(f'--set {entry}' for entry in overrides(pins(runner_up)))}"
             )
-            return _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
-        tried.append(runner_up)
+            proof = _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
+            return replace(proof, change=change_for_oils(other, ensemble, accuracy, progress, workers))
+        refused.append((runner_up, LATE))
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, tried_change(design, first, left, accuracy, progress, workers))
 

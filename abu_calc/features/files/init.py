@@ -55,7 +55,7 @@ def init(
         kind = BY_NAME[asked[0] if asked else "machine"]
         text = kind.call("template", method) if method is not None else kind.call("template")
     said = [Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")]
-    if "[expected]" in text:
+    if any(line.startswith("[expected]") for line in text.splitlines()):
         said.append(Paragraph(f"[expected] holds the preset's results. After an edit: abu verify --update {file}"))
     return Outcome("init", {"file": str(file), "preset": preset}, tuple(said), further=(Target(file, text),))
 
