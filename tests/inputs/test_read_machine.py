@@ -26,6 +26,7 @@ from tests.inputs.samples import BASIC, refused
         (b"#" * (LARGEST_FILE + 1), None, "too large"),
         (b"[scene]\nsupport = 'planar'\n", None, "abu simulate"),
         (b"[rig]\n[rotor]\n", None, "readings of a rig"),
+        (b'checks = []\n[abu]\ncommand = "size"\n[input]\n[result]\n', None, "a result that --output wrote"),
     ],
 )
 def test_files_that_hold_no_machine(tmp_path: Path, raw: bytes, line: int | None, word: str) -> None:

@@ -271,6 +271,11 @@ def _opened(raw: bytes, text: str, source: str) -> Document:
         raise InputError(
             "the file holds comments only", place=Place(source), remedy="`abu init FILE` writes a commented one"
         )
+    if content.keys() >= {"abu", "result", "checks"}:
+        raise InputError(
+            "this file holds a result that --output wrote", place=Place(source),
+            remedy="Specify the file that it is from: its table [input] names it.",
+        )  # fmt: skip
     return Document(source, text, hashlib.sha256(raw).hexdigest(), content)
 
 

@@ -45,3 +45,11 @@ def test_another_suffix_and_a_file_that_is_there_are_refused(tmp_path: Path) -> 
     assert "a name ending in .toml" in abu("init", str(tmp_path / "new.txt")).err
     assert "--force" in abu("init", str(tmp_path / "there.toml")).err
     assert (tmp_path / "there.toml").read_text(encoding="utf-8") == "mine"
+
+
+def test_only_a_copied_preset_speaks_of_what_it_expects(tmp_path: Path) -> None:
+    own, copied = tmp_path / "own.toml", tmp_path / "copied.toml"
+    assert "[expected]" not in abu("init", str(own)).out
+    assert "[expected] holds the preset's results" in " ".join(
+        abu("init", str(copied), "--preset", "msh-230").out.split()
+    )
