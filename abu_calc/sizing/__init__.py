@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.foundation.checks import Check
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, sound, why_not
@@ -110,7 +111,14 @@ def _quieter(design: Design) -> Design:
             if not loudness:
                 break
         refused.append((runner_up, TOO_LOUD))
-    return chosen
+    return chosen if chosen is design else replace(chosen, warnings=(_instead_of(design, chosen), *chosen.warnings))
+
+
+def _instead_of(design: Design, chosen: Design) -> str:
+    """Sentence on the lightest balls, which are too loud."""
+    lightest, grams = design.autobalancer, from_si(chosen.autobalancer.mass - design.autobalancer.mass, "g")
+    balls = f"{lightest.ball_count} × Ø{from_si(lightest.ball_diameter, 'mm'):g} mm balls"
+    return f"{balls} would be {grams:.1f} g lighter, but {TOO_LOUD}."
 
 
 GRADES: Final = ("pass", "warn", "not-done", "fail")

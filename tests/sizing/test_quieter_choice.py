@@ -109,3 +109,13 @@ def test_a_file_that_places_its_balls_keeps_their_number() -> None:
     assert placed.autobalancer.ball_count == 5 and doubts(placed) == {"ABU401"}
     free = design("avtovaz-707-370", start__angles_deg=[*angles, 300.0])
     assert free.autobalancer.ball_count == 6 and not doubts(free)
+
+
+def test_the_choice_is_told() -> None:
+    chosen = design("avtovaz-707-370")
+    lightest, _ = chosen.choice.runners_up[0]
+    grams = 1e3 * (chosen.autobalancer.mass - lightest.mass)
+    balls = f"{lightest.ball_count} × Ø{1e3 * lightest.ball_diameter:g} mm balls"
+    told = f"{balls} would be {grams:.1f} g lighter, but {TOO_LOUD}."
+    assert chosen.warnings[0] == told
+    assert not any(TOO_LOUD in text for text in design("avtovaz-707-222").warnings)
