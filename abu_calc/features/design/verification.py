@@ -259,19 +259,22 @@ def proven(
                 f"{_words(runner_up)} balls do. Pin them for other commands: "
                 f"{' '.join(f'--set {entry}' for entry in overrides(pins(runner_up)))}"
             )
-            proof = _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
+            proof = Proven(other, ensemble, warnings=(text,))
+            proof = _with_search(proof, accuracy, progress, workers, every_part=True)
             return replace(proof, change=change_for_oils(other, ensemble, accuracy, progress, workers))
         refused.append((runner_up, LATE))
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, tried_change(design, first, left, accuracy, progress, workers))
 
 
-def _with_search(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven:
+def _with_search(
+    proof: Proven, accuracy: float, progress: Progress, workers: int, *, every_part: bool = False
+) -> Proven:
     """Add the result of further start cases, or a warning if they would take too long."""
     if proof.ensemble is not None and proof.ensemble.work > MOST_SEARCHED and not patience.given():
         return replace(proof, warnings=(*proof.warnings, NOT_SEARCHED))
     listed = () if proof.ensemble is None else proof.ensemble.given
-    return replace(proof, searched=search(proof.design, accuracy, progress, workers, listed))
+    return replace(proof, searched=search(proof.design, accuracy, progress, workers, listed, every_part=every_part))
 
 
 def _carries(design: Design) -> bool:
