@@ -64,9 +64,9 @@ Refused = Sequence[tuple[Candidate, str]]
 
 def instead(design: Design, candidate: Candidate, refused: Refused) -> Design:
     """The same machine with a runner-up. The others compare with it, but for those that were refused."""
-    case, told = design.case, {id(each): why for each, why in refused}
+    case, reason_of = design.case, {id(each): why for each, why in refused}
     others = (design.autobalancer, *(each for each, _ in design.choice.runners_up if each is not candidate))
-    reasons = tuple((each, told.get(id(each)) or why_not(case, each, candidate)) for each in others)
+    reasons = tuple((each, reason_of.get(id(each)) or why_not(case, each, candidate)) for each in others)
     return _designed(case, design.imbalance, replace(design.choice, best=candidate, runners_up=reasons))
 
 
@@ -115,10 +115,10 @@ def _quieter(design: Design) -> Design:
 
 
 def _instead_of(design: Design, chosen: Design) -> str:
-    """Sentence on the lightest balls, which are too loud."""
+    """Sentence on the balls that rank first, which are too loud; a runner-up of more than a dozen may be lighter."""
     lightest, grams = design.autobalancer, from_si(chosen.autobalancer.mass - design.autobalancer.mass, "g")
     balls = f"{lightest.ball_count} × Ø{from_si(lightest.ball_diameter, 'mm'):g} mm balls"
-    return f"{balls} would be {grams:.1f} g lighter, but {TOO_LOUD}."
+    return f"{balls} would be {f'{grams:.1f} g lighter' if grams > 0.05 else 'the first choice'}, but {TOO_LOUD}."
 
 
 GRADES: Final = ("pass", "warn", "not-done", "fail")
