@@ -7,10 +7,10 @@ from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
-from abu_calc.simulation.effect_selection import Ledger, chosen
+from abu_calc.simulation.effect_selection import Ledger, chosen, simulate_chosen
 from abu_calc.simulation.ensemble_checks import WORK
 from abu_calc.simulation.scene_of_design import scene_of_design
-from abu_calc.simulation.simulate import Simulation, simulate
+from abu_calc.simulation.simulate import Simulation
 from abu_calc.sizing.design import Design
 
 MORE = 10
@@ -61,10 +61,9 @@ def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -
     try:
         ledger = chosen(scene_of_design(design, name), accuracy)
         try:
-            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
+            return SceneRun(*simulate_chosen(ledger, accuracy, most_evaluations=WORK, progress=progress))
         except TooMuchWorkError:
-            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=MORE * WORK, progress=progress)
-        return SceneRun(ledger, run)
+            return SceneRun(*simulate_chosen(ledger, accuracy, most_evaluations=MORE * WORK, progress=progress))
     except ChaoticError as error:
         if error.ended is not None and error.ended.scene.effect("lift_off"):  # ABU506 judges a disk that bounces
             return SceneRun(ledger, error.ended)

@@ -1,18 +1,29 @@
 """Choice of the effects to simulate: those whose absence would be seen at the requested accuracy.
 
-`audit` simulates the same scene once more with every effect in, and gives the true difference.
+An estimate of an influence holds at steady state. So a run without light effects is held against one with them, and
+what that changes counts as error. `audit` simulates the scene once more with every effect in, to the same accuracy.
 """
 
-from collections.abc import Sequence
+import math
+import time
+from collections.abc import Sequence, Set
 from dataclasses import replace
 from typing import Final
 
+import numpy as np
+
 from abu_calc.dynamics.effect import EffectInfluence
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.trajectory import Array
+from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
+from abu_calc.simulation.durations import lasting
 from abu_calc.simulation.nonconvergence import difference
-from abu_calc.simulation.simulate import ACCURACY, Simulation, simulate, usual_work
+from abu_calc.simulation.response import Course, Response, evaluate, sampling
+from abu_calc.simulation.simulate import ACCURACY, Simulation, run_difference, simulate, tolerances, usual_work
 
 SHARE: Final = 0.5
 """Share of the accuracy that all omitted effects together may use.
@@ -35,11 +46,13 @@ class Entry:
 class Ledger:
     """The scene to simulate, and what stands for each effect there is data for; `promise`: weight of what is out.
 
-    `spared`: what those left out for being light may take of the accuracy, so that the rest is for the integration.
+    `spared`: what those left out for being light take of the accuracy, by estimate or, once simulated, as measured; the
+    rest is for the integration. `whole`: the scene with them.
     """
 
     scene: Scene
     entries: tuple[Entry, ...]
+    whole: Scene
     spared: float = 0.0
 
     @property
@@ -68,10 +81,59 @@ def chosen(
               else _why(weight, name in out))
         for name, weight in weights.items()
     )  # fmt: skip
-    included = {entry.name for entry in entries if entry.included}
-    scene = replace(full, effects=tuple(effect for effect in full.effects if effect.name in included))
+    scene = _without(full, {entry.name for entry in entries if not entry.included})
     spared = sum(weights[name].value or 0.0 for name in out.difference(wanted, unwanted))
-    return Ledger(scene, entries, spared)
+    return Ledger(scene, entries, _without(full, {*unwanted}.difference(wanted)), spared)
+
+
+def _without(scene: Scene, names: Set[str]) -> Scene:
+    """The scene without effects of these names."""
+    return replace(scene, effects=tuple(effect for effect in scene.effects if effect.name not in names))
+
+
+def simulate_chosen(
+    ledger: Ledger, accuracy: float, sample_times: Sequence[float] | Array = (), most_evaluations: int | None = None,
+    integrator: str = "auto", progress: Progress = silent,
+) -> tuple[Ledger, Simulation]:  # fmt: skip
+    """Simulation of known accuracy with the effects it needs, and what then stands for each effect.
+
+    Without light effects, if one run with them shows that they change little enough: its difference is part of the
+    error. Otherwise with them. Raises NotTrustworthyError as `simulate` does.
+    """
+    run = simulate(ledger.scene, accuracy - ledger.spared, sample_times, most_evaluations, integrator, progress)
+    if not ledger.spared:
+        return ledger, run
+    began, left = time.perf_counter(), (most_evaluations or usual_work(ledger.whole, integrator)) - run.cost.work
+    progress(f"{ledger.whole.name}: with the effects left out")
+    try:
+        with_them, evaluations, work = _once(ledger.whole, tolerances(accuracy)[0], left, integrator)
+    except NotTrustworthyError:
+        measured, evaluations, work = math.inf, 0, 0
+    else:
+        measured = run_difference(run.scene, run.response, with_them)
+    if run.error_estimate + measured <= accuracy:
+        cost = replace(run.cost, evaluations=run.cost.evaluations + evaluations, work=run.cost.work + work,
+                       wall_s=run.cost.wall_s + time.perf_counter() - began)  # fmt: skip
+        return replace(ledger, spared=measured), replace(run, cost=cost)
+    run = simulate(ledger.whole, accuracy, sample_times, left - work, integrator, progress)
+    names = {effect.name for effect in ledger.whole.effects}
+    changed = f"changes {measured:.2g} of it" if measured < math.inf else "leads the balls another way"
+    why = f"light at steady state, but in this motion leaving it out {changed}"
+    entries = tuple(
+        replace(entry, included=True, why=why) if entry.name in names and not entry.included else entry
+        for entry in ledger.entries
+    )
+    return Ledger(ledger.whole, entries, ledger.whole), run
+
+
+def _once(scene: Scene, tolerance: float, most: int, integrator: str) -> tuple[Response, int, int]:
+    """Response of one run, its evaluations and its work."""
+    scene, _ = with_parted_balls(lasting(scene, None, "scene.duration"))
+    equations, course = assemble(scene), Course(scene)
+    choice = choose(equations, integrator, tolerance)
+    times = sampling(scene, np.empty(0)).read_by(course)
+    run = choice.integrate(equations, tolerance, times, choice.evaluations(max(most, 1)))
+    return evaluate(scene, run, course), run.evaluations, choice.work(run)
 
 
 def _light(weights: dict[str, EffectInfluence], accuracy: float) -> frozenset[str]:

@@ -275,7 +275,7 @@ def _integrated(request: _Request, offered: Offer) -> Simulation:
         if len(runs) < 2:
             del trajectory  # it may be large
             continue
-        before, apart = apart, _apart(scene, *runs)
+        before, apart = apart, run_difference(scene, *runs)
         error = max(SAFETY * apart, FLOOR * tolerance, FALL * before if before > 0 else 0.0)
         if error > accuracy and not alike:
             ended = None
@@ -317,7 +317,7 @@ def _cost(run: Trajectory, evaluations: int, steps: int, spent: float, why: str)
     return SimulationCost(run.integrator, run.tolerance, evaluations, steps, run.events, spent, why)
 
 
-def _apart(scene: Scene, before: Response, response: Response) -> float:
+def run_difference(scene: Scene, before: Response, response: Response) -> float:
     """Difference of two runs; infinite if the balls made other turns.
 
     Such runs took different paths and end alike by chance. If balls slip behind the rotor, errors far below

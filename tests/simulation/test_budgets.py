@@ -8,7 +8,7 @@ import pytest
 import abu_calc
 from abu_calc.dynamics.integrators import choice
 from abu_calc.features.accuracy import study as accuracy
-from abu_calc.simulation import effect_selection as audit
+from abu_calc.simulation import effect_selection
 from abu_calc.simulation.simulate import WORK, WORK_PLAIN, usual_work
 from abu_calc.simulation.subject import subject_of
 
@@ -61,11 +61,16 @@ def test_loading_is_no_part_of_the_time(monkeypatch: pytest.MonkeyPatch) -> None
 def test_an_audit_has_what_the_run_leaves_of_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
     allowed = list[int]()
 
-    def simulated(full: Any, asked: float, times: Any, most: int, **_: Any) -> Any:
+    simulate = effect_selection.simulate
+
+    def simulated(full: Any, asked: float, times: Any, most: int | None, *more: Any, **others: Any) -> Any:
+        if not full.effect("dry_rolling_friction"):
+            return simulate(full, asked, times, most, *more, **others)
+        assert most is not None
         allowed.append(most)
         raise abu_calc.NotTrustworthyError("seen")
 
-    monkeypatch.setattr(audit, "simulate", simulated)
+    monkeypatch.setattr(effect_selection, "simulate", simulated)
     machine = abu_calc.read("msh-230")
     for most in (None, 5_000_000):
         with pytest.raises(abu_calc.NotTrustworthyError, match="seen"):

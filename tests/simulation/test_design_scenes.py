@@ -35,6 +35,6 @@ def test_too_much_work_is_tried_once_more_with_ten_times_as_much(monkeypatch: py
         asked.append(most_evaluations)
         raise TooMuchWorkError("too much") if len(asked) == 1 else NotTrustworthyError("never agreed\nmore")
 
-    monkeypatch.setattr(design_scenes, "simulate", simulate)
+    monkeypatch.setattr(design_scenes, "simulate_chosen", simulate)
     assert simulated(size(machine(**PINNED)), 0.01) == ((), (SceneFailure("idle", "never agreed"),))
     assert asked == [WORK, 10 * WORK]

@@ -12,11 +12,14 @@ from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.integrators.choice import integrate_with
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.effect_selection import SHARE, audit, chosen
+from abu_calc.simulation.effect_selection import SHARE, audit, chosen, simulate_chosen
 from abu_calc.simulation.nonconvergence import amplitude, angles, difference, settling
+from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.simulate import simulate
 from abu_calc.simulation.subject import subject_of
 
@@ -141,6 +144,41 @@ def test_what_is_left_out_of_a_machine_changes_no_more_than_promised(name: str) 
         assert told.difference <= 3 * told.promise, (told, unwanted)
         if not unwanted:
             assert told.difference <= 0.5
+
+
+def fast_transient(*effects: Effect) -> Scene:
+    """Three balls that pass the heavy side at 60 000 rpm, ten times in 0.1 s: whatever is small at first grows."""
+    race = Race(0.023, (0.0163,) * 3, 15.0, 1.4, (0.0, math.pi / 4, math.pi / 2), (0.0,) * 3)
+    support = planar(6.0, (1500.0,) * 2, (95.0,) * 2)
+    return Scene("fast", support, 2000 * math.pi, 250e-6, 0.0, (race,), 0.1, (0.0, 0.0), (0.0, 0.0), effects=effects)
+
+
+@pytest.mark.parametrize(
+    ("effects", "accuracy"),
+    [((GravityEffect(),), 1e-2), ((RaceEccentricityEffect(1e-10, 0.0), GravityEffect()), 1e-3)],
+    ids=["gravity", "next to no eccentricity"],
+)
+def test_an_effect_that_is_light_at_steady_state_is_taken_in_where_a_transient_shows_it(
+    effects: tuple[Effect, ...], accuracy: float
+) -> None:
+    """Gravity swings the balls by 0.0045 of the amplitude at rest, and leads them 2.5 rad and 13 % away in this run."""
+    full = fast_transient(*effects)
+    ledger = chosen(full, accuracy)
+    assert ledger.scene.effects == effects[1:] if len(effects) > 1 else ledger.spared == pytest.approx(0.0045, rel=0.1)
+    after, run = simulate_chosen(ledger, accuracy)
+    assert run.scene.effects == effects and after.spared == 0 and run.error_estimate <= accuracy
+    assert "light at steady state" in after.entries[0].why
+    true = integrate_with("scipy-dop853", assemble(full), 1e-11, needed_times(full), 10**6)
+    assert difference(full, run.response, evaluate(full, true)) <= run.error_estimate
+
+
+def test_what_a_run_with_the_light_effects_changes_is_part_of_the_error() -> None:
+    """An eccentricity that a settled motion hardly shows stays out, and the run with it is counted as work."""
+    full = scene(RaceEccentricityEffect(1e-9, 0.5))
+    ledger, run = simulate_chosen(chosen(full, 0.01), 0.01)
+    whole = simulate(full, 1e-4)
+    assert run.scene.effects == () and run.cost.work > simulate(scene(), 0.01).cost.work
+    assert difference(full, run.response, whole.response) <= run.error_estimate + ledger.spared <= 0.01
 
 
 # differences

@@ -6,22 +6,30 @@ The reference is two integrators of different kinds at tight tolerances; an erro
 scene costs beyond `MOST_EVALUATIONS` or `SECONDS` is not measured, and counted apart from what the product refuses.
 """
 
+import math
 import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from abu_calc.dynamics.averaging.envelope import ball_rate
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import choice
-from abu_calc.dynamics.scene import Scene, only, with_parted_balls
+from abu_calc.dynamics.scene import Race, Scene, only, with_parted_balls
+from abu_calc.dynamics.supports.planar import planar
 from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.simulation.effect_selection import chosen, simulate_chosen
 from abu_calc.simulation.model_level import WIDEST, offer
 from abu_calc.simulation.nonconvergence import difference
 from abu_calc.simulation.response import Response, evaluate, needed_times
-from abu_calc.simulation.simulate import simulate
-from tests.dynamics.random_scenes import random_scene
+from abu_calc.simulation.simulate import run_difference, simulate
+from tests.dynamics.random_scenes import Dice, random_scene
 
 ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 TIGHT = 2e-6
@@ -116,6 +124,51 @@ def averaged_and_judged(seed: int) -> list[Verdict]:
     return [Verdict(seed, WIDEST, slow.error, difference(scene, evaluate(scene, slow.trajectory), true), unsure)]
 
 
+def fast_transient(seed: int) -> Scene:
+    """Balls far from rest on a fast hand-held rotor, for some tens of turns, with effects that are light at steady state:
+    gravity, a race hardly eccentric, next to no friction.
+    """
+    dice = Dice(np.random.default_rng((seed, 801)))
+    count, speed = int(dice.rng.integers(2, 6)), dice.log(5e3, 1e5) * math.tau / 60
+    mass, pitch = dice.even(2, 10), dice.even(0.02, 0.04)
+    race = Race(
+        pitch, (dice.log(1e-3, 0.02),) * count, dice.log(3, 60), 1.4,
+        tuple(dice.rng.uniform(-math.pi, math.pi, count).tolist()),
+        (-speed if dice.often(0.2) else 0.0,) * count, 0.0, 0.005,
+    )  # fmt: skip
+    stiffness = mass * (math.tau * dice.log(2, 20)) ** 2
+    support = planar(mass, (stiffness,) * 2, (2 * dice.log(0.02, 0.5) * math.sqrt(stiffness * mass),) * 2)
+    effects = [RaceEccentricityEffect(dice.log(1e-11, 1e-6), dice.even(-3, 3))] if dice.often(0.6) else []
+    effects += [GravityEffect()] if dice.often(0.7) or not effects else []
+    effects += [DryRollingFrictionEffect(dice.log(1e-11, 1e-7), 0.005)] if dice.often(0.4) else []
+    duration = dice.log(20, 300) * math.tau / speed
+    return Scene(
+        f"transient {seed}", support, speed, race.static_moment * dice.even(0.05, 0.9), 0.0, (race,), duration,
+        (0.0, 0.0), (0.0, 0.0), effects=tuple(effects),
+    )  # fmt: skip
+
+
+def transient_judged(seed: int) -> list[Verdict]:
+    """A fast transient at each accuracy that drops effects, with the effects it calls for, against all of them."""
+    scene, _ = with_parted_balls(fast_transient(seed))
+    verdicts, reference_run = [], None
+    for accuracy in ACCURACIES[:3]:
+        try:
+            with limited(SECONDS):
+                ledger, run = simulate_chosen(chosen(scene, accuracy), accuracy, most_evaluations=MOST_EVALUATIONS)
+        except NotTrustworthyError as error:
+            verdicts.append(Verdict(seed, accuracy, refused=str(error)))
+            continue
+        if reference_run is None:
+            with limited(SECONDS):
+                reference_run = reference(scene)
+        true, unsure = reference_run
+        left_out = sum(not entry.included for entry in ledger.entries)
+        claim, error = run.error_estimate + ledger.spared, run_difference(scene, run.response, true)
+        verdicts.append(Verdict(seed, accuracy, claim, error, unsure, f"{run.rung}, {left_out} left out"))
+    return verdicts
+
+
 def study(seeds: Iterable[int], judge: Callable[[int], list[Verdict]]) -> tuple[list[Verdict], list[int]]:
     """All verdicts, and the scenes that were not measured."""
     verdicts: list[Verdict] = []
@@ -153,6 +206,12 @@ def main() -> None:
             print(f"  refused: {one.accuracy:g} {one.refused.splitlines()[0]}")
     print(f"not measured, more than {SECONDS} s or no reference: {unmeasured}")
     slow, missed = study(seeds, averaged_and_judged)
+    fast, lost = study(range(first, first + 2 * count // 3), transient_judged)
+    left_out = sum("0 left out" not in one.by for one in fast if not one.refused)
+    print(f"fast transients {summary(fast)}   with effects left out: {left_out}   not measured: {lost}")
+    for one in fast:
+        if one.broken > 1:
+            print(f"  broken: {one}")
     print(f"envelope {summary(slow)}   not measured: {missed}")
     for one in slow:
         if one.broken > 1:

@@ -156,13 +156,15 @@ class TransverseMotionEffect(Effect):
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
         """1 − (w/w_max)²: no further than the groove reaches, nor far enough to lose half the pitch radius."""
+        return self._left(own, p)
+
+    def _left(self, own: Any, p: Parameters) -> list[Any]:
         w, _, _ = self._split(own)
         return [*(1 - w * w / self.bend**2), *(1 - w * w / (self.bend * p.radii))]
 
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Nothing changes; raises NotTrustworthyError when a ball has climbed out of its groove."""
-        motion, loads, solved = at.solved(at.mode)
-        left = self.watch(motion, at.mode, at.own, loads, solved, at.parameters)
+        left = self._left(at.own, at.parameters)
         if left and min(left) < _EDGE:
             ball = 1 + int(np.argmin(left)) % at.parameters.balls
             raise NotTrustworthyError(

@@ -1,6 +1,7 @@
 """Choice of the integrator: one loop of steps for nearly all scenes, SciPy's methods for stiff ones.
 
-SciPy's methods are also used on request. The loop runs as compiled code. It runs as plain Python if
+A stiff scene that switches is tried in the loop for some turns, and goes to SciPy only if that takes more work. SciPy's
+methods are also used on request. The loop runs as compiled code. It runs as plain Python if
 there is no compiler, or if a run is over before compiled code is loaded; the numbers are the same. Its
 method depends on the scene and the tolerance alone: order 8 (DOP853) for smooth scenes and for tight
 tolerances, order 5 (RK45) for looser ones if events cut the steps short anyway.
@@ -8,16 +9,16 @@ tolerances, order 5 (RK45) for looser ones if events cut the steps short anyway.
 
 import math
 from collections.abc import Callable
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
-from abu_calc.dynamics.integrators.run import EVENT, LOOP_EVENT, work
-from abu_calc.dynamics.integrators.work_estimates import counts, held_by_decay, stiff_decay
+from abu_calc.dynamics.integrators.run import EVENT, LOOP_EVENT, TooMuchWorkError, work
+from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
-from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 
@@ -42,6 +43,9 @@ on it either: compiled it takes a twentieth of SciPy's time, in plain Python som
 
 COMPILED_TIME: Final = 1 / 20
 """Time of a compiled evaluation in units of one of SciPy's."""
+
+TRIAL: Final = 3
+"""Revolutions for which a stiff scene that switches is tried in the loop."""
 
 SHORT: Final = 15_000
 """Evaluations, times one more than the balls, that plain Python does before compiled code is loaded: a tenth of a
@@ -78,8 +82,8 @@ class IntegratorChoice:
 def choose(equations: Equations, wanted: str, tolerance: float, progress: Progress = silent) -> IntegratorChoice:
     """The integrator for a scene, `wanted` being auto, scipy, plain or compiled; its code or library is loaded.
 
-    Stiff equations go to SciPy's Radau, unless events keep all steps short anyway or another integrator is asked for;
-    all others go to the loop. `progress` gets what one waits for. Raises InputError for other words, and for what is
+    Stiff equations go to SciPy's Radau, unless the loop goes through the events sooner or another integrator is asked
+    for; all others go to the loop. `progress` gets what one waits for. Raises InputError for other words, and for what is
     not installed or cannot trace an effect.
     """
     refuse_removed(wanted)
@@ -87,8 +91,7 @@ def choose(equations: Equations, wanted: str, tolerance: float, progress: Progre
         raise InputError("unknown integrator", found=wanted, allowed=", ".join(WANTED))
     if wanted in ("plain", "compiled"):
         return loop(equations, tolerance, compiled=wanted == "compiled")
-    decay = stiff_decay(equations)
-    if decay and (wanted == "scipy" or not _events_rule(equations, tolerance, decay)):
+    if stiff(equations) and (wanted == "scipy" or not _loop_copes(equations, tolerance)):
         return _scipy("scipy-radau", "the equations are stiff: something dies out far faster than anything oscillates")
     if wanted == "scipy":
         return _scipy("scipy-dop853", "asked for")
@@ -159,13 +162,26 @@ def _through(
     return run.integrate(equations, tolerance, sample_times, most, compiled=compiled, method=method)
 
 
-def _events_rule(equations: Equations, tolerance: float, decay: float) -> bool:
-    """True if the loop solves a stiff scene sooner than an implicit method that begins anew at each event."""
+@lru_cache(maxsize=8)
+def _loop_copes(equations: Equations, tolerance: float) -> bool:
+    """True if the loop takes a stiff scene through its first turns sooner than an implicit method would.
+
+    That method begins anew at each event. The loop is tried, since the decay at the start tells little of the motion
+    to come: friction holds a ball that has hardly begun to move ten thousand times as fast as one that rolls.
+    """
+    scene = equations.scene
     if not watches(equations) or untraceable(equations):
         return False
-    about = counts(equations, tolerance)
-    own = about.loop + LOOP_EVENT * about.events + held_by_decay(equations, decay)
-    return COMPILED_TIME * own < about.scipy + EVENT * about.events
+    about, until = counts(equations, tolerance), min(TRIAL * scene.revolution, scene.duration)
+    implicit = (about.scipy + EVENT * about.events) / RUNS * until / scene.duration
+    choice = quickest_loop(equations, tolerance)
+    try:
+        choice.integrate(equations, tolerance, [until], math.ceil(implicit / COMPILED_TIME))
+    except TooMuchWorkError:
+        return False
+    except NotTrustworthyError:  # the whole run tells what is wrong
+        return True
+    return True
 
 
 def untraceable(equations: Equations) -> str | None:

@@ -28,10 +28,10 @@ def rates(equations: Equations) -> tuple[float, float]:
     return -float(values.real.min()), max(float(np.abs(values.imag).max()), equations.scene.speed)
 
 
-def stiff_decay(equations: Equations) -> float | None:
-    """The fastest decay at the start [1/s] where it calls for an implicit method; None: it does not."""
+def stiff(equations: Equations) -> bool:
+    """True if the fastest decay at the start calls for an implicit method."""
     decay, fastest = rates(equations)
-    return decay if decay > STIFF * fastest else None
+    return decay > STIFF * fastest
 
 
 def cycles(equations: Equations) -> float:
@@ -67,9 +67,6 @@ SHAKEN, LOOSE = 2.0, 0.2
 """Events per revolution and ball in a scene that switches, with gravity across the race, which stops and starts balls
 twice in each revolution, and without."""
 
-STABLE, STEP = 3.3, 7
-"""Step times decay that Dormand-Prince 5 bears, and evaluations of one of its steps."""
-
 RUNS = 2
 """A result is trusted when two tolerances agree."""
 
@@ -100,8 +97,3 @@ def counts(equations: Equations, tolerance: float) -> Counts:
         loop=waves * SWITCHING_EVALUATIONS * (2e-4 / tolerance) ** (1 / SWITCHING_ORDER),
         events=turns * len(scene.ball_masses) * (SHAKEN if shaken else LOOSE),
     )
-
-
-def held_by_decay(equations: Equations, decay: float) -> float:
-    """Evaluations of the loop where stability, h·decay below 3.3 of Dormand-Prince 5, rules its steps."""
-    return RUNS * equations.scene.duration * decay / STABLE * STEP

@@ -21,13 +21,13 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import level_from_velocity
-from abu_calc.simulation.effect_selection import chosen
+from abu_calc.simulation.effect_selection import chosen, simulate_chosen
 from abu_calc.simulation.ensemble_checks import WORK
 from abu_calc.simulation.response import (
     SAMPLES_PER_REVOLUTION,
     amplitude_window,
 )
-from abu_calc.simulation.simulate import Simulation, simulate
+from abu_calc.simulation.simulate import Simulation
 
 TURNS = 20
 """Turns at the end of a run over which forces are examined."""
@@ -82,8 +82,7 @@ def working(scene: Scene, accuracy: float, progress: Progress = silent, work: in
 
     Raises NotTrustworthyError where no run reaches the accuracy within so much work, as a rule that of `abu size`.
     """
-    ledger = chosen(scene, accuracy)
-    return seen(simulate(ledger.scene, accuracy - ledger.spared, (), work, progress=progress))
+    return seen(simulate_chosen(chosen(scene, accuracy), accuracy, (), work, progress=progress)[1])
 
 
 @dataclass(frozen=True)

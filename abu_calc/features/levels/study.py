@@ -37,10 +37,10 @@ from abu_calc.inputs.recording_columns import QUANTITIES
 from abu_calc.inputs.recording_files import is_recording, read_recording
 from abu_calc.inputs.scene import SceneDescription, read_any
 from abu_calc.simulation.arguments import checked, one_of
+from abu_calc.simulation.effect_selection import simulate_chosen
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.simulate import ACCURACY
-from abu_calc.simulation.simulate import simulate as integrated
 from abu_calc.simulation.subject import Subject, subject_of
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
 from abu_calc.sizing.design import Design
@@ -371,8 +371,7 @@ def _of_motion(
     design = subject.design
     subject = subject.lasting(duration_for(subject.scene) if duration_s is None else duration_s)
     times = times_for(subject.scene)
-    ledger = subject.ledger(accuracy)
-    run = integrated(ledger.scene, accuracy - ledger.spared, times, progress=progress)
+    ledger, run = simulate_chosen(subject.ledger(accuracy), accuracy, times, progress=progress)
     at_axis = axis_place_levels(run, times, "axis", thirds=thirds)
     places = (at_axis,) if design is None else held_levels(design, at_axis)
     records = tuple(PlaceLevel.of(place, minutes) for place in places)

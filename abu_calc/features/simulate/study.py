@@ -26,7 +26,7 @@ from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.effect_selection import EffectAudit
+from abu_calc.simulation.effect_selection import EffectAudit, simulate_chosen
 from abu_calc.simulation.effect_selection import audit as with_all_effects
 from abu_calc.simulation.ensemble import followed_until
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
@@ -36,7 +36,6 @@ from abu_calc.simulation.result import Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import level_at, levels_at_places, loudest, one_run_checks
 from abu_calc.simulation.simulate import ACCURACY, Simulation
-from abu_calc.simulation.simulate import simulate as integrated
 from abu_calc.simulation.start_cases import idle_speed
 from abu_calc.simulation.subject import Source, Subject, subject_of
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
@@ -206,18 +205,13 @@ def simulate(
     times = equally_spaced(subject.scene, samples)
     ledger = subject.ledger(accuracy, with_effects, without_effects)
     try:
-        run = integrated(
-            ledger.scene, accuracy - ledger.spared, times, most_evaluations, integrator=integrator, progress=progress
-        )
+        ledger, run = simulate_chosen(ledger, accuracy, times, most_evaluations, integrator, progress)
         longest = _followed_until(subject, run) if duration_s is None else None
         if longest is not None:
             subject = subject.lasting(longest)
             times = equally_spaced(subject.scene, samples)
             ledger = subject.ledger(accuracy, with_effects, without_effects)
-            run = integrated(
-                ledger.scene, accuracy - ledger.spared, times, most_evaluations, integrator=integrator,
-                progress=progress,
-            )  # fmt: skip
+            ledger, run = simulate_chosen(ledger, accuracy, times, most_evaluations, integrator, progress)
         audited = None
         if audit:
             audited = with_all_effects(subject.scene, ledger, run, accuracy, most_evaluations, integrator, progress)
@@ -321,7 +315,7 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
     message = "two runs, a decade of tolerance apart, agree in amplitude, settling time and ball angles"
     if run.rung == "envelope":
         message = "averages of two orders, and what both leave out, agree in amplitude, settling time and ball angles"
-    message += f"; the effects left out may change {spared:.2g} of it" if spared else ""
+    message += f"; one run with the effects left out changes {spared:.2g} of it" if spared else ""
     error = run.error_estimate + spared
     if error <= accuracy:
         return Check("ABU801", "accuracy reached", "pass", message, error, accuracy, None, None)

@@ -9,12 +9,13 @@ import pytest
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
 from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.integrators.choice import choose, loop_method, verifiers
 from abu_calc.dynamics.integrators.compiled import code
 from abu_calc.dynamics.integrators.run import TooMuchWorkError, work
-from abu_calc.dynamics.integrators.work_estimates import RUNS, counts
+from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import coupled_scene, straight_grinder, with_effects
 
@@ -102,7 +103,7 @@ def test_what_cannot_be_traced_goes_to_scipy(monkeypatch):
             choose(switching(20.0), wanted, 1e-6)
 
 
-def stiff(drag: float, *effects: Effect) -> Equations:
+def stiff_scene(drag: float, *effects: Effect) -> Equations:
     """Motion of the balls against their race dies out in a small part of a revolution."""
     scene = straight_grinder()
     return assemble(with_effects(replace(scene, races=(replace(scene.races[0], drag=drag),)), *effects))
@@ -110,16 +111,27 @@ def stiff(drag: float, *effects: Effect) -> Equations:
 
 def test_stiff_equations_go_to_radau():
     for wanted in ("auto", "scipy"):
-        assert choose(stiff(1e7), wanted, 1e-6).name == "scipy-radau"
-    assert choose(stiff(1e7), "plain", 1e-6).name == "plain-dop853"
+        assert choose(stiff_scene(1e7), wanted, 1e-6).name == "scipy-radau"
+    assert choose(stiff_scene(1e7), "plain", 1e-6).name == "plain-dop853"
 
 
 def test_stiff_equations_whose_events_keep_steps_short_go_to_the_loop():
     """An implicit method would begin anew at each event; where motion dies out faster still, it is quicker anyhow."""
     effects = GravityEffect(), FRICTION
-    names = [choose(stiff(drag, *effects), "auto", 1e-4).name for drag in (2e5, 1e7)]
+    names = [choose(stiff_scene(drag, *effects), "auto", 1e-4).name for drag in (2e5, 1e7)]
     assert names == ["compiled-rk45", "scipy-radau"]
-    assert choose(stiff(2e5, *effects), "scipy", 1e-4).name == "scipy-radau"
+    assert choose(stiff_scene(2e5, *effects), "scipy", 1e-4).name == "scipy-radau"
+
+
+def test_balls_that_friction_shakes_loose_look_stiff_at_the_start_alone():
+    """Friction f n/|v| turns the way of a ball that has hardly begun to roll: 1e5 1/s at first, soon some hundreds."""
+    race = TransverseMotionEffect(0.0237, 0.008, 1e-4)
+    equations = assemble(with_effects(replace(straight_grinder(), duration=0.5), race, DryRollingFrictionEffect(2e-6, 0.008)))
+    assert stiff(equations) and choose(equations, "scipy", 1e-4).name == "scipy-radau"
+    chosen = choose(equations, "auto", 1e-4)
+    assert chosen.name == "compiled-rk45"
+    run = chosen.integrate(equations, 1e-4, [0.5], 10**6)
+    assert run.evaluations < 100 * 0.5 / equations.scene.revolution * 7
 
 
 def test_what_is_asked_for_is_taken():
