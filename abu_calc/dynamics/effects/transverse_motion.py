@@ -183,8 +183,12 @@ class TransverseMotionEffect(Effect):
         return -(p.masses * drag).dot(v * v + p.radii * (m.radii - p.radii) * m.rate * m.rate)
 
     def weight(self, scene: Circumstances) -> EffectInfluence:
-        """Σ m w²/2b as an imbalance, w the way across at steady state; None at a resonance that nothing damps."""
+        """Σ m w²/2b as an imbalance, w the way across at steady state; None at a resonance that nothing damps, and on a
+        support that tilts.
+        """
         why = "balls off the middle of the groove stand nearer to the axis"
+        if scene.support.tilt(scene.start_position) is not None:
+            return EffectInfluence(None, "a race that tilts moves the balls across it")
         if not self.axial_runout:
             return EffectInfluence(0.0, "no axial runout: the balls stay in the middle of the groove")
         lost = [self._way(scene, race) ** 2 / (2 * self.bend) * sum(race.ball_masses) for race in scene.races]
