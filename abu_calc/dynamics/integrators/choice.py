@@ -217,10 +217,16 @@ def integrate_with(name: str, equations: Equations, tolerance: float, sample_tim
     return scipy_.integrate(equations, tolerance, sample_times, most, method=cast(scipy_.Method, name))
 
 
-def verifiers(equations: Equations, accuracy: float) -> tuple[tuple[str, float], tuple[str, float]]:
-    """Two integrators of different kinds, at tolerances tight for that accuracy; the second is the better one."""
+def verifiers(equations: Equations, accuracy: float, quick: bool = False) -> tuple[tuple[str, float], ...]:
+    """Two integrators of different kinds, at tolerances tight for that accuracy; the second is the better one.
+
+    `quick`: both methods of the loop, order 5 and 8, which share how events are located, for scenes whose events would
+    take SciPy's too long.
+    """
     tight = min(max(1e-5 * accuracy, 1e-11), 1e-7)
     own = [name for name in available(equations) if name in LOOP]
+    if watches(equations) and quick and len(own) > 1:
+        return (own[1], tight), (own[0], tight / 10)
     if watches(equations):
         # LSODA interpolates too loosely for events; its steps are cheap where there are none.
         return (own[1] if own else "scipy-rk45", tight), ("scipy-dop853", tight / 10)

@@ -49,10 +49,14 @@ MOST_EVALUATIONS, MOST_IN_PYTHON = 2_000_000, 150_000
 Runs that need more are left out.
 """
 
-ASKED: Final = 1.2e-3
+ASKED: Final = 3e-3
 """Time of an event by the second of the verifying integrators [s], whose decisions are made in Python."""
 
 REPEATS: Final = 3
+REFERENCE: Final = 0.25
+"""Share of the budget above which the reference is left to the methods of the loop alone."""
+FINER: Final = (1.0, 0.1, 0.1)
+"""Factors on the tolerances of a quick reference, tried in turn until its two runs agree."""
 LATEST: Final = 2.0
 """Budgets after which a reference that was expected sooner is broken off."""
 LONG, LOADING = 0.5, 3.0
@@ -182,11 +186,19 @@ def _measured(
 
 
 def cheapest(points: list[PricePoint], accuracy: float, reference: ReferenceRun) -> PricePoint | None:
-    """The quickest point whose error, with what the reference is unsure of, is below the accuracy."""
-    sure = [
-        point for point in points
-        if point.error is not None and point.wall_s is not None and point.error + reference.disagreement <= accuracy
-    ]  # fmt: skip
+    """The quickest point whose error, with what the reference is unsure of, is below the accuracy.
+
+    So must be those of the same method at tighter tolerances, or it came near the reference by chance.
+    """
+
+    def holds(point: PricePoint) -> bool:
+        return point.error is not None and point.wall_s is not None and point.error + reference.disagreement <= accuracy
+
+    def tighter(point: PricePoint) -> list[PricePoint]:
+        same = [each for each in points if (each.rung, each.integrator) == (point.rung, point.integrator)]
+        return [each for each in same if (each.tolerance or 0.0) < (point.tolerance or 0.0)]
+
+    sure = [point for point in points if holds(point) and all(map(holds, tighter(point)))]
     return min(sure, key=lambda point: point.wall_s or 0.0, default=None)
 
 
@@ -322,19 +334,29 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
 
 def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> ReferenceRun:
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
-    (integrator, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
+    integrators = choice.verifiers(equations, max(accuracy, FINEST))
+    (integrator, loose), (other, tight) = integrators
     end = time.thread_time() + LATEST * budget
     trial, spent = _trial(integrator, equations, times, LATEST * budget)
     steps = 1 - EVENT * trial.events / work(trial)
     # Events are as many and as long at every tolerance; whoever is second asks Python for each.
-    expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
+    own = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER))
+    expected = own + trial.events * ASKED
+    quick = choice.verifiers(equations, max(accuracy, FINEST), quick=True)
+    if expected > REFERENCE * budget and quick != integrators:
+        (integrator, loose), (other, tight) = quick
+        expected = 2 * own
     if expected > budget:
         raise _unaffordable(full, f"about {expected:.1f} s, {trial.events} events among it", 2 * expected)
     until = _until(times, end - time.thread_time())
-    first = evaluate(full, choice.integrate_with(integrator, equations, loose, until, MOST_EVALUATIONS))
-    second = evaluate(full, choice.integrate_with(other, equations, tight, until, MOST_EVALUATIONS))
-    apart = QUANTITIES[quantity](full, first, second)
-    if not apart <= accuracy / 2:
+    for finer in FINER if (integrator, loose) == quick[0] else FINER[:1]:
+        loose, tight = finer * loose, finer * tight
+        first = evaluate(full, choice.integrate_with(integrator, equations, loose, until, MOST_EVALUATIONS))
+        second = evaluate(full, choice.integrate_with(other, equations, tight, until, MOST_EVALUATIONS))
+        apart = QUANTITIES[quantity](full, first, second)
+        if apart <= accuracy / 2:
+            break
+    else:
         raise NotTrustworthyError(
             f"{full.name}: no reference: {integrator} and {other} differ by {apart:.2g} in the {quantity}\n"
             "  ask for less accuracy, or shorten the run: a chaotic motion has no reference"

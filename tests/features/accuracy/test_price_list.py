@@ -5,12 +5,15 @@ from dataclasses import replace
 
 import pytest
 
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.integrators import choice
 from abu_calc.features.accuracy import study as module
-from abu_calc.features.accuracy.study import MeasuredPoint, ReferenceRun, cheapest, price_list
+from abu_calc.features.accuracy.study import MeasuredPoint, PricePoint, ReferenceRun, cheapest, price_list
 from abu_calc.features.accuracy.view import picture
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation.effect_selection import Ledger
-from tests.dynamics.scenes import dimensionless
+from tests.dynamics.scenes import dimensionless, straight_grinder, with_effects
 
 
 def quiet(_: str) -> None:
@@ -28,7 +31,7 @@ def measured():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "REPEATS", 1)
         patch.setattr(module, "TOLERANCES", module.TOLERANCES[:-1])
-        return price_list(scene, Ledger(scene, ()), "amplitude", 0.01, 3600.0, TOLD.append)
+        return price_list(scene, Ledger(scene, (), scene), "amplitude", 0.01, 3600.0, TOLD.append)
 
 
 def test_every_rung_and_integrator_is_measured(measured):
@@ -58,6 +61,37 @@ def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
     assert cheapest(list(measured.points), 0.01, vague) is None
 
 
+def test_a_point_that_tighter_tolerances_of_its_method_do_not_confirm_came_near_by_chance(measured):
+    """Motions with two ends: a loose run may land at the right one."""
+    points = [
+        PricePoint("equations", "compiled-rk45", tolerance, error, 100, 10, wall, wall)
+        for tolerance, error, wall in ((1e-4, 4e-4, 0.1), (1e-5, 1.5, 0.2), (1e-6, 1e-3, 0.3), (1e-8, 1e-4, 0.5))
+    ]
+    sure = replace(measured.reference, disagreement=1e-3)
+    assert cheapest(points, 0.01, sure) == points[2]
+    assert cheapest(points[:2], 0.01, sure) is None
+
+
+def test_where_scipy_takes_too_long_for_its_events_the_loop_verifies_itself(monkeypatch):
+    """Both of its methods, at tighter tolerances until they agree."""
+    scene = replace(straight_grinder(), duration=0.3)
+    scene = with_effects(scene, GravityEffect(), DryRollingFrictionEffect(8e-6, 0.008))
+    asked = []
+
+    def integrate(name, equations, tolerance, *more):
+        asked.append((name, tolerance))
+        return integrate_with(name, equations, tolerance, *more)
+
+    integrate_with = choice.integrate_with
+    monkeypatch.setattr(module, "ASKED", 1.0)
+    monkeypatch.setattr(choice, "integrate_with", integrate)
+    apart = iter((1.0, 1e-3))
+    monkeypatch.setitem(module.QUANTITIES, "amplitude", lambda *_: next(apart, 0.0))
+    reference = module._reference(scene, "amplitude", 0.01, 20.0)
+    assert reference.integrators == ("compiled-rk45", "compiled-dop853") and reference.disagreement == 1e-3
+    assert asked[-2:] == [("compiled-rk45", 1e-8), ("compiled-dop853", 1e-9)] and reference.tolerances == (1e-8, 1e-9)
+
+
 def test_the_picture_stays_within_eighty_columns(measured):
     lines = picture(tuple(map(MeasuredPoint.read, measured.points)))
     assert max(map(len, lines)) <= 80
@@ -67,19 +101,19 @@ def test_the_picture_stays_within_eighty_columns(measured):
 def test_no_time_is_told_beforehand():
     scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
     with pytest.raises(NotTrustworthyError, match="the reference alone takes"):
-        price_list(scene, Ledger(scene, ()), "amplitude", 0.01, 1e-6, quiet)
+        price_list(scene, Ledger(scene, (), scene), "amplitude", 0.01, 1e-6, quiet)
 
 
 def test_a_reference_that_two_methods_do_not_share_is_none(monkeypatch):
     scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
     monkeypatch.setitem(module.QUANTITIES, "amplitude", lambda *_: math.inf)
     with pytest.raises(NotTrustworthyError, match="no reference"):
-        price_list(scene, Ledger(scene, ()), "amplitude", 0.01, 60.0, quiet)
+        price_list(scene, Ledger(scene, (), scene), "amplitude", 0.01, 60.0, quiet)
 
 
 def test_unknown_quantities_are_refused(measured):
     with pytest.raises(InputError, match="known quantities"):
-        price_list(measured.reference.response, Ledger(None, ()), "beauty", 0.01, 1.0, quiet)
+        price_list(measured.reference.response, Ledger(None, (), None), "beauty", 0.01, 1.0, quiet)
     assert isinstance(measured.reference, ReferenceRun)
 
 
