@@ -56,9 +56,10 @@ def working_machine(seed: int) -> dict[str, Any]:
         file = tomllib.loads((PRESETS / f"{PRESET_RACES[seed // 10 % 2]}.toml").read_text(encoding="utf-8"))
         del file["expected"]
         file["machine"]["speed_rpm"] *= log(0.6, 1.6)
+        friction = log(0.0003, 0.03)
         for race in file["autobalancer"]:
             race["rolling_drag_per_s"] = log(1, 100)
-            race["rolling_friction_mm"] = log(0.0003, 0.03)
+            race["rolling_friction_mm"] = friction
         for wheel in file["wheel"]:
             wheel["imbalance_g_mm"] *= log(0.2, 2)
         return file
@@ -79,10 +80,10 @@ def working_machine(seed: int) -> dict[str, Any]:
 
 def commands(seed: int) -> Iterator[tuple[str, Callable[[], object]]]:
     """What is asked of the machine of a seed."""
-    machine = abu_calc.read(working_machine(seed))
-    arm = machine.swing_arm is not None if hasattr(machine, "swing_arm") else False
+    file = working_machine(seed)
+    machine = abu_calc.read(file)
     yield "size", lambda: abu_calc.size(machine)
-    for scene in ("swing-arm-idle", "swing-arm-cutting") if arm else ("grinding",):
+    for scene in ("swing-arm-idle", "swing-arm-cutting") if "swing_arm" in file else ("grinding",):
         yield f"simulate {scene}", lambda scene=scene: abu_calc.simulate(machine, scene)
     yield "grinding", lambda: abu_calc.grinding(machine)
 
@@ -92,8 +93,7 @@ def scene_with_every_effect(seed: int) -> Scene:
     that roll across their race.
     """
     scene, dice = random_scene(seed), Dice(np.random.default_rng((seed, 53)))
-    race, mass = scene.races[0], scene.support.mass_at_races() if hasattr(scene.support, "mass_at_races") else 1.0
-    whirl, radius = scene.static_moment / max(mass, 1e-9), race.ball_radius
+    race, radius = scene.races[0], scene.races[0].ball_radius
     effects = [effect for effect in scene.effects if effect.name in ("run_up", "motor")]
     effects += [RaceEccentricityEffect(race.pitch_radius * dice.log(1e-5, 1e-2), dice.even(-3, 3))]
     if not isinstance(scene.support, SwingArmSupport):
@@ -108,7 +108,8 @@ def scene_with_every_effect(seed: int) -> Scene:
             runout=race.pitch_radius * dice.log(1e-5, 1e-2), runout_angle=dice.even(-3, 3),
             wheel_radius=2 * race.pitch_radius, plane_offset=0.0,
         )]  # fmt: skip
-    effects += [BallContactEffect(radius, dice.even(0, 1)), DryRollingFrictionEffect(radius * dice.log(1e-6, 1e-2), radius)]
+    effects += [BallContactEffect(radius, dice.even(0, 1))]
+    effects += [DryRollingFrictionEffect(radius * dice.log(1e-6, 1e-2), radius)]
     return placed(replace(scene, effects=tuple(effects)))
 
 
@@ -131,8 +132,9 @@ def ended(ask: Callable[[], object]) -> tuple[float, str]:
     with os.fdopen(read, "rb") as pipe:
         how = pipe.read().decode(errors="replace")
     _, status, usage = os.wait4(child, 0)
-    killed = os.WIFSIGNALED(status)
-    return usage.ru_utime + usage.ru_stime, f"no end (signal {signal.Signals(os.WTERMSIG(status)).name})" if killed else how
+    if os.WIFSIGNALED(status):
+        how = f"no end ({signal.Signals(os.WTERMSIG(status)).name})"
+    return usage.ru_utime + usage.ru_stime, how
 
 
 def asked(seed: int) -> Iterator[tuple[str, Callable[[], object]]]:

@@ -125,8 +125,9 @@ def averaged_and_judged(seed: int) -> list[Verdict]:
 
 
 def fast_transient(seed: int) -> Scene:
-    """Balls far from rest on a fast hand-held rotor, for some tens of turns, with effects that are light at steady state:
-    gravity, a race hardly eccentric, next to no friction.
+    """Balls far from rest on a fast hand-held rotor, for some tens of turns, with what is light at steady state.
+
+    That is gravity, a race hardly eccentric, next to no friction.
     """
     dice = Dice(np.random.default_rng((seed, 801)))
     count, speed = int(dice.rng.integers(2, 6)), dice.log(5e3, 1e5) * math.tau / 60

@@ -108,8 +108,9 @@ class GravityEffect(Effect):
         back, among more than two balls, it stays there.
         """
         if not scene.ball_masses:
-            drives = scene.rotor.rows > 0
-            return EffectInfluence(None, "turns the rotor by its imbalance") if drives else EffectInfluence(0.0, "no balls")
+            if scene.rotor.rows:
+                return EffectInfluence(None, "turns the rotor by its imbalance")
+            return EffectInfluence(0.0, "no balls")
         why = "swings the balls once per turn, and the spindle twice"
         if scene.support.turns:
             return EffectInfluence(None, f"{why}; on a swing arm not estimated")

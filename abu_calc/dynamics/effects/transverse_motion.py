@@ -187,7 +187,7 @@ class TransverseMotionEffect(Effect):
         support that tilts.
         """
         why = "balls off the middle of the groove stand nearer to the axis"
-        if scene.support.tilt(scene.start_position) is not None:
+        if scene.support.tilt(np.array(scene.start_position)) is not None:
             return EffectInfluence(None, "a race that tilts moves the balls across it")
         if not self.axial_runout:
             return EffectInfluence(0.0, "no axial runout: the balls stay in the middle of the groove")

@@ -83,8 +83,8 @@ def choose(equations: Equations, wanted: str, tolerance: float, progress: Progre
     """The integrator for a scene, `wanted` being auto, scipy, plain or compiled; its code or library is loaded.
 
     Stiff equations go to SciPy's Radau, unless the loop goes through the events sooner or another integrator is asked
-    for; all others go to the loop. `progress` gets what one waits for. Raises InputError for other words, and for what is
-    not installed or cannot trace an effect.
+    for; all others go to the loop. `progress` gets what one waits for. Raises InputError for other words, and for what
+    is not installed or cannot trace an effect.
     """
     refuse_removed(wanted)
     if wanted not in WANTED:
@@ -135,31 +135,33 @@ def quickest_loop(equations: Equations, tolerance: float, progress: Progress = s
         return _loop_of(equations, True, method)
     about = counts(equations, tolerance)
     if (about.loop + LOOP_EVENT * about.events) * (1 + len(equations.scene.ball_masses)) < SHORT:
-        return _loop_of(equations, False, method, "; a short run, over before compiled code would be loaded")
+        return _loop_of(equations, False, method, "; a short run, over before compiled code would be loaded", True)
     progress(f"{equations.scene.name}: loading compiled code")
     if ready.load(equations, method):
         return _loop_of(equations, True, method)
     return _loop_of(equations, False, method, f"; compiled code would be faster, but {ready.missing()}")
 
 
-def _loop_of(equations: Equations, compiled: bool, method: "Method", more: str = "") -> IntegratorChoice:
-    """The loop, why it has this method, and whatever more there is to say."""
+def _loop_of(
+    equations: Equations, compiled: bool, method: "Method", more: str = "", short: bool = False
+) -> IntegratorChoice:
+    """The loop, why it has this method, and whatever more there is to say; `short`: compiled once it proves long."""
     name = f"{'compiled' if compiled else 'plain'}-{method}"
     scene = "a tight tolerance" if method == "dop853" else "a scene that switches"
     order = f"order {5 if method == 'rk45' else 8} for {scene if watches(equations) else 'a smooth scene'}"
     why = f"the loop{'' if compiled else ' as plain Python'}, {order}{more}"
-    return IntegratorChoice(name, why, partial(_through, compiled=compiled), LOOP_WORK, LOOP_EVENT)
+    return IntegratorChoice(name, why, partial(_through, compiled=compiled, short=short), LOOP_WORK, LOOP_EVENT)
 
 
 def _through(
     equations: Equations, tolerance: float, sample_times: Times, most: int, *, compiled: bool,
-    method: "Method | None" = None,
+    method: "Method | None" = None, short: bool = False,
 ) -> Trajectory:  # fmt: skip
     """The motion by the loop, whose method follows the tolerance of each run where none is given."""
     from abu_calc.dynamics.integrators.compiled import run
 
     method = method or loop_method(equations, tolerance)
-    return run.integrate(equations, tolerance, sample_times, most, compiled=compiled, method=method)
+    return run.integrate(equations, tolerance, sample_times, most, compiled=compiled, method=method, short=short)
 
 
 @lru_cache(maxsize=8)

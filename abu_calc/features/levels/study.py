@@ -371,7 +371,7 @@ def _of_motion(
     design = subject.design
     subject = subject.lasting(duration_for(subject.scene) if duration_s is None else duration_s)
     times = times_for(subject.scene)
-    ledger, run = simulate_chosen(subject.ledger(accuracy), accuracy, times, progress=progress)
+    _, run = simulate_chosen(subject.ledger(accuracy), accuracy, times, progress=progress)
     at_axis = axis_place_levels(run, times, "axis", thirds=thirds)
     places = (at_axis,) if design is None else held_levels(design, at_axis)
     records = tuple(PlaceLevel.of(place, minutes) for place in places)

@@ -4,6 +4,7 @@ import importlib.util
 import warnings
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from abu_calc.dynamics.effect import Effect
@@ -63,6 +64,19 @@ def test_long_runs_are_compiled_and_short_ones_are_not(scene):
     assert long.name.startswith("compiled-") and short.name.startswith("plain-")
     assert "before compiled code would be loaded" in short.why
     assert ("switches" in long.why) is (scene is switching)
+
+
+@pytest.mark.usefixtures("unloaded")
+def test_a_run_in_plain_python_that_proves_long_goes_on_in_compiled_code():
+    """Steps are two thousand times as short as counting expects."""
+    equations = switching(0.1)
+    hard = replace(equations, longest_step=equations.longest_step / 2000)
+    chosen = choose(equations, "auto", 1e-4)
+    assert chosen.name == "plain-rk45"
+    run, asked = (each.integrate(hard, 1e-4, [0.1], 10**7) for each in (chosen, choose(equations, "plain", 1e-4)))
+    assert (run.integrator, asked.integrator) == ("compiled-rk45", "plain-rk45")
+    assert 0 <= run.evaluations - asked.evaluations <= 1 and run.evaluations > 20_000
+    assert np.array_equal(run.y, asked.y)
 
 
 def test_what_is_loaded_is_used_for_short_runs_too():
@@ -125,8 +139,8 @@ def test_stiff_equations_whose_events_keep_steps_short_go_to_the_loop():
 
 def test_balls_that_friction_shakes_loose_look_stiff_at_the_start_alone():
     """Friction f n/|v| turns the way of a ball that has hardly begun to roll: 1e5 1/s at first, soon some hundreds."""
-    race = TransverseMotionEffect(0.0237, 0.008, 1e-4)
-    equations = assemble(with_effects(replace(straight_grinder(), duration=0.5), race, DryRollingFrictionEffect(2e-6, 0.008)))
+    effects = TransverseMotionEffect(0.0237, 0.008, 1e-4), DryRollingFrictionEffect(2e-6, 0.008)
+    equations = assemble(with_effects(replace(straight_grinder(), duration=0.5), *effects))
     assert stiff(equations) and choose(equations, "scipy", 1e-4).name == "scipy-radau"
     chosen = choose(equations, "auto", 1e-4)
     assert chosen.name == "compiled-rk45"

@@ -130,6 +130,9 @@ AT_ONCE = 20_000
 """Evaluations between two returns from compiled code, within which no interrupt is heard: some hundredths of a
 second."""
 
+AT_ONCE_SHORT = 4_000
+"""The same of a run in plain Python that seemed short: after so many it goes on in compiled code."""
+
 REASONS = {
     arrays.NOT_FINITE: NOT_FINITE,
     arrays.TOO_SMALL: "Required step size is less than spacing between numbers.",
@@ -144,15 +147,17 @@ def integrate(
     most_evaluations: int = MOST_EVALUATIONS,
     compiled: bool = True,
     method: Method = "rk45",
+    short: bool = False,
 ) -> Trajectory:
     """The motion from t = 0 to the last of `sample_times` [s], ascending; in plain Python if not `compiled`.
 
-    Raises as SciPy's does, and CompilerError where there is no compiler that works.
+    `short`: a run in plain Python that turns out to be long goes on in compiled code, if there is any. Raises as
+    SciPy's does, and CompilerError where there is no compiler that works.
     """
     ordered, places = in_order(equations)
     given = np.argsort(places)
     run = _CompiledRun(
-        ordered, tolerance, sample_times, most_evaluations, given=given, compiled=compiled, method=method
+        ordered, tolerance, sample_times, most_evaluations, given=given, compiled=compiled, method=method, short=short
     )
     return run.trajectory()
 
@@ -167,6 +172,7 @@ class _CompiledRun(IntegrationRun):
     given: Places = field(kw_only=True)
     compiled: bool = field(kw_only=True)
     method: Method = field(kw_only=True)
+    short: bool = field(kw_only=True, default=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -246,11 +252,12 @@ class _CompiledRun(IntegrationRun):
 
     def _go_on(self) -> int:
         """Up to the next return from compiled code, with the samples that come until then."""
-        far = float(self.clock[arrays.TIME]) + (AT_ONCE / self.per_step + 2) * self.longest
+        at_once = AT_ONCE_SHORT if self.short else AT_ONCE
+        far = float(self.clock[arrays.TIME]) + (at_once / self.per_step + 2) * self.longest
         times = self.samples[self.done : np.searchsorted(self.samples, far, side="right")]
         rows = np.empty((len(times), len(self.state)))
         self.counts[arrays.DONE], self.counts[arrays.SAMPLES] = 0, len(times)
-        self.counts[arrays.PAUSE] = self.counts[arrays.EVALUATIONS] + AT_ONCE
+        self.counts[arrays.PAUSE] = self.counts[arrays.EVALUATIONS] + at_once
         how = self.code.go(
             self.state, self.numbers, self.parameters, self.layout, self.constants, self.clock, self.counts, times,
             rows, self.room,
@@ -258,7 +265,17 @@ class _CompiledRun(IntegrationRun):
         self.fill(rows[: self.counts[arrays.DONE]].T[self.given])
         if how == arrays.PAUSED:
             self.heed_patience(float(self.clock[arrays.TIME]))
+            if self.short:
+                self._compile()
         return int(how)
+
+    def _compile(self) -> None:
+        """Go on in compiled code, where it runs: it has the same arrays."""
+        from abu_calc.dynamics.integrators.compiled.availability import load
+
+        self.short = False
+        if load(self.equations, self.method):
+            self.compiled, self.code = True, prepared(self.equations, self.method)[0]
 
     def _go(self) -> None:
         equations, ends = self.equations, self.ends()
