@@ -6,8 +6,10 @@ F and n are forces of race and ball per ball mass, along the race and normal to 
 ball that its outer side does not press inward, n < 0, is held by the inner one, and rubs there. Stick is exact: θ' is
 0, and an event ends it; the signs of θ' and n are never smoothed. Balls that move together stick or roll together, by
 the sums of their forces. A ball that also rolls across its race, by v, is rubbed against its whole velocity,
-−f |n| (R_p θ', v)/|…|: so transverse motion shakes dry friction out. Source: Coulomb's rolling friction with the lever
-arm k_r; balls may rest where |Im(w e^{−iθ})| ≤ f R_p. The inner side is taken to be as hard as the outer one.
+−f |n| (R_p θ', v)/|…|: so transverse motion shakes dry friction out. Of balls that move together one may stop across
+its race while the others roll: below a millionth of R_p Ω its friction is proportional to its velocity. Source:
+Coulomb's rolling friction with the lever arm k_r; balls may rest where |Im(w e^{−iθ})| ≤ f R_p. The inner side is taken
+to be as hard as the outer one.
 
     parameter    unit  range            default   source
     lever_arm    m     0 … ball_radius  required  5e-7 … 5e-6 m on hard ground races, practice
@@ -33,6 +35,10 @@ from abu_calc.foundation.validity import Range
 
 LEAVES = 1e-4
 """A ball pulled inward by more of m R_p Ω² than this is worth a warning: near standstill less means nothing."""
+
+STOPPED = SLOW / 4
+"""Speed, relative to R_p Ω, below which friction falls on a ball that a chain carries along while it stops rolling
+across: an exact stop would have to be shared out between friction and the neighbours."""
 
 ASKED = 200
 """Samples of a run that are asked whether balls leave their race, twice: evenly spread, and where balls are slow."""
@@ -75,8 +81,11 @@ class DryRollingFrictionEffect(Effect):
             loads.own(grip=f * sigma, free=sigma * sigma, hold=f + 0.0 * sigma)
             return
         along = m.radii * m.rate
-        # Balls that stick have no velocity, and need none.
-        share = f * sigma / m.xp.sqrt(sigma * (along * along + m.rolled * m.rolled) + (1 - sigma))
+        # Balls that stick have no velocity, and need none. One of a chain may stop alone, and has a direction still.
+        slow = 0.0
+        if loads.mates is not None:
+            slow = (loads.mates.sums(np.ones(p.balls)) - 1) * (STOPPED * p.radii * p.speed) ** 2
+        share = f * sigma / m.xp.sqrt(sigma * (along * along + m.rolled * m.rolled + slow) + (1 - sigma))
         loads.own(grip=share * along, free=sigma, hold=f * (1 - sigma))
         loads.across.grip, loads.across.free = share * m.rolled, sigma
 
@@ -96,7 +105,8 @@ class DryRollingFrictionEffect(Effect):
         if loads.across is not None:
             whole, least = p.radii * p.speed, SLOW / 2 * mode.begun
             along, rolled = m.radii * m.rate / whole, m.rolled / whole
-            goes_on = along * along + rolled * rolled - least * least
+            squares = along * along + rolled * rolled
+            goes_on = (squares if loads.mates is None else loads.mates.sums(squares)) - least * least
         pressed = mode.side * solved.normal / flung + CROSSES
         return [*(rolls * goes_on + (1 - rolls)), *(sticks * holds + (1 - sticks)), *pressed]
 

@@ -158,9 +158,11 @@ def _decided_across(at: SwitchPoint, f: float, motion: Motion, loads: Loads) -> 
     slow = SLOW * p.radii * p.speed
     mode: Rolling = at.mode
     least = np.where(mode.direction > 0, 0.6 * mode.begun, 1e-3) * slow
-    rolls = np.hypot(motion.radii * motion.rate, motion.rolled) > least
-    rolls = rolls if loads.mates is None else loads.mates.sums(1.0 * rolls) > 0
-    held = ~rolls
+    speeds = np.hypot(motion.radii * motion.rate, motion.rolled)
+    if loads.mates is not None:  # one ball decides for all, by the speeds of all
+        speeds = np.sqrt(loads.mates.sums(speeds * speeds))
+        least = least[(loads.mates.together(p.balls) * loads.leads).argmax(axis=1)]
+    held = speeds <= least
     mode = replace(mode, begun=np.where(held, 1.0, mode.begun))
     y[along][held] = y[across][held] = 0.0
     for _ in range(p.balls + 1):
