@@ -47,7 +47,7 @@ A case that decides a check is confirmed by a run at the tighter tolerance.
 """
 
 WORK, MOST_LOST = 400_000, 3
-"""Evaluations of one run, in SciPy's: half a second in compiled code. Machines that balance take a twentieth of that.
+"""Work of one run: half a second in compiled code. Machines that balance take a twentieth of that.
 And how many starts at the drag given may be without an answer until no others are tried."""
 
 MORE, MOST_MORE = 10, 24_000_000
@@ -121,7 +121,7 @@ def start_once(
     early_end: bool = True,
     wanted: str = "auto",
 ) -> StartOutcome | Lost:
-    """One start, by one run; `work`: evaluations it may take, in SciPy's; `early_end`: whether it may end early."""
+    """One start, by one run; `work`: what it may take; `early_end`: whether it may end early."""
     try:
         return run_of_start(design, member, accuracy, tolerance, work, early_end, wanted).outcome
     except NotTrustworthyError as error:

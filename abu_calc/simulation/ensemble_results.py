@@ -95,7 +95,7 @@ class Ensemble:
 
     @property
     def work(self) -> int:
-        """Evaluations of all of them, in SciPy's."""
+        """Work of all of them."""
         return sum(outcome.work for outcome in self.outcomes) + sum(lost.work for lost in self.lost)
 
     @property

@@ -108,9 +108,10 @@ def without_size(scene: Scene) -> tuple[str, ...]:
 ACCURACY = motion.ACCURACY
 
 WORK, WORK_FAST = 10_000_000, 2_000_000
-"""SciPy's evaluations that a simulation may take: a minute or two of SciPy's work, a quarter of that in compiled code.
-A preset takes some ten thousand, the swing arm two hundred thousand, over a million for its levels. The second, where
-something oscillates far faster than the rotor turns: mostly a stiffness in another unit, worth some seconds."""
+"""Work that a simulation may take, each unit five evaluations of the loop or a quarter of one of SciPy's: a minute of
+SciPy's methods, half of that in compiled code. A preset takes some ten thousand, the swing arm two hundred thousand,
+over a million for its levels. The second, where something oscillates far faster than the rotor turns: mostly a
+stiffness in another unit, worth some seconds."""
 
 WORK_PLAIN = 700_000
 """The same for plain code that was asked for, at some 25 µs for each evaluation of its own: a minute or two."""
@@ -156,7 +157,7 @@ class SimulationCost:
     wall_s: float
     why: str
     work: int = 0
-    """Work in SciPy's evaluations, as `most_evaluations` counts."""
+    """Work, as `most_evaluations` counts it."""
 
 
 @dataclass(frozen=True)
@@ -189,8 +190,8 @@ def simulate(
 ) -> Simulation:
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
-    `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs, in
-    SciPy's evaluations: what takes more by counting is not begun; None: `usual_work`. `integrator` is auto, scipy,
+    `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs, see
+    WORK: what takes more by counting is not begun; None: `usual_work`. `integrator` is auto, scipy,
     plain or compiled; any but auto asks for the equations. `progress` gets what is being done. Raises
     NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
     chaotic, or decided by less than rounding.

@@ -99,7 +99,7 @@ def test_a_run_that_cannot_fit_is_not_begun() -> None:
 
 def test_a_second_run_that_cannot_fit_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
     scene, begun = replace(SCENE, effects=()), []
-    free = simulate(scene, integrator="scipy").cost.evaluations
+    free = simulate(scene, integrator="scipy").cost.work
     chosen = simulate_module.choose
 
     def choose(*how: object) -> object:

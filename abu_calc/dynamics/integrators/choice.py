@@ -38,10 +38,13 @@ TIGHT: Final = 3e-6
 events and 1e-6 for those with many."""
 
 LOOP_WORK: Final = 1 / 5
-"""Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
-on it either: compiled it takes a twentieth of SciPy's time, in plain Python some times as long."""
+SCIPY_WORK: Final = 4.0
+"""Work of an evaluation in the loop, and of one of SciPy's: about as they take time, a unit being some microseconds.
 
-COMPILED_TIME: Final = 1 / 20
+That of the loop is the same compiled or not, so that what is refused does not hang on a compiler.
+"""
+
+COMPILED_TIME: Final = LOOP_WORK / SCIPY_WORK
 """Time of a compiled evaluation in units of one of SciPy's."""
 
 TRIAL: Final = 3
@@ -60,8 +63,8 @@ class IntegratorChoice:
     why: str
     integrate: Callable[..., Trajectory]
     """(equations, tolerance, sample times, most evaluations)"""
-    share: float = 1.0
-    """Work of one of its evaluations, in SciPy's."""
+    share: float = SCIPY_WORK
+    """Work of one of its evaluations."""
     event: int = EVENT
     """Evaluations that an event is worth."""
 
@@ -70,12 +73,12 @@ class IntegratorChoice:
         return int(work / self.share)
 
     def expected(self, equations: Equations, tolerance: float) -> float:
-        """About the work of the two runs that a result takes, in SciPy's evaluations, by counting."""
+        """About the work of the two runs that a result takes, by counting."""
         about = counts(equations, tolerance)
         return self.share * ((about.loop if self.name in LOOP else about.scipy) + self.event * about.events)
 
     def work(self, run: Trajectory) -> int:
-        """Work of a run, counted in SciPy's evaluations."""
+        """Work of a run."""
         return math.ceil(self.share * work(run, self.event))
 
 

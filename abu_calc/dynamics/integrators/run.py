@@ -96,11 +96,14 @@ TOLERANCE = Range("tolerance", 1e-13, 0.1)
 """Range of tolerances: below, rounding decides; above, a method's own error estimate means nothing."""
 
 MOST_EVALUATIONS = 12_000_000
-"""Some minutes of SciPy's work; a scene that needs more is stiff or too long for this method."""
+"""Some minutes of SciPy's time; a scene that needs more is stiff or too long for this method."""
 
 EVENT, LOOP_EVENT = 50, 2
 """Evaluations that the work of an event is worth beside its own: modes are settled, and the integrator starts anew. In
 the loop, compiled or not, that is next to nothing."""
+
+DECISION = 2500
+"""Evaluations of the loop that an event is worth whose modes Python decides: some milliseconds."""
 
 CROWDED = 100
 """Events of each ball, and of the axis, in a revolution or a cycle of what oscillates faster: beyond, balls chatter,
@@ -242,7 +245,7 @@ def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
 
 
 def too_much(evaluations: str, most: int, remedy: str = "") -> TooMuchWorkError:
-    """The error for a run that is not begun, since so many of SciPy's evaluations are not allowed."""
+    """The error for a run that is not begun, since so much work is not allowed."""
     return TooMuchWorkError(
         f"the run takes more work than allowed (found {evaluations} evaluations; allowed: {most:.3g})\n"
         f"  {remedy}shorten the run, ask for less accuracy, or allow some seconds: --patience 60"

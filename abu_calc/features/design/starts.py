@@ -28,7 +28,7 @@ from abu_calc.sizing.places import level_at_loudest
 
 MOST: Final = 12
 MOST_WORK, MOST_PLAIN = 400_000, 60_000
-"""Evaluations of all starts together, in SciPy's, in compiled code and without: a second or two."""
+"""Work of all starts together, in compiled code and without: a second or two."""
 
 
 @dataclass(frozen=True)

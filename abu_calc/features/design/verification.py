@@ -206,7 +206,7 @@ NOT_SEARCHED = (
 )
 
 MOST_SEARCHED = 2_000_000
-"""Work of the listed starts, in SciPy's evaluations, beyond which no further ones are tried."""
+"""Work of the listed starts beyond which no further ones are tried."""
 
 
 @dataclass(frozen=True)

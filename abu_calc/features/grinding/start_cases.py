@@ -36,7 +36,7 @@ TOLERANCE: Final = 2e-5
 """Tolerance of the runs. Levels of the presets and of an angle grinder are the same at 2e-4, to 0.1 dB."""
 
 WORK: Final = 400_000
-"""Evaluations of one run, in SciPy's: that of an idle start."""
+"""Work of one run: that of an idle start."""
 
 LONGEST: Final = 6.0
 """Seconds that a run lasts which has not come to a steady level, or bounces."""

@@ -31,7 +31,7 @@ CLOSER: Final = 1e-2
 """Factor on the tolerance of the run that confirms an example."""
 
 WORK: Final = 2_000_000
-"""Evaluations of one run, in SciPy's."""
+"""Work of one run."""
 
 LOOKS: Final = (1, 2, 4, 8)
 """Lengths of the run, in multiples of the first, after which the end is judged."""

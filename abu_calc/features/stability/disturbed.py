@@ -29,7 +29,7 @@ TIMES: Final = 15.0
 
 TOLERANCE: Final = 1e-6
 WORK, WORK_PLAIN = 400_000, 30_000
-"""Evaluations that the run may take, in SciPy's, with compiled code and without: about a second."""
+"""Work that the run may take, with compiled code and without: about a second."""
 
 SAMPLES: Final = 2000
 LAST: Final = 0.05

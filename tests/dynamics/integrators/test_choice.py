@@ -180,7 +180,7 @@ def test_the_same_work_is_allowed_to_all():
     equations, times = switching(0.5), [0.5]
     for name in ("scipy", "plain", "compiled"):
         chosen = choose(equations, name, 1e-4)
-        run = chosen.integrate(equations, 1e-4, times, chosen.evaluations(100_000))
+        run = chosen.integrate(equations, 1e-4, times, chosen.evaluations(400_000))
         assert chosen.evaluations(chosen.work(run)) >= work(run, chosen.event)
         with pytest.raises(TooMuchWorkError):
             chosen.integrate(equations, 1e-4, times, chosen.evaluations(chosen.work(run) // 4))

@@ -20,7 +20,15 @@ from abu_calc.dynamics.integrators.compiled.code import Code, code, text
 from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.plain import Plain
 from abu_calc.dynamics.integrators.compiled.program import Places, Program, in_order, places, widened
-from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, STALLED, IntegrationRun, exceeded, lost
+from abu_calc.dynamics.integrators.run import (
+    DECISION,
+    MOST_EVALUATIONS,
+    NOT_FINITE,
+    STALLED,
+    IntegrationRun,
+    exceeded,
+    lost,
+)
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
 from abu_calc.dynamics.switching.stick_slip import AT_REST
@@ -301,6 +309,7 @@ class _CompiledRun(IntegrationRun):
                 modes = at_break(equations, t, modes)
             if t < end:
                 state, modes = settled(equations, t, state, modes)
+                self.counts[arrays.MOST] -= DECISION
 
 
 def prepared(equations: Equations, method: Method) -> tuple[Code, Array]:
