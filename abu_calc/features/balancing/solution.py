@@ -9,12 +9,15 @@ from typing import Final
 from abu_calc.features.balancing.case import Taken, balancing, behind_the_mark, deviations, making_of, mass_of
 from abu_calc.features.balancing.corrections import Making, MassShare, correction, total
 from abu_calc.features.balancing.errors import (
+    ROUNDING,
     Deviations,
     ErrorContribution,
+    Remainder,
+    between_runs,
     changes,
-    disagreement,
-    motions,
+    in_deviations,
     placing,
+    remainders,
     size,
 )
 from abu_calc.features.balancing.formulas import Signed, Vector, influence, natural_frequencies, published_answer
@@ -30,12 +33,12 @@ FARTHER: Final = 1.6
 """Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
 HOPELESS: Final = 1.0
 """Vibration left, of that before, from which on the correction may do more harm than good: no number is given."""
+BEYOND_ERRORS: Final = 3.0
+"""Misfit in standard deviations beyond which errors do not explain it."""
 FINE: Final = 0.1
 """Error of an imbalance over the trial mass up to which the imbalance is measured well."""
 MUCH: Final = 10.0
 """Such a part whose size is of no interest."""
-ROUNDING: Final = 1e-9
-"""Part of an imbalance that only rounding leaves."""
 Spread = Sequence[Vector]
 """Changes of the imbalances by one standard deviation of each number, those of the correction itself among them."""
 
@@ -43,7 +46,7 @@ Spread = Sequence[Vector]
 @dataclass(frozen=True)
 class Found:
     """An answer; `target`: imbalance of each plane that the correction takes away, `leftover`: the part that discrete
-    masses cannot take away [kg m]; `rest_share`: vibration left, of that before.
+    masses cannot take away [kg m].
     """
 
     case: Balancing
@@ -57,9 +60,12 @@ class Found:
     spread: Spread
     target: Vector
     leftover: Vector
-    rest_share: float
+    remainders: tuple[Remainder, ...]
+    """Motions of the sensors at each speed, now and after the correction."""
     error_share: float
-    """The same by the errors alone, without the leftover."""
+    """Vibration that the errors alone leave, of that before."""
+    planes_share: float | None
+    """Vibration that the planes alone leave, of that before; None with as many planes as sensors."""
     disagreement: float | None
     tolerance: TolerancePlanes | None
     service_speed: float
@@ -72,6 +78,11 @@ class Found:
     """A speed farther from the natural frequencies that was tried [rad/s], and what would be left there."""
     printed: tuple[Signed, Signed] | None
     """Result of the formula as published for the first run without trial masses."""
+
+    @property
+    def rest_share(self) -> float:
+        """Vibration left, rms over the errors, of that before."""
+        return max(each.share(each.expected) for each in self.remainders)
 
     @property
     def rest(self) -> tuple[float, ...]:
@@ -97,8 +108,8 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
     ]
     leftover = tuple(_leftover(*each) for each in zip(answer.target, shares, radii, strict=True))
     placed = placing([_pieces(*each) for each in zip(shares, radii, strict=True)], sigma)
-    errors = [*(change.imbalance for change in answer.by), *placed]
-    spread = [*errors, leftover]
+    spread = [*(change.imbalance for change in answer.by), *placed, leftover]
+    left = remainders(case, answer.solution, answer.by, placed, leftover)
     return Found(
         case=case,
         sigma=sigma,
@@ -109,9 +120,13 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         spread=spread,
         target=answer.target,
         leftover=leftover,
-        rest_share=_rest_share(answer.solution, spread),
-        error_share=_rest_share(answer.solution, errors),
-        disagreement=disagreement(answer.solution, answer.by),
+        remainders=left,
+        error_share=_error_share(left),
+        planes_share=_planes_share(case, answer, left),
+        disagreement=in_deviations(
+            answer.solution, between_runs(case, answer.solution.misfits),
+            [between_runs(case, change.misfits) for change in answer.by],
+        ),
         tolerance=tolerance_of(file, service),
         service_speed=service,
         bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
@@ -152,8 +167,8 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
         known = imbalance_of(replaced, case.planes)
         target = tuple(Q - mass for Q, mass in zip(solution.imbalance, known, strict=True))
         by = [*changes(case, method, sigma), *_of_fitted(case, replaced, sigma)]
-        spread = [*(change.imbalance for change in by), *placing([(Q,) for Q in target], sigma)]
-        share = _rest_share(solution, spread)
+        placed = placing([(Q,) for Q in target], sigma)
+        share = _error_share(remainders(case, solution, by, placed, (0j,) * case.planes))
         if share > HOPELESS and not replaced and _finely_measured(case, method, by):
             return _Answer(solution, target, by, below=True)
         if share > HOPELESS:
@@ -191,14 +206,18 @@ def _hopeless(case: Balancing, share: float) -> str:
     )
 
 
-def _rest_share(solution: Solution, spread: Spread) -> float:
-    """Vibration that is left over that before, at the worst of the runs' speeds; 0 where there is none before."""
-    shares = [0.0]
-    for matrix in solution.influences:
-        before = math.hypot(*map(abs, motion_of(matrix, solution.imbalance)))
-        if before > 0:
-            shares.append(math.hypot(*motions(matrix, spread)) / before)
-    return max(shares)
+def _error_share(left: Sequence[Remainder]) -> float:
+    """Vibration that errors leave over that before, at the worst speed."""
+    return max(each.share(each.errors) for each in left)
+
+
+def _planes_share(case: Balancing, answer: "_Answer", left: Sequence[Remainder]) -> float | None:
+    """Vibration that the planes leave over that before, at the worst speed; 0 where errors alone explain it."""
+    if len(case.runs[0].amplitudes) <= case.planes:
+        return None
+    solution = answer.solution
+    misfit = in_deviations(solution, solution.misfits, [change.misfits for change in answer.by]) or 0.0
+    return max(each.share(each.planes) for each in left) if misfit > BEYOND_ERRORS else 0.0
 
 
 def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[float, float] | None:
@@ -212,11 +231,10 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
         case.runs[0], speed=speed, quantity="displacement", sensor=0.0, weights=(), noise=(),
         amplitudes=tuple(abs(phasor) for phasor in motion), phases=tuple(-cmath.phase(phasor) for phasor in motion),
     )  # fmt: skip
-    by = changes(replace(case, runs=(run,)), "rig data", sigma)
-    there = replace(solution, influences=(matrix,))
-    return speed, _rest_share(
-        there, [*(change.imbalance for change in by), *placing([(Q,) for Q in solution.imbalance], sigma)]
-    )
+    there = replace(case, runs=(run,))
+    placed = placing([(Q,) for Q in solution.imbalance], sigma)
+    left = remainders(there, solved(there, "rig data"), changes(there, "rig data", sigma), placed, (0j, 0j))
+    return speed, _error_share(left)
 
 
 def _service_speed(file: ReadingsFile, case: Balancing) -> float:
