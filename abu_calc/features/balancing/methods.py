@@ -3,7 +3,7 @@
     by data            X − W·T = W·Q, W by the rig's data                       formulas.py beside it
     by trials          X = W·(Q + T), W and W·Q by least squares over the runs of each speed, T the masses that were on
     by coefficients    X − W·T = W·Q, W as stored
-    without phase      |X| = g·|Q + T|                                          without_phase.py beside it
+    without phase      |X| = g·|Q + T| of each sensor                           without_phase.py beside it
 
 Q is one for all speeds and sensors: it minimises the sum of the squares of the vibration that remains, over all sensors
 and speeds, in the quantity that the sensors read. Numbers in SI; imbalances and motions as complex numbers, as in
@@ -12,6 +12,7 @@ formulas.py.
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -26,7 +27,7 @@ from abu_calc.features.balancing.formulas import (
     reading_factor,
 )
 from abu_calc.features.balancing.runs import ONE_SPEED, Balancing
-from abu_calc.features.balancing.without_phase import solved_without_phase, tells_without_phase
+from abu_calc.features.balancing.without_phase import amplitude_sets, solved_without_phase, tells_without_phase
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
@@ -57,6 +58,8 @@ class Solution:
     misfits: tuple[Vector, ...]
     condition: float
     """Condition number of the equations for the imbalance."""
+    told: Vector = ()
+    """Imbalance that each sensor tells alone at each speed, without phase [kg m]."""
 
 
 def method_of(case: Balancing) -> Method:
@@ -149,14 +152,7 @@ def solved(case: Balancing, method: Method, near: Solution | None = None) -> Sol
     Raises NotTrustworthyError where the planes can hardly be told apart.
     """
     if method == "runs without phase":
-        imbalance, gains = solved_without_phase(case, None if near is None else near.imbalance[0])
-        rows = tuple(tuple((gain + 0j,) for gain in run_gains) for run_gains in gains)
-        misfits = tuple(
-            tuple(amplitude.real - gain * abs(imbalance + run.placed[0]) + 0j
-                  for amplitude, gain in zip(run.motion, run_gains, strict=True))
-            for run, run_gains in zip(case.runs, gains, strict=True)
-        )  # fmt: skip
-        return Solution(method, (imbalance,), rows, misfits, 1.0)
+        return _by_amplitudes(case, () if near is None else near.told)
     return _by_trials(case) if method == "trial masses" else _by_known_influence(case, method)
 
 
@@ -174,6 +170,19 @@ def _by_trials(case: Balancing) -> Solution:
         equations.append((runs[0].speed, matrix, coefficients[-1]))
     influences = tuple(_matrix(matrices[index]) for index in range(len(case.runs)))
     return _solution(case, "trial masses", influences, equations)
+
+
+def _by_amplitudes(case: Balancing, near: Sequence[complex]) -> Solution:
+    """Solution without phase: the imbalance that each sensor tells makes up for the phases."""
+    sets, equations = amplitude_sets(case), []
+    told = solved_without_phase(sets, near)
+    gains, motions = (np.zeros((len(case.runs), len(case.runs[0].amplitudes)), kind) for kind in (float, complex))
+    for each, Q in zip(sets, told, strict=True):
+        runs, gain = list(each.runs), each.gain(Q)
+        gains[runs, each.sensor], motions[runs, each.sensor] = gain, each.motions(Q)
+        equations.append((each.speed, np.array([[gain]]), np.array([gain * Q])))
+    influences = tuple(_matrix(row[:, None] + 0j) for row in gains)
+    return replace(_solution(case, "runs without phase", influences, equations, motions.tolist()), told=told)
 
 
 def _by_known_influence(case: Balancing, method: Method) -> Solution:
@@ -255,14 +264,16 @@ def said_of_resonance(case: Balancing) -> str:
 
 
 def _solution(
-    case: Balancing, method: Method, influences: Sequence[Matrix], equations: Sequence[Equation]
-) -> Solution:
+    case: Balancing, method: Method, influences: Sequence[Matrix], equations: Sequence[Equation],
+    motions: Sequence[Sequence[complex]] | None = None,
+) -> Solution:  # fmt: skip
+    """`motions`: those of the runs, if their readings do not give them."""
     values, condition = _least_squares(case, equations)
     Q = tuple(complex(value) for value in values)
     misfits = []
-    for run, matrix in zip(case.runs, influences, strict=True):
+    for run, matrix, own in zip(case.runs, influences, motions or [run.motion for run in case.runs], strict=True):
         made = motion_of(matrix, tuple(np.add(Q, run.placed).tolist()))
-        misfits.append(tuple(motion - own for motion, own in zip(run.motion, made, strict=True)))
+        misfits.append(tuple(np.subtract(own, made).tolist()))
     return Solution(method, Q, tuple(influences), tuple(misfits), condition)
 
 
