@@ -323,6 +323,9 @@ def balance_warnings(
     for taken_run in taken:
         yield from record_warnings(taken_run)
     yield from _units(taken)
+    quantities = sorted({run.quantity for run in balancing.case.runs})
+    if len(quantities) > 1:
+        yield f"The runs are in {' and '.join(quantities)}: the sum of the squares of all velocities is minimised."
     yield from _directions(balancing, planes)
     yield from _within_grade(balancing)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
