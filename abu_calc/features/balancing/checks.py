@@ -123,7 +123,7 @@ def _sure(balancing: Found) -> Iterator[Check]:
         remedy = LIGHTER
     elif share > SURE[0]:
         remedy = (
-            "Measure and correct once more after this correction: the remaining vibration falls from "
+            "Measure and correct once more after this correction: the vibration that errors leave falls from "
             f"{100 * share:.1f} to {100 * share**2:.1f} % (calculated with the same errors)."
         )
     yield coded(

@@ -18,6 +18,7 @@ import numpy as np
 from abu_calc.features.balancing.formulas import Matrix, Vector, reading_factor
 from abu_calc.features.balancing.methods import Array, Method, Solution, motion_of, solved
 from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
+from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.frozen import dataclass
 
 LENGTHS: Final = ("a", "b", "c", "d")
@@ -230,7 +231,7 @@ class Remainder:
     now: Array
     planes: Array
     leftover: Array
-    errors: Array
+    errors: Floats
 
     @property
     def after(self) -> Array:
@@ -238,16 +239,16 @@ class Remainder:
         return self.planes + self.leftover
 
     @property
-    def expected(self) -> Array:
+    def expected(self) -> Floats:
         """Amplitudes expected with errors, rms."""
         return np.hypot(np.abs(self.after), self.errors)
 
     @property
-    def at_most(self) -> Array:
+    def at_most(self) -> Floats:
         """Amplitudes that are exceeded less than once in twenty: errors exceed twice their rms more rarely."""
-        return np.abs(self.planes) + 2 * np.hypot(np.abs(self.leftover), self.errors)
+        return np.asarray(np.abs(self.planes) + 2 * np.hypot(np.abs(self.leftover), self.errors))
 
-    def share(self, part: Array) -> float:
+    def share(self, part: Array | Floats) -> float:
         """A part over the motions now, both rms over the sensors; 0 where nothing moves now."""
         now = float(np.linalg.norm(self.now))
         return float(np.linalg.norm(part)) / now if now else 0.0

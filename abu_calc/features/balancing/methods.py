@@ -141,7 +141,7 @@ def _refuse_other_coefficients(case: Balancing) -> None:
     where=(
         "X_s − ΣW_sp·Q_p is the vibration that remains. c_s makes its displacement the quantity that the runs name: 1, "
         "Ω or Ω². If the runs name several quantities, velocities are compared. The trial runs of each speed give W_sp "
-        "and the readings X_s without trial masses. With stored coefficients, or data of the rig, each run counts. With "
+        "and the readings X_s without trial masses. With stored coefficients or data of the rig each run counts. With "
         "as many equations as planes nothing remains."
     ),
     source="Goodman 1964",

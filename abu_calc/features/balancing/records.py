@@ -88,7 +88,7 @@ class SensorVerification(Record):
     before: Annotated[float, Quantity("as measured", "", 4)]
     after: Annotated[float, Quantity("predicted", "", 3, "without errors")]
     expected: Annotated[float, Quantity("expected", "", 2, "rms over the errors")]
-    at_most: Annotated[float, Quantity("at most", "", 2, "errors of twice their rms: exceeded less than once in twenty")]
+    at_most: Annotated[float, Quantity("at most", "", 2, "twice the rms errors: exceeded less than once in twenty")]
 
 
 @record
@@ -169,9 +169,9 @@ class ResidualCheck(Record):
     ]
     disagreement: Annotated[float | None, Quantity("misfit in standard deviations", "", 2)]
     planes_share: Annotated[
-        float | None, Quantity("vibration that the planes leave", "", 2, "of that before; with more sensors than planes",
-                               percent=True)
-    ]  # fmt: skip
+        float | None,
+        Quantity("vibration that the planes leave", "", 2, "of that before; more sensors than planes", percent=True),
+    ]
     compared: Annotated[str, Quantity("quantity whose sum of squares is the least")]
     verification: tuple[Verification, ...]
     """Verifications for each speed and quantity of the runs."""

@@ -1,7 +1,6 @@
 """Solution of a file of readings in SI: the correction, its possible error, and the imbalance that it leaves."""
 
 import cmath
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
@@ -124,7 +123,8 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         error_share=_error_share(left),
         planes_share=_planes_share(case, answer, left),
         disagreement=in_deviations(
-            answer.solution, between_runs(case, answer.solution.misfits),
+            answer.solution,
+            between_runs(case, answer.solution.misfits),
             [between_runs(case, change.misfits) for change in answer.by],
         ),
         tolerance=tolerance_of(file, service),

@@ -32,7 +32,7 @@ from abu_calc.features.balancing.records import (
     TrialMassResult,
     Verification,
 )
-from abu_calc.features.balancing.runs import ONE_SPEED, Balancing
+from abu_calc.features.balancing.runs import Balancing
 from abu_calc.features.balancing.solution import Found, find
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.units import from_si, wrapped_deg
@@ -342,8 +342,9 @@ def balance(
         influence_coefficients=complex_rows(balancing.solution.influences[0]),
         coefficients_file=None if stored is None else stored.file,
         predicted=tuple(
-            Predicted(sensor=sensor.name, speed_rpm=run.speed_rpm, measured=sensor.before, after=sensor.after,
-                      unit=run.unit)
+            Predicted(
+                sensor=sensor.name, speed_rpm=run.speed_rpm, measured=sensor.before, after=sensor.after, unit=run.unit
+            )
             for run in residual.verification
             for sensor in run.sensors
         ),

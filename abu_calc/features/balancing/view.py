@@ -46,7 +46,7 @@ def balance_screen(result: BalanceResult) -> tuple[Block, ...]:
     """Correction to make, drawn, on one screen."""
     verification = result.residual_check.verification
     shown = all(len(run.sensors) == len(result.planes) for run in verification)
-    table = [] if shown else [Paragraph(""), _verification(verification)]
+    table: list[Block] = [] if shown else [Paragraph(""), _verification(verification)]
     return one_screen(result, _about(result), [_planes(result), *table, *_drawn(result)])
 
 

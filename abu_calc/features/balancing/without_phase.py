@@ -122,7 +122,7 @@ def solved_without_phase(sets: Sequence[AmplitudeSet], near: Sequence[complex] =
         starts = [near[index]] if near else [start for start in _starts(each) if np.isfinite(start)]
         if starts and each.apart > TELLS:
             fits = [_refined(each, start) for start in starts]
-            told[index] = min(fits, key=lambda Q: float(np.sum(_residuals(each, Q) ** 2)))  # noqa: B023
+            told[index] = min(fits, key=lambda Q: float(np.sum(_residuals(each, Q) ** 2)))
     if not told:
         raise NotTrustworthyError(
             "the trial masses do not change the readings, so that their gain is not known.\n  Heavier trial masses."
