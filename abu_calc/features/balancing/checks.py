@@ -206,7 +206,7 @@ def _change(balancing: Found, number: int, plane: int) -> float:
     return max(
         (on * abs(row[plane]) / size
          for row, now in zip(balancing.solution.influences[first], balancing.remainders[number].now, strict=True)
-         if (size := max(abs(now), case.least(first)))),
+         if (size := max(float(abs(now)), case.least(first)))),
         default=0.0,
     )  # fmt: skip
 
@@ -275,15 +275,11 @@ def _few_planes(balancing: Found) -> Iterator[Check]:
     if share is None or balancing.below:
         return
     planes = "one plane" if balancing.case.planes == 1 else "two planes"
-    remedy = None
-    if share > FEW_PLANES:
-        remedy = (
-            f"This is the best that {planes} can do: no other correction there leaves less vibration in all. "
-            "To reduce it further, correct in more planes."
-        )
+    best = f"This is the best that {planes} can do: no other correction there leaves less vibration in all."
     yield coded(
         "ABU1013", verdict(True, share <= FEW_PLANES), f"vibration that {planes} cannot take away, rms, of that now",
-        100 * share, 100 * FEW_PLANES, "%", remedy,
+        100 * share, 100 * FEW_PLANES, "%",
+        f"{best} To reduce it further, correct in more planes." if share > FEW_PLANES else None,
     )  # fmt: skip
 
 
@@ -324,7 +320,7 @@ def balance_warnings(
         yield from record_warnings(taken_run)
     yield from _units(taken)
     quantities = sorted({run.quantity for run in balancing.case.runs})
-    if len(quantities) > 1:
+    if len(quantities) > 1 and balancing.case.overdetermined:
         yield f"The runs are in {' and '.join(quantities)}: the sum of the squares of all velocities is minimised."
     yield from _directions(balancing, planes)
     yield from _within_grade(balancing)

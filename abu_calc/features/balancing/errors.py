@@ -224,10 +224,12 @@ def size(deltas: Iterable[complex]) -> float:
 @dataclass(frozen=True)
 class Remainder:
     """Motions of the sensors at a speed [m]: `now` as read without trial masses; after the correction the part that
-    the planes cannot take away, the part that limits and stock leave, and the rms that errors leave.
+    the planes cannot take away, the part that limits and stock leave, and the rms that errors leave. `scale`: the
+    quantity that is compared over the displacement.
     """
 
     speed: float
+    scale: float
     now: Array
     planes: Array
     leftover: Array
@@ -247,11 +249,6 @@ class Remainder:
     def at_most(self) -> Floats:
         """Amplitudes that are exceeded less than once in twenty: errors exceed twice their rms more rarely."""
         return np.asarray(np.abs(self.planes) + 2 * np.hypot(np.abs(self.leftover), self.errors))
-
-    def share(self, part: Array | Floats) -> float:
-        """A part over the motions now, both rms over the sensors; 0 where nothing moves now."""
-        now = float(np.linalg.norm(self.now))
-        return float(np.linalg.norm(part)) / now if now else 0.0
 
 
 def remainders(
@@ -274,9 +271,9 @@ def remainders(
         planes, now = (np.where(np.abs(each) > room, each, 0.0) for each in (planes, made_now + planes))
         moved = [matrix @ change.imbalance + misfit(change.misfits) for change in by]
         moved += [matrix @ each for each in placed]
-        made.append(Remainder(
-            case.runs[group[0]].speed, now, planes, matrix @ leftover, np.linalg.norm(moved, axis=0)
-        ))  # fmt: skip
+        speed, errors = case.runs[bare[0]].speed, np.linalg.norm(moved, axis=0)
+        scale = abs(reading_factor(case.quantity, speed))
+        made.append(Remainder(speed, scale, now, planes, matrix @ leftover, errors))
     return tuple(made)
 
 
@@ -293,10 +290,12 @@ def between_runs(case: Balancing, misfits: Sequence[Vector]) -> tuple[Vector, ..
     return tuple(map(tuple, rest.tolist()))
 
 
-def in_deviations(solution: Solution, misfits: Sequence[Vector], changes: Sequence[Sequence[Vector]]) -> float | None:
-    """The largest misfit over its standard deviation; None where the runs have nothing to disagree about."""
-    sizes = []
-    for index, own in enumerate(misfits):
+def in_deviations(
+    solution: Solution, by: Sequence[ErrorContribution], part: Callable[[Sequence[Vector]], Sequence[Vector]] = tuple
+) -> float | None:
+    """The largest misfit, or part of one, over its standard deviation; None where nothing can differ."""
+    sizes, changes = [], [part(change.misfits) for change in by]
+    for index, own in enumerate(part(solution.misfits)):
         scale = max(abs(made) for made in motion_of(solution.influences[index], solution.imbalance))
         for k, misfit in enumerate(own):
             expected = size(change[index][k] for change in changes)

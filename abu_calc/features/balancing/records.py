@@ -172,7 +172,9 @@ class ResidualCheck(Record):
         float | None,
         Quantity("vibration that the planes leave", "", 2, "of that before; more sensors than planes", percent=True),
     ]
-    compared: Annotated[str, Quantity("quantity whose sum of squares is the least")]
+    minimised: Annotated[
+        str | None, Quantity("quantity whose sum of squares is the least", "", 4, "if something remains")
+    ]
     verification: tuple[Verification, ...]
     """Verifications for each speed and quantity of the runs."""
 

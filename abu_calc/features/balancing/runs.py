@@ -127,6 +127,11 @@ class Balancing:
         named = {run.quantity for run in self.runs}
         return named.pop() if len(named) == 1 else "velocity"
 
+    @property
+    def overdetermined(self) -> bool:
+        """Tell whether the sensors at all speeds are more than the planes."""
+        return len(self.speed_groups) * len(self.runs[0].amplitudes) > self.planes
+
     def least(self, index: int) -> float:
         """Displacement below which readings of a run are too small to be a measure [m]."""
         (group,) = (group for group in self.speed_groups if index in group)

@@ -1,6 +1,7 @@
 """Solution of a file of readings in SI: the correction, its possible error, and the imbalance that it leaves."""
 
 import cmath
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
@@ -21,9 +22,10 @@ from abu_calc.features.balancing.errors import (
 )
 from abu_calc.features.balancing.formulas import Signed, Vector, influence, natural_frequencies, published_answer
 from abu_calc.features.balancing.methods import Method, Solution, method_of, motion_of, said_of_resonance, solved
-from abu_calc.features.balancing.runs import Balancing, Coefficients, TrialMass, imbalance_of
+from abu_calc.features.balancing.runs import SEEN, Balancing, Coefficients, TrialMass, imbalance_of
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.features.balancing.tolerance import TolerancePlanes, tolerance_of
+from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
@@ -61,6 +63,8 @@ class Found:
     leftover: Vector
     remainders: tuple[Remainder, ...]
     """Motions of the sensors at each speed, now and after the correction."""
+    rest_share: float
+    """Vibration left, rms over the errors, of that before."""
     error_share: float
     """Vibration that the errors alone leave, of that before."""
     planes_share: float | None
@@ -77,11 +81,6 @@ class Found:
     """A speed farther from the natural frequencies that was tried [rad/s], and what would be left there."""
     printed: tuple[Signed, Signed] | None
     """Result of the formula as published for the first run without trial masses."""
-
-    @property
-    def rest_share(self) -> float:
-        """Vibration left, rms over the errors, of that before."""
-        return max(each.share(each.expected) for each in self.remainders)
 
     @property
     def rest(self) -> tuple[float, ...]:
@@ -120,13 +119,10 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         target=answer.target,
         leftover=leftover,
         remainders=left,
-        error_share=_error_share(left),
+        rest_share=_worst_share(left, [each.expected for each in left]),
+        error_share=_worst_share(left, [each.errors for each in left]),
         planes_share=_planes_share(case, answer, left),
-        disagreement=in_deviations(
-            answer.solution,
-            between_runs(case, answer.solution.misfits),
-            [between_runs(case, change.misfits) for change in answer.by],
-        ),
+        disagreement=in_deviations(answer.solution, answer.by, lambda misfits: between_runs(case, misfits)),
         tolerance=tolerance_of(file, service),
         service_speed=service,
         bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
@@ -168,7 +164,8 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
         target = tuple(Q - mass for Q, mass in zip(solution.imbalance, known, strict=True))
         by = [*changes(case, method, sigma), *_of_fitted(case, replaced, sigma)]
         placed = placing([(Q,) for Q in target], sigma)
-        share = _error_share(remainders(case, solution, by, placed, (0j,) * case.planes))
+        left = remainders(case, solution, by, placed, (0j,) * case.planes)
+        share = _worst_share(left, [each.errors for each in left])
         if share > HOPELESS and not replaced and _finely_measured(case, method, by):
             return _Answer(solution, target, by, below=True)
         if share > HOPELESS:
@@ -206,18 +203,25 @@ def _hopeless(case: Balancing, share: float) -> str:
     )
 
 
-def _error_share(left: Sequence[Remainder]) -> float:
-    """Vibration that errors leave over that before, at the worst speed."""
-    return max(each.share(each.errors) for each in left)
+def _worst_share(left: Sequence[Remainder], parts: Sequence[Floats]) -> float:
+    """Parts of the vibration over that before, at the worst speed; 0 where nothing moves before.
+
+    A speed of little vibration counts from a tenth of the largest on.
+    """
+    before = [each.scale * size(each.now) for each in left]
+    least = SEEN * max(before)
+    after = [each.scale * size(part) for each, part in zip(left, parts, strict=True)]
+    return max(rest / (max(now, least) or math.inf) for rest, now in zip(after, before, strict=True))
 
 
 def _planes_share(case: Balancing, answer: "_Answer", left: Sequence[Remainder]) -> float | None:
-    """Vibration that the planes leave over that before, at the worst speed; 0 where errors alone explain it."""
+    """Vibration that the planes leave over that before, of all speeds; 0 where errors alone explain it."""
     if len(case.runs[0].amplitudes) <= case.planes:
         return None
-    solution = answer.solution
-    misfit = in_deviations(solution, solution.misfits, [change.misfits for change in answer.by]) or 0.0
-    return max(each.share(each.planes) for each in left) if misfit > BEYOND_ERRORS else 0.0
+    misfit = in_deviations(answer.solution, answer.by) or 0.0
+    sizes = [(each.scale * size(each.planes), each.scale * size(each.now)) for each in left]
+    rest, now = (math.hypot(*each) for each in zip(*sizes, strict=True))
+    return rest / (now or math.inf) if misfit > BEYOND_ERRORS else 0.0
 
 
 def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[float, float] | None:
@@ -234,7 +238,7 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
     there = replace(case, runs=(run,))
     placed = placing([(Q,) for Q in solution.imbalance], sigma)
     left = remainders(there, solved(there, "rig data"), changes(there, "rig data", sigma), placed, (0j, 0j))
-    return speed, _error_share(left)
+    return speed, _worst_share(left, [each.errors for each in left])
 
 
 def _service_speed(file: ReadingsFile, case: Balancing) -> float:

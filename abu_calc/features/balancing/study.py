@@ -117,7 +117,7 @@ def residual_check(balancing: Found, taken: Sequence[Taken]) -> ResidualCheck:
         disagreement=balancing.disagreement,
         verification=tuple(_verification(own, remainder) for own, remainder in _unlike(taken, balancing)),
         planes_share=balancing.planes_share,
-        compared=balancing.case.quantity,
+        minimised=balancing.case.quantity if balancing.case.overdetermined else None,
     )
 
 

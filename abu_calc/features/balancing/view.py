@@ -280,8 +280,8 @@ def _misfit(result: BalanceResult) -> str:
         text += "," if check.planes_share is None else ". Runs of one speed differ by"
         text += f" {number(check.disagreement, 2)} standard deviations"
     text += f". Vibration expected after the correction: {number(100 * check.rest_share, 2)} % of that now."
-    if any(len(run.sensors) * len(check.verification) > len(result.planes) for run in check.verification):
-        text += f" No other correction in these planes makes the sum of its squares smaller ({check.compared})."
+    if check.minimised is not None:
+        text += f" No other correction in these planes makes the sum of its squares smaller ({check.minimised})."
     return text
 
 
