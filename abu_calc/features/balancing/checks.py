@@ -286,13 +286,13 @@ def _few_planes(balancing: Found) -> Iterator[Check]:
 def _coefficients(balancing: Found) -> Iterator[Check]:
     """Check that stored coefficients fit the runs.
 
-    Runs tell it with unlike masses at one speed, or at several speeds with no more sensors than planes.
+    Runs tell it with unlike masses at one speed, or at several speeds if the planes suffice.
     """
     if balancing.solution.method != "stored coefficients":
         return
     case, value = balancing.case, balancing.disagreement
     unlike = any(len({case.runs[index].placed for index in group}) > 1 for group in case.speed_groups)
-    if value is None or not (unlike or (len(case.speed_groups) > 1 and balancing.planes_share is None)):
+    if value is None or not (unlike or (len(case.speed_groups) > 1 and not balancing.planes_share)):
         yield coded(
             "ABU1010", "warn", "these runs cannot show whether the stored coefficients still fit",
             remedy="After the correction run again. Add that run with the correction as its trial.",

@@ -277,21 +277,19 @@ def remainders(
     return tuple(made)
 
 
-def between_runs(case: Balancing, misfits: Sequence[Vector]) -> tuple[Vector, ...]:
-    """Misfits of the runs that no further plane could take away.
-
-    If there are more sensors than planes, these are the differences from the mean of the runs of a speed.
+def of_planes(case: Balancing, solution: Solution, misfits: Sequence[Vector], *, all_speeds: bool = False) -> Array:
+    """Part of the misfits that further planes could take away: that of the mean of the runs of a speed which no
+    imbalance of the planes makes at this speed, or, `all_speeds`, the whole mean.
     """
-    if len(case.runs[0].amplitudes) <= case.planes:
-        return tuple(misfits)
-    rest = np.array(misfits)
+    part = np.zeros((len(misfits), len(misfits[0])), complex)
     for group in map(list, case.speed_groups):
-        rest[group] -= rest[group].mean(axis=0)
-    return tuple(map(tuple, rest.tolist()))
+        matrix, mean = np.array(solution.influences[group[0]]), np.mean([misfits[index] for index in group], axis=0)
+        part[group] = mean if all_speeds else mean - matrix @ (np.linalg.pinv(matrix) @ mean)
+    return part
 
 
 def in_deviations(
-    solution: Solution, by: Sequence[ErrorContribution], part: Callable[[Sequence[Vector]], Sequence[Vector]] = tuple
+    solution: Solution, by: Sequence[ErrorContribution], part: Callable[[Sequence[Vector]], Array]
 ) -> float | None:
     """The largest misfit, or part of one, over its standard deviation; None where nothing can differ."""
     sizes, changes = [], [part(change.misfits) for change in by]

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
+import numpy as np
+
 from abu_calc.features.balancing.case import Taken, balancing, behind_the_mark, deviations, making_of, mass_of
 from abu_calc.features.balancing.corrections import Making, MassShare, correction, total
 from abu_calc.features.balancing.errors import (
@@ -13,9 +15,9 @@ from abu_calc.features.balancing.errors import (
     Deviations,
     ErrorContribution,
     Remainder,
-    between_runs,
     changes,
     in_deviations,
+    of_planes,
     placing,
     remainders,
     size,
@@ -108,6 +110,7 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
     placed = placing([_pieces(*each) for each in zip(shares, radii, strict=True)], sigma)
     spread = [*(change.imbalance for change in answer.by), *placed, leftover]
     left = remainders(case, answer.solution, answer.by, placed, leftover)
+    planes_share, disagreement = _misfits(case, answer, left)
     return Found(
         case=case,
         sigma=sigma,
@@ -121,8 +124,8 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         remainders=left,
         rest_share=_worst_share(left, [each.expected for each in left]),
         error_share=_worst_share(left, [each.errors for each in left]),
-        planes_share=_planes_share(case, answer, left),
-        disagreement=in_deviations(answer.solution, answer.by, lambda misfits: between_runs(case, misfits)),
+        planes_share=planes_share,
+        disagreement=disagreement,
         tolerance=tolerance_of(file, service),
         service_speed=service,
         bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
@@ -214,14 +217,22 @@ def _worst_share(left: Sequence[Remainder], parts: Sequence[Floats]) -> float:
     return max(rest / (max(now, least) or math.inf) for rest, now in zip(after, before, strict=True))
 
 
-def _planes_share(case: Balancing, answer: "_Answer", left: Sequence[Remainder]) -> float | None:
-    """Vibration that the planes leave over that before, of all speeds; 0 where errors alone explain it."""
+def _misfits(case: Balancing, answer: "_Answer", left: Sequence[Remainder]) -> tuple[float | None, float | None]:
+    """Vibration that the planes leave over that before, of all speeds, 0 where errors explain it; and the largest
+    misfit, in standard deviations, that no further plane could take away. None for what the runs do not tell.
+    """
+    solution, by = answer.solution, answer.by
     if len(case.runs[0].amplitudes) <= case.planes:
-        return None
-    misfit = in_deviations(answer.solution, answer.by) or 0.0
+        return None, in_deviations(solution, by, np.array)
+    lack = in_deviations(solution, by, lambda misfits: of_planes(case, solution, misfits)) or 0.0
+    few = lack > BEYOND_ERRORS
+    mean = few or len(case.speed_groups) == 1
+    contradiction = in_deviations(
+        solution, by, lambda misfits: np.array(misfits) - of_planes(case, solution, misfits, all_speeds=mean)
+    )
     sizes = [(each.scale * size(each.planes), each.scale * size(each.now)) for each in left]
     rest, now = (math.hypot(*each) for each in zip(*sizes, strict=True))
-    return rest / (now or math.inf) if misfit > BEYOND_ERRORS else 0.0
+    return rest / (now or math.inf) if few else 0.0, contradiction
 
 
 def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[float, float] | None:

@@ -277,7 +277,7 @@ def _misfit(result: BalanceResult) -> str:
     check = result.residual_check
     text = f"Readings recalculated from this imbalance differ by {misfit(check)} of the largest reading"
     if check.disagreement is not None:
-        text += "," if check.planes_share is None else ". Runs of one speed differ by"
+        text += "," if check.planes_share is None else ". Beyond what the planes leave, runs differ by"
         text += f" {number(check.disagreement, 2)} standard deviations"
     text += f". Vibration expected after the correction: {number(100 * check.rest_share, 2)} % of that now."
     if check.minimised is not None:

@@ -199,6 +199,18 @@ def test_too_few_planes_are_told_apart_from_runs_that_contradict(tmp_path: Path)
         assert grades(abu_calc.balance(rotor([run(X), then]), coefficients))["ABU1010"] in statuses
 
 
+def test_a_wrong_angle_at_one_speed_is_found_where_the_planes_suffice() -> None:
+    """Two bearings that one plane brings to zero at each speed; at the second the trial mass was 30° elsewhere."""
+    W1, W2 = (random_machine(seed, 2, 1)[0] for seed in (1, 2))
+    Q = np.array([5e-4 + 2e-4j])
+    first, second = with_trials(W1, W1 @ Q, rpm=1200.0), with_trials(W2, W2 @ Q, rpm=2400.0)
+    good = abu_calc.balance(rotor([*first, *second], 1))
+    assert (grades(good)["ABU1006"], grades(good)["ABU1013"]) == ("pass", "pass")
+    second[1]["trial"][0]["angle_deg"] = 30.0
+    wrong = abu_calc.balance(rotor([*first, *second], 1))
+    assert (grades(wrong)["ABU1006"], grades(wrong)["ABU1013"]) == ("fail", "pass")
+
+
 def test_what_remains_is_at_most_what_was_told() -> None:
     """Three sensors, one plane, every number off by its error: each bound may be exceeded once in twenty."""
     rng, beyond, squares = np.random.default_rng(8), 0, []
