@@ -298,5 +298,5 @@ def in_deviations(
         for k, misfit in enumerate(own):
             expected = size(change[index][k] for change in changes)
             if expected > ROUNDING * scale:
-                sizes.append(abs(misfit) / expected)
+                sizes.append(float(abs(misfit)) / expected)
     return max(sizes, default=None)
