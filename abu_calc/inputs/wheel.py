@@ -3,6 +3,7 @@
 Instrument readings are keys of [wheel] and of [measured_after] alike.
 """
 
+import re
 from typing import Annotated, Any, ClassVar, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -179,8 +180,11 @@ def displaced_quantities(key: str) -> tuple[str, ...]:
     return others if key == "measured_acceleration_m_per_s2" else (*others, "measured_weighting")
 
 
-BalanceGrade = Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"]
-"""The grades of ISO 21940-11:2016, table 1."""
+BalanceGrade = Annotated[
+    Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"],
+    BeforeValidator(lambda grade: re.sub(r"^g\s*", "G", grade, flags=re.I) if isinstance(grade, str) else grade),
+]
+"""The grades of ISO 21940-11:2016, table 1; people also write "G 6.3" and "g6.3"."""
 
 SOURCES: Final = ("imbalance_g_mm", "balance_grade", *QUANTITIES)
 BARE: Final = "idle, without autobalancer, instead of imbalance_g_mm"

@@ -3,7 +3,9 @@
 from pathlib import Path
 
 import pytest
+from pydantic import ValidationError
 
+from abu_calc.features.balancing.tables import Tolerance
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.wheel import SOURCES, MeasuredAfter, Shown, Wheel, displaced_quantities
 from tests.inputs.samples import BASIC, read
@@ -26,6 +28,16 @@ def test_runout_from_either_key(tmp_path: Path) -> None:
 def test_balance_grades(tmp_path: Path, grade: str) -> None:
     wheel = machine(tmp_path, BASIC.replace("imbalance_g_mm = 150.0", f'balance_grade = "G{grade}"')).wheel
     assert wheel.grade == float(grade) and wheel.imbalance_g_mm is None
+
+
+@pytest.mark.parametrize("written", ["G 6.3", "g6.3", "g 6.3", "G6.3"])
+def test_a_balance_grade_as_people_write_it(tmp_path: Path, written: str) -> None:
+    """In machine files and readings alike; a number without its letter, or cut by a space, is refused."""
+    wheel = machine(tmp_path, BASIC.replace("imbalance_g_mm = 150.0", f'balance_grade = "{written}"')).wheel
+    assert wheel.balance_grade == "G6.3" and Tolerance(balance_grade=written).balance_grade == "G6.3"
+    for other in (written[1:], written.replace(".", ". "), f"G{written}"):
+        with pytest.raises(ValidationError, match="balance_grade"):
+            Tolerance(balance_grade=other)
 
 
 WHEEL = {"mass_kg": 0.6, "diameter_mm": 150.0}

@@ -6,10 +6,10 @@ from typing import Final
 from abu_calc.features.balancing.case import Taken, record_warnings
 from abu_calc.features.balancing.corrections import added, removed
 from abu_calc.features.balancing.formulas import bar_bending_speed, influence
-from abu_calc.features.balancing.methods import motion_of, near_resonance
+from abu_calc.features.balancing.methods import near_resonance
 from abu_calc.features.balancing.records import PlaneCorrection
 from abu_calc.features.balancing.runs import ONE_SPEED
-from abu_calc.features.balancing.solution import Found
+from abu_calc.features.balancing.solution import BEYOND_ERRORS, Found
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.units import from_si
@@ -22,14 +22,12 @@ RIGID: Final = (0.5, 0.7)
 """Speed over the roll's bending speed, likewise; an assumed bending speed warns from the second on."""
 SURE: Final = (0.1, 0.5)
 """Vibration expected to be left, of that before."""
-AGREE: Final = (3.0, 6.0)
+AGREE: Final = (BEYOND_ERRORS, 6.0)
 """Misfit of runs in standard deviations."""
+FEW_PLANES: Final = 0.1
+"""Vibration that the planes leave, of that before."""
 TELLS: Final = (0.3, 0.05)
 """Least effect of a trial mass, as a share of the sensor's reading without it: to pass, and not to fail."""
-SEEN: Final = 0.1
-"""Part of the largest reading below which a reading is too small to be a measure."""
-
-
 LEFT: Final = (0.05, 0.25)
 """Imbalance that limits or stock leave, of that now: a warning from the first on, failed above the second."""
 
@@ -43,7 +41,7 @@ def balance_checks(balancing: Found, taken: Sequence[Taken]) -> tuple[Check, ...
     return (
         *_planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), *_sure(balancing),
         *_permitted(balancing), *_agree(balancing), *_trials(balancing), *_metal(balancing), *_convention(taken),
-        *_coefficients(balancing), *_room(balancing), *_discrete(balancing),
+        *_coefficients(balancing), *_room(balancing), *_discrete(balancing), *_few_planes(balancing),
     )  # fmt: skip
 
 
@@ -125,7 +123,7 @@ def _sure(balancing: Found) -> Iterator[Check]:
         remedy = LIGHTER
     elif share > SURE[0]:
         remedy = (
-            "Measure and correct once more after this correction: the remaining vibration falls from "
+            "Measure and correct once more after this correction: the vibration that errors leave falls from "
             f"{100 * share:.1f} to {100 * share**2:.1f} % (calculated with the same errors)."
         )
     yield coded(
@@ -182,8 +180,8 @@ def _trials(balancing: Found) -> Iterator[Check]:
     if balancing.solution.method not in ("trial masses", "runs without phase"):
         return
     value = min(
-        _change(balancing, group, plane)
-        for group in balancing.case.speed_groups
+        _change(balancing, number, plane)
+        for number in range(len(balancing.remainders))
         for plane in range(balancing.case.planes)
     )
     remedy = (
@@ -198,19 +196,19 @@ def _trials(balancing: Found) -> Iterator[Check]:
     )  # fmt: skip
 
 
-def _change(balancing: Found, group: Sequence[int], plane: int) -> float:
-    """Largest change of a reading by the trial mass of a plane, over what the same sensor reads without it.
+def _change(balancing: Found, number: int, plane: int) -> float:
+    """Largest change of a reading at a speed by the trial mass of a plane, over what the same sensor reads without it.
 
     A sensor that reads little counts from a tenth of the largest reading on.
     """
-    matrix, runs = balancing.solution.influences[group[0]], [balancing.case.runs[index] for index in group]
-    on = max(abs(run.placed[plane]) for run in runs)
-    before = [abs(phasor) for phasor in motion_of(matrix, balancing.solution.imbalance)]
-    floor = SEEN * max((abs(phasor) for run in runs for phasor in run.motion), default=0.0)
+    case, first = balancing.case, balancing.case.speed_groups[number][0]
+    on = max(abs(case.runs[index].placed[plane]) for index in case.speed_groups[number])
     return max(
-        (on * abs(row[plane]) / max(own, floor) for row, own in zip(matrix, before, strict=True) if max(own, floor)),
+        (on * abs(row[plane]) / size
+         for row, now in zip(balancing.solution.influences[first], balancing.remainders[number].now, strict=True)
+         if (size := max(float(abs(now)), case.least(first)))),
         default=0.0,
-    )
+    )  # fmt: skip
 
 
 def _metal(balancing: Found) -> Iterator[Check]:
@@ -271,15 +269,32 @@ def _convention(taken: Sequence[Taken]) -> Iterator[Check]:
     )  # fmt: skip
 
 
+def _few_planes(balancing: Found) -> Iterator[Check]:
+    """Check of the vibration that more planes would take away."""
+    share = balancing.planes_share
+    if share is None or balancing.below:
+        return
+    planes = "one plane" if balancing.case.planes == 1 else "two planes"
+    best = f"This is the best that {planes} can do: no other correction there leaves less vibration in all."
+    yield coded(
+        "ABU1013", verdict(True, share <= FEW_PLANES), f"vibration that {planes} cannot take away, rms, of that now",
+        100 * share, 100 * FEW_PLANES, "%",
+        f"{best} To reduce it further, correct in more planes." if share > FEW_PLANES else None,
+    )  # fmt: skip
+
+
 def _coefficients(balancing: Found) -> Iterator[Check]:
-    """Check that stored coefficients fit the runs; one run with as many readings as unknowns cannot tell."""
+    """Check that stored coefficients fit the runs.
+
+    Runs tell it with unlike masses at one speed, or at several speeds if the planes suffice.
+    """
     if balancing.solution.method != "stored coefficients":
         return
     case, value = balancing.case, balancing.disagreement
-    equations = len(case.speed_groups) * len(case.runs[0].amplitudes)
-    if value is None or (equations == case.planes and len({run.placed for run in case.runs}) == 1):
+    unlike = any(len({case.runs[index].placed for index in group}) > 1 for group in case.speed_groups)
+    if value is None or not (unlike or (len(case.speed_groups) > 1 and not balancing.planes_share)):
         yield coded(
-            "ABU1010", "warn", "one run cannot show whether the stored coefficients still fit",
+            "ABU1010", "warn", "these runs cannot show whether the stored coefficients still fit",
             remedy="After the correction run again. Add that run with the correction as its trial.",
         )  # fmt: skip
         return
@@ -304,6 +319,9 @@ def balance_warnings(
     for taken_run in taken:
         yield from record_warnings(taken_run)
     yield from _units(taken)
+    quantities = sorted({run.quantity for run in balancing.case.runs})
+    if len(quantities) > 1 and balancing.case.overdetermined:
+        yield f"The runs are in {' and '.join(quantities)}: the sum of the squares of all velocities is minimised."
     yield from _directions(balancing, planes)
     yield from _within_grade(balancing)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:

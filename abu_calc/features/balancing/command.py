@@ -27,6 +27,9 @@ def balance(
         typer.Option("--save-coefficients", metavar="FILE", help="Save the influence coefficients of the trial runs."),
     ] = None,
     set_: Overrides = None,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Print the whole report and every formula with its numbers.")
+    ] = False,
 ) -> Outcome:
     """Balance a rotor in one plane or two from runs on a rig or in the field.
 
@@ -39,7 +42,7 @@ def balance(
     if save_coefficients is not None:
         check_target(save_coefficients, force=how.force, suffixes=(".toml",), option="--save-coefficients")
     result = study(read_readings(readings, set_ or ()), coefficients)
-    outcome = outcome_of(result)
+    outcome = outcome_of(result, explain=explain)
     if save_coefficients is None:
         return outcome
     if result.coefficients_text is None:
@@ -50,10 +53,13 @@ def balance(
     return replace(outcome, further=(Target(save_coefficients, result.coefficients_text),))
 
 
-def outcome_of(result: "BalanceResult") -> Outcome:
-    """Outcome of a result: how it is shown and written."""
+def outcome_of(result: "BalanceResult", *, explain: bool = False) -> Outcome:
+    """Outcome of a result: how it is shown and written; `explain`: with every formula."""
+    from abu_calc.features.balancing.figures import balance_note
     from abu_calc.features.balancing.view import balance_blocks, balance_screen
 
+    if explain:
+        return Outcome.of(result, lambda: balance_blocks(result) + balance_note(result))
     return Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
 
 

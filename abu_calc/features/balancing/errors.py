@@ -7,17 +7,23 @@ Each input number is moved by its standard deviation:
 The errors of all numbers are independent.
 """
 
+import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
-from abu_calc.features.balancing.formulas import Matrix, Vector
-from abu_calc.features.balancing.methods import Method, Solution, motion_of, solved
+import numpy as np
+
+from abu_calc.features.balancing.formulas import Matrix, Vector, reading_factor
+from abu_calc.features.balancing.methods import Array, Method, Solution, motion_of, solved
 from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
+from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.frozen import dataclass
 
 LENGTHS: Final = ("a", "b", "c", "d")
+ROUNDING: Final = 1e-9
+"""Part of an imbalance, or of a motion, that only rounding leaves."""
 UNKNOWN: Final = math.pi
 """The standard deviation of an angle that nothing tells."""
 
@@ -82,7 +88,8 @@ Varied = Iterator[tuple[str, Balancing, Balancing | None]]
 def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
     """The case with one number up and down; down None where the number may not fall so far."""
     for index, run in enumerate(case.runs):
-        for cause, up, down in _runs(run, sigma):
+        least = case.least(index) * abs(reading_factor(run.quantity, run.speed))
+        for cause, up, down in _runs(run, sigma, least):
             yield cause, _with_run(case, index, up), _with_run(case, index, down)
     if method == "rig data" and case.roll is not None:
         yield from _rigs(case, sigma)
@@ -90,17 +97,22 @@ def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
         yield from _coefficients(case, case.coefficients, sigma)
 
 
-def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
+def _runs(run: RunOnRig, sigma: Deviations, least: float) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
+    """`least`: reading (SI) below which errors are those of a reading of this size."""
+
     def both(cause: str, moved: Callable[[float], RunOnRig]) -> tuple[str, RunOnRig, RunOnRig]:
         return cause, moved(1.0), moved(-1.0)
 
     for k, (peak, noise) in enumerate(zip(run.amplitudes, run.errors, strict=True)):
-        size = math.hypot(peak * sigma.amplitude, noise)
-        yield both("readings", lambda s, k=k, size=size: _with_amplitude(run, k, s * size))  # type: ignore[misc]
-    for k, (peak, noise) in enumerate(zip(run.amplitudes, run.errors, strict=True)):
+        arm = max(peak, least)
+        size = math.hypot(arm * sigma.amplitude, noise)
+        yield both("readings", lambda s, k=k, size=size: _with_reading(run, k, s * size))  # type: ignore[misc]
         if run.phases:
-            turn = math.hypot(sigma.phase, noise / peak if peak else 0.0)
-            yield both("readings", lambda s, k=k, turn=turn: _with_phase(run, k, s * turn))  # type: ignore[misc]
+            turn = math.hypot(sigma.phase, noise / arm if arm else 0.0)
+            yield both(
+                "readings",
+                lambda s, k=k, arm=arm, turn=turn: _with_reading(run, k, cmath.rect(arm, s * turn) - arm),  # type: ignore[misc]
+            )
     if run.phases:
         shift = run.unsure / math.sqrt(3)
         yield both("readings", lambda s: replace(run, phases=tuple(phase + s * shift for phase in run.phases)))
@@ -111,14 +123,15 @@ def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, Run
             yield "trial masses", high, low
 
 
-def _with_amplitude(run: RunOnRig, sensor: int, change: float) -> RunOnRig:
-    values = run.amplitudes
-    return replace(run, amplitudes=(*values[:sensor], values[sensor] + change, *values[sensor + 1 :]))
-
-
-def _with_phase(run: RunOnRig, sensor: int, change: float) -> RunOnRig:
-    values = run.phases
-    return replace(run, phases=(*values[:sensor], values[sensor] + change, *values[sensor + 1 :]))
+def _with_reading(run: RunOnRig, sensor: int, change: complex) -> RunOnRig:
+    """A run with the phasor of a reading moved; `change`: real along it, imaginary across it, toward smaller phases."""
+    amplitudes, phases = list(run.amplitudes), list(run.phases)
+    if change.imag:
+        amplitudes[sensor], turn = cmath.polar(amplitudes[sensor] + change)
+        phases[sensor] -= turn
+    else:
+        amplitudes[sensor] += change.real
+    return replace(run, amplitudes=tuple(amplitudes), phases=tuple(phases))
 
 
 def _heavier(weight: TrialMass, sigma: Deviations) -> list[TrialMass]:
@@ -208,19 +221,82 @@ def size(deltas: Iterable[complex]) -> float:
     return math.sqrt(sum(abs(each) ** 2 for each in deltas))
 
 
-def motions(matrix: Matrix, deltas: Iterable[Vector]) -> tuple[float, ...]:
-    """Amplitudes (rms over the errors) of the sensors that imbalances of this size leave [m]."""
-    made = [motion_of(matrix, each) for each in deltas]
-    return tuple(size(each[sensor] for each in made) for sensor in range(len(matrix)))
+@dataclass(frozen=True)
+class Remainder:
+    """Motions of the sensors at a speed [m]: `now` as read without trial masses; after the correction the part that
+    the planes cannot take away, the part that limits and stock leave, and the rms that errors leave. `scale`: the
+    quantity that is compared over the displacement.
+    """
+
+    speed: float
+    scale: float
+    now: Array
+    planes: Array
+    leftover: Array
+    errors: Floats
+
+    @property
+    def after(self) -> Array:
+        """Motions expected without errors."""
+        return self.planes + self.leftover
+
+    @property
+    def expected(self) -> Floats:
+        """Amplitudes expected with errors, rms."""
+        return np.hypot(np.abs(self.after), self.errors)
+
+    @property
+    def at_most(self) -> Floats:
+        """Amplitudes that are exceeded less than once in twenty: errors exceed twice their rms more rarely."""
+        return np.asarray(np.abs(self.planes) + 2 * np.hypot(np.abs(self.leftover), self.errors))
 
 
-def disagreement(solution: Solution, by: Sequence[ErrorContribution]) -> float | None:
-    """The largest misfit over its standard deviation; None where the runs have nothing to disagree about."""
-    sizes = []
-    for index, misfits in enumerate(solution.misfits):
+def remainders(
+    case: Balancing, solution: Solution, by: Sequence[ErrorContribution], placed: Sequence[Vector], leftover: Vector
+) -> tuple[Remainder, ...]:
+    """One for each speed; `placed`: imbalances that errors of the correction leave.
+
+    An error moves what remains as it moves readings and influences: by W·ΔQ and by the change of the misfit.
+    """
+    made = []
+    for group in case.speed_groups:
+        bare = [index for index in group if not any(case.runs[index].placed)] or list(group)
+        matrix = np.mean([solution.influences[index] for index in bare], axis=0)
+
+        def misfit(misfits: Sequence[Vector], bare: Sequence[int] = bare) -> Array:
+            return np.asarray(np.mean([misfits[index] for index in bare], axis=0))
+
+        planes, made_now = misfit(solution.misfits), matrix @ solution.imbalance
+        room = ROUNDING * np.abs(made_now).max()
+        planes, now = (np.where(np.abs(each) > room, each, 0.0) for each in (planes, made_now + planes))
+        moved = [matrix @ change.imbalance + misfit(change.misfits) for change in by]
+        moved += [matrix @ each for each in placed]
+        speed, errors = case.runs[bare[0]].speed, np.linalg.norm(moved, axis=0)
+        scale = abs(reading_factor(case.quantity, speed))
+        made.append(Remainder(speed, scale, now, planes, matrix @ leftover, errors))
+    return tuple(made)
+
+
+def of_planes(case: Balancing, solution: Solution, misfits: Sequence[Vector], *, all_speeds: bool = False) -> Array:
+    """Part of the misfits that further planes could take away: that of the mean of the runs of a speed which no
+    imbalance of the planes makes at this speed, or, `all_speeds`, the whole mean.
+    """
+    part = np.zeros((len(misfits), len(misfits[0])), complex)
+    for group in map(list, case.speed_groups):
+        matrix, mean = np.array(solution.influences[group[0]]), np.mean([misfits[index] for index in group], axis=0)
+        part[group] = mean if all_speeds else mean - matrix @ (np.linalg.pinv(matrix) @ mean)
+    return part
+
+
+def in_deviations(
+    solution: Solution, by: Sequence[ErrorContribution], part: Callable[[Sequence[Vector]], Array]
+) -> float | None:
+    """The largest misfit, or part of one, over its standard deviation; None where nothing can differ."""
+    sizes, changes = [], [part(change.misfits) for change in by]
+    for index, own in enumerate(part(solution.misfits)):
         scale = max(abs(made) for made in motion_of(solution.influences[index], solution.imbalance))
-        for k, misfit in enumerate(misfits):
-            expected = size(change.misfits[index][k] for change in by)
-            if expected > 1e-9 * scale:
-                sizes.append(abs(misfit) / expected)
+        for k, misfit in enumerate(own):
+            expected = size(change[index][k] for change in changes)
+            if expected > ROUNDING * scale:
+                sizes.append(float(abs(misfit)) / expected)
     return max(sizes, default=None)

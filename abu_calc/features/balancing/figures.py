@@ -14,7 +14,7 @@ from abu_calc.features.balancing.records import PlaneCorrection
 from abu_calc.features.balancing.study import BalanceResult
 from abu_calc.features.balancing.view import misfit, orders_of
 from abu_calc.features.explain.steps import STEPS, step_blocks
-from abu_calc.reporting.blocks import number
+from abu_calc.reporting.blocks import Block, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.drawings.dimensions import extent
@@ -174,7 +174,12 @@ def balance_extras(result: BalanceResult) -> Extras:
         Figure("planes", "before-the-roll", drawing, DRAWN.format(marks=result.angle_marks)), *_imbalance(result),
         *_vibration(result), *_causes(result), Figure("convention", "conventions", convention_drawing(result), words),
     )  # fmt: skip
-    return Extras(figures, tuple(step_blocks(STEPS["balance"], _numbers(result))))
+    return Extras(figures, balance_note(result))
+
+
+def balance_note(result: BalanceResult) -> tuple[Block, ...]:
+    """Every formula, with the numbers of this result."""
+    return tuple(step_blocks(STEPS["balance"], _numbers(result)))
 
 
 def _imbalance(result: BalanceResult) -> Iterator[Figure]:

@@ -1,16 +1,18 @@
 """Imbalances behind the readings: by the rig's data, by trial masses, by stored coefficients, or without phase.
 
-    by data            Q = mean over the runs of imbalances(X) − T              formulas.py beside it
+    by data            X − W·T = W·Q, W by the rig's data                       formulas.py beside it
     by trials          X = W·(Q + T), W and W·Q by least squares over the runs of each speed, T the masses that were on
     by coefficients    X − W·T = W·Q, W as stored
-    without phase      |X| = g·|Q + T|                                          without_phase.py beside it
+    without phase      |X| = g·|Q + T| of each sensor                           without_phase.py beside it
 
-Q is one for all speeds and sensors: least squares over their equations, each divided by the amplitude of its sensor at
-its speed. Numbers in SI; imbalances and motions as complex numbers, as in formulas.py.
+Q is one for all speeds and sensors: it minimises the sum of the squares of the vibration that remains, over all sensors
+and speeds, in the quantity that the sensors read. Numbers in SI; imbalances and motions as complex numbers, as in
+formulas.py.
 """
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -20,18 +22,20 @@ from abu_calc.features.balancing.formulas import (
     Matrix,
     Vector,
     condition_number,
-    imbalances,
     influence,
     natural_frequencies,
+    reading_factor,
 )
-from abu_calc.features.balancing.runs import ONE_SPEED, Balancing, RunOnRig
-from abu_calc.features.balancing.without_phase import solved_without_phase, tells_without_phase
+from abu_calc.features.balancing.runs import ONE_SPEED, Balancing
+from abu_calc.features.balancing.without_phase import amplitude_sets, solved_without_phase, tells_without_phase
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 
 Array = NDArray[np.complex128]
+Equation = tuple[float, Array, Array]
+"""Speed [rad/s], W and X of the readings of a run, or of the runs of a speed."""
 Method = Literal["rig data", "trial masses", "runs without phase", "stored coefficients"]
 
 TELLS_APART: Final = 1e-6
@@ -54,6 +58,8 @@ class Solution:
     misfits: tuple[Vector, ...]
     condition: float
     """Condition number of the equations for the imbalance."""
+    told: Vector = ()
+    """Imbalance that each sensor tells alone at each speed, without phase [kg m]."""
 
 
 def method_of(case: Balancing) -> Method:
@@ -130,44 +136,24 @@ def _refuse_other_coefficients(case: Balancing) -> None:
 
 @formula(
     "Imbalances by influence coefficients, over all speeds and sensors",
-    "Σ|w_s·(X_s − ΣW_sp·Q_p)|² → min",
+    "Σ|c_s·(X_s − ΣW_sp·Q_p)|² → min",
     "kg m",
     where=(
-        "The trial runs of each speed give W_sp and the readings X_s without trial masses. The weight w_s is one over "
-        "the amplitude of the sensor at the speed. With as many equations as planes the solution is exact."
+        "X_s − ΣW_sp·Q_p is the vibration that remains. c_s makes its displacement the quantity that the runs name: 1, "
+        "Ω or Ω². If the runs name several quantities, velocities are compared. The trial runs of each speed give W_sp "
+        "and the readings X_s without trial masses. With stored coefficients or data of the rig each run counts. With "
+        "as many equations as planes nothing remains."
     ),
-    source="Goodman 1964, weighted",
+    source="Goodman 1964",
 )
 def solved(case: Balancing, method: Method, near: Solution | None = None) -> Solution:
     """The imbalances behind the runs; `near`: solution of nearly the same case.
 
     Raises NotTrustworthyError where the planes can hardly be told apart.
     """
-    if method == "rig data":
-        return _by_rig(case)
     if method == "runs without phase":
-        imbalance, gains = solved_without_phase(case, None if near is None else near.imbalance[0])
-        rows = tuple(tuple((gain + 0j,) for gain in run_gains) for run_gains in gains)
-        misfits = tuple(
-            tuple(amplitude.real - gain * abs(imbalance + run.placed[0]) + 0j
-                  for amplitude, gain in zip(run.motion, run_gains, strict=True))
-            for run, run_gains in zip(case.runs, gains, strict=True)
-        )  # fmt: skip
-        return Solution(method, (imbalance,), rows, misfits, 1.0)
-    return _by_trials(case) if method == "trial masses" else _by_coefficients(case)
-
-
-def _by_rig(case: Balancing) -> Solution:
-    roll = case.roll
-    if roll is None:
-        raise InputError("the rig is not known", place=Place(key="rig"))
-    influences = tuple(influence(roll, run.speed) for run in case.runs)
-    condition = max(map(condition_number, influences))
-    _refuse_singular(condition, said_of_resonance(case))
-    imbalance = np.mean(
-        [np.subtract(imbalances(roll, run.speed, run.motion), run.placed) for run in case.runs], axis=0
-    )  # fmt: skip
-    return _solution("rig data", imbalance, influences, case.runs, condition)
+        return _by_amplitudes(case, () if near is None else near.told)
+    return _by_trials(case) if method == "trial masses" else _by_known_influence(case, method)
 
 
 def _by_trials(case: Balancing) -> Solution:
@@ -179,30 +165,45 @@ def _by_trials(case: Balancing) -> Solution:
         scale = np.abs(trials).max(axis=0)
         coefficients = np.linalg.lstsq(trials / scale, motions, rcond=None)[0] / scale[:, None]
         matrix = coefficients[:-1].T
-        _refuse_unseen(matrix, scale[:-1], _amplitudes(motions), case)
+        _refuse_unseen(matrix, scale[:-1], float(np.abs(motions).max()), case)
         matrices.update(dict.fromkeys(group, matrix))
-        equations.append((matrix, coefficients[-1], _amplitudes(motions)))
-    imbalance, condition = _least_squares(equations)
+        equations.append((runs[0].speed, matrix, coefficients[-1]))
     influences = tuple(_matrix(matrices[index]) for index in range(len(case.runs)))
-    return _solution("trial masses", imbalance, influences, case.runs, condition)
+    return _solution(case, "trial masses", influences, equations)
 
 
-def _by_coefficients(case: Balancing) -> Solution:
-    stored = case.coefficients
-    if stored is None:
-        raise InputError("no coefficients are stored", place=Place(key="run"))
-    influences = tuple(stored.matrices[stored.at(run.set_speed) or 0] for run in case.runs)
-    equations = []
-    for run, rows in zip(case.runs, influences, strict=True):
-        matrix = np.array(rows)
-        equations.append((matrix, np.array(run.motion) - matrix @ np.array(run.placed), _amplitudes([run.motion])))
-    imbalance, condition = _least_squares(equations)
-    return _solution("stored coefficients", imbalance, influences, case.runs, condition)
+def _by_amplitudes(case: Balancing, near: Sequence[complex]) -> Solution:
+    """Solution without phase: the imbalance that each sensor tells makes up for the phases."""
+    sets, equations = amplitude_sets(case), []
+    told = solved_without_phase(sets, near)
+    gains, motions = (np.zeros((len(case.runs), len(case.runs[0].amplitudes)), kind) for kind in (float, complex))
+    for each, Q in zip(sets, told, strict=True):
+        runs, gain = list(each.runs), each.gain(Q)
+        gains[runs, each.sensor], motions[runs, each.sensor] = gain, each.motions(Q)
+        equations.append((each.speed, np.array([[gain]]), np.array([gain * Q])))
+    influences = tuple(_matrix(row[:, None] + 0j) for row in gains)
+    return replace(_solution(case, "runs without phase", influences, equations, motions.tolist()), told=told)
 
 
-def _refuse_unseen(matrix: Array, masses: Any, sizes: Any, case: Balancing) -> None:
+def _by_known_influence(case: Balancing, method: Method) -> Solution:
+    """Solution by the rig's data, or by stored coefficients."""
+    roll, stored = case.roll, case.coefficients
+    if method == "rig data" and roll is not None:
+        influences = tuple(influence(roll, run.speed) for run in case.runs)
+    elif stored is not None:
+        influences = tuple(stored.matrices[stored.at(run.set_speed) or 0] for run in case.runs)
+    else:
+        raise InputError("the influence of the planes is not known", place=Place(key="run"))
+    equations = [
+        (run.speed, np.array(rows), np.subtract(run.motion, motion_of(rows, run.placed)))
+        for run, rows in zip(case.runs, influences, strict=True)
+    ]
+    return _solution(case, method, influences, equations)
+
+
+def _refuse_unseen(matrix: Array, masses: Any, largest: float, case: Balancing) -> None:
     """Raise NotTrustworthyError for trial masses of two planes that change no reading."""
-    seen = (np.abs(matrix) * masses / sizes[:, None]).max(axis=0)
+    seen = (np.abs(matrix) * masses).max(axis=0) / (largest or 1.0)
     if case.planes == 1 or not (seen <= TINY).any():
         return
     names = [name for name, share in zip(("left", "right"), seen, strict=True) if share <= TINY]
@@ -212,30 +213,22 @@ def _refuse_unseen(matrix: Array, masses: Any, sizes: Any, case: Balancing) -> N
     )
 
 
-def _amplitudes(motions: Any) -> Any:
-    """Amplitude of each sensor, rms over runs; 1 for a sensor that shows nothing."""
-    sizes = np.sqrt(np.mean(np.abs(np.asarray(motions)) ** 2, axis=0))
-    return np.where(sizes > 0, sizes, 1.0)
-
-
-def _least_squares(equations: Sequence[tuple[Array, Array, Any]]) -> tuple[Array, float]:
-    """Solution and condition number of W·Q = X over all equations, each with the amplitude that it is divided by."""
-    matrix, motion, sizes = (np.concatenate([each[k] for each in equations]) for k in range(3))
+def _least_squares(case: Balancing, equations: Sequence[Equation]) -> tuple[Array, float]:
+    """Solution and condition number of W·Q = X over all equations."""
+    matrix, motion = (np.concatenate([each[k] for each in equations]) for k in (1, 2))
     planes = matrix.shape[1]
     if len(matrix) < planes:
         raise InputError(
             "one sensor at one speed cannot distinguish two planes", place=Place(key="run"),
             found="1 reading in each run", allowed="two sensors, or two speeds", remedy="add a sensor",
         )  # fmt: skip
-    if len(matrix) == planes:
-        condition = condition_number(_matrix(matrix))
-        _refuse_singular(condition, planes=planes)
-        return np.linalg.solve(matrix, motion), condition
-    weighted = matrix / sizes[:, None]
-    condition = condition_number(_matrix(weighted))
-    _refuse_singular(condition, planes=planes)
-    scale = np.abs(weighted).max()
-    return np.linalg.lstsq(weighted / scale, motion / sizes / scale, rcond=None)[0], condition
+    if len(matrix) > planes:
+        shown = np.concatenate([np.full(len(X), abs(reading_factor(case.quantity, at))) for at, _, X in equations])
+        matrix, motion = matrix * shown[:, None], motion * shown
+    condition = condition_number(_matrix(matrix))
+    _refuse_singular(condition, said_of_resonance(case), planes)
+    scale = np.abs(matrix).max()
+    return np.linalg.lstsq(matrix / scale, motion / scale, rcond=None)[0], condition
 
 
 def _matrix(values: Array) -> Matrix:
@@ -271,13 +264,16 @@ def said_of_resonance(case: Balancing) -> str:
 
 
 def _solution(
-    method: Method, values: Array, influences: Sequence[Matrix], runs: Sequence[RunOnRig], condition: float
-) -> Solution:
+    case: Balancing, method: Method, influences: Sequence[Matrix], equations: Sequence[Equation],
+    motions: Sequence[Sequence[complex]] | None = None,
+) -> Solution:  # fmt: skip
+    """`motions`: those of the runs, if their readings do not give them."""
+    values, condition = _least_squares(case, equations)
     Q = tuple(complex(value) for value in values)
     misfits = []
-    for run, matrix in zip(runs, influences, strict=True):
+    for run, matrix, own in zip(case.runs, influences, motions or [run.motion for run in case.runs], strict=True):
         made = motion_of(matrix, tuple(np.add(Q, run.placed).tolist()))
-        misfits.append(tuple(motion - own for motion, own in zip(run.motion, made, strict=True)))
+        misfits.append(tuple(np.subtract(own, made).tolist()))
     return Solution(method, Q, tuple(influences), tuple(misfits), condition)
 
 

@@ -85,9 +85,21 @@ class SensorVerification(Record):
     """Readings of a sensor, in the unit of the run."""
 
     name: Annotated[str, Quantity("sensor")]
-    before: Annotated[float, Quantity("as it is", "", 4)]
+    before: Annotated[float, Quantity("as measured", "", 4)]
+    after: Annotated[float, Quantity("predicted", "", 3, "without errors")]
     expected: Annotated[float, Quantity("expected", "", 2, "rms over the errors")]
-    at_most: Annotated[float, Quantity("at most", "", 2, "twice that: exceeded less than once in twenty")]
+    at_most: Annotated[float, Quantity("at most", "", 2, "twice the rms errors: exceeded less than once in twenty")]
+
+
+@record
+class Predicted(Record):
+    """Reading of a sensor at a speed, measured and predicted after the correction, in the unit of the run."""
+
+    sensor: Annotated[str, Quantity("sensor")]
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    measured: Annotated[float, Quantity("measured", "|A|", 4, "without trial masses")]
+    after: Annotated[float, Quantity("predicted after the correction", "|A + α·W|", 3, "without errors")]
+    unit: Annotated[str, Quantity("unit of amplitudes")]
 
 
 @record
@@ -156,6 +168,13 @@ class ResidualCheck(Record):
         float, Quantity("misfit of the runs", "", 2, "largest, of the answer put back, over the largest reading")
     ]
     disagreement: Annotated[float | None, Quantity("misfit in standard deviations", "", 2)]
+    planes_share: Annotated[
+        float | None,
+        Quantity("vibration that the planes leave", "", 2, "of that before; more sensors than planes", percent=True),
+    ]
+    minimised: Annotated[
+        str | None, Quantity("quantity whose sum of squares is the least", "", 4, "if something remains")
+    ]
     verification: tuple[Verification, ...]
     """Verifications for each speed and quantity of the runs."""
 

@@ -16,7 +16,8 @@ class Errors(Table):
 
     amplitude_percent: float = Field(
         default=1.0,
-        description="Error of each amplitude [%]; {range}. Default: {default}, assumed.",
+        description="Error of each amplitude [%]; {range}. A reading below a tenth of the largest at its speed has the "
+        "errors of that tenth. Default: {default}, assumed.",
         ge=0,
         le=100,
         json_schema_extra=usual(0.01, 20),

@@ -11,6 +11,11 @@ from abu_calc.foundation.frozen import dataclass
 
 ONE_SPEED: Final = 0.01
 """Relative difference of speeds up to which influence coefficients are one set."""
+SEEN: Final = 0.1
+"""Part of the largest reading at a speed below which a reading is too small to be a measure.
+
+Smaller readings have the errors of one of this size.
+"""
 
 
 @dataclass(frozen=True)
@@ -115,6 +120,22 @@ class Balancing:
     def planes(self) -> int:
         """Number of correction planes."""
         return self.runs[0].planes
+
+    @property
+    def quantity(self) -> str:
+        """Quantity in which the vibration of all sensors is compared: that of the runs, velocity if they differ."""
+        named = {run.quantity for run in self.runs}
+        return named.pop() if len(named) == 1 else "velocity"
+
+    @property
+    def overdetermined(self) -> bool:
+        """Tell whether the sensors at all speeds are more than the planes."""
+        return len(self.speed_groups) * len(self.runs[0].amplitudes) > self.planes
+
+    def least(self, index: int) -> float:
+        """Displacement below which readings of a run are too small to be a measure [m]."""
+        (group,) = (group for group in self.speed_groups if index in group)
+        return SEEN * max(abs(phasor) for own in group for phasor in self.runs[own].motion)
 
     @property
     def speed_groups(self) -> tuple[tuple[int, ...], ...]:

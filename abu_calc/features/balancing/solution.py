@@ -6,22 +6,28 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
+import numpy as np
+
 from abu_calc.features.balancing.case import Taken, balancing, behind_the_mark, deviations, making_of, mass_of
 from abu_calc.features.balancing.corrections import Making, MassShare, correction, total
 from abu_calc.features.balancing.errors import (
+    ROUNDING,
     Deviations,
     ErrorContribution,
+    Remainder,
     changes,
-    disagreement,
-    motions,
+    in_deviations,
+    of_planes,
     placing,
+    remainders,
     size,
 )
 from abu_calc.features.balancing.formulas import Signed, Vector, influence, natural_frequencies, published_answer
 from abu_calc.features.balancing.methods import Method, Solution, method_of, motion_of, said_of_resonance, solved
-from abu_calc.features.balancing.runs import Balancing, Coefficients, TrialMass, imbalance_of
+from abu_calc.features.balancing.runs import SEEN, Balancing, Coefficients, TrialMass, imbalance_of
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.features.balancing.tolerance import TolerancePlanes, tolerance_of
+from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
@@ -30,12 +36,12 @@ FARTHER: Final = 1.6
 """Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
 HOPELESS: Final = 1.0
 """Vibration left, of that before, from which on the correction may do more harm than good: no number is given."""
+BEYOND_ERRORS: Final = 3.0
+"""Misfit in standard deviations beyond which errors do not explain it."""
 FINE: Final = 0.1
 """Error of an imbalance over the trial mass up to which the imbalance is measured well."""
 MUCH: Final = 10.0
 """Such a part whose size is of no interest."""
-ROUNDING: Final = 1e-9
-"""Part of an imbalance that only rounding leaves."""
 Spread = Sequence[Vector]
 """Changes of the imbalances by one standard deviation of each number, those of the correction itself among them."""
 
@@ -43,7 +49,7 @@ Spread = Sequence[Vector]
 @dataclass(frozen=True)
 class Found:
     """An answer; `target`: imbalance of each plane that the correction takes away, `leftover`: the part that discrete
-    masses cannot take away [kg m]; `rest_share`: vibration left, of that before.
+    masses cannot take away [kg m].
     """
 
     case: Balancing
@@ -57,9 +63,14 @@ class Found:
     spread: Spread
     target: Vector
     leftover: Vector
+    remainders: tuple[Remainder, ...]
+    """Motions of the sensors at each speed, now and after the correction."""
     rest_share: float
+    """Vibration left, rms over the errors, of that before."""
     error_share: float
-    """The same by the errors alone, without the leftover."""
+    """Vibration that the errors alone leave, of that before."""
+    planes_share: float | None
+    """Vibration that the planes alone leave, of that before; None with as many planes as sensors."""
     disagreement: float | None
     tolerance: TolerancePlanes | None
     service_speed: float
@@ -97,8 +108,9 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
     ]
     leftover = tuple(_leftover(*each) for each in zip(answer.target, shares, radii, strict=True))
     placed = placing([_pieces(*each) for each in zip(shares, radii, strict=True)], sigma)
-    errors = [*(change.imbalance for change in answer.by), *placed]
-    spread = [*errors, leftover]
+    spread = [*(change.imbalance for change in answer.by), *placed, leftover]
+    left = remainders(case, answer.solution, answer.by, placed, leftover)
+    planes_share, disagreement = _misfits(case, answer, left)
     return Found(
         case=case,
         sigma=sigma,
@@ -109,9 +121,11 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         spread=spread,
         target=answer.target,
         leftover=leftover,
-        rest_share=_rest_share(answer.solution, spread),
-        error_share=_rest_share(answer.solution, errors),
-        disagreement=disagreement(answer.solution, answer.by),
+        remainders=left,
+        rest_share=_worst_share(left, [each.expected for each in left]),
+        error_share=_worst_share(left, [each.errors for each in left]),
+        planes_share=planes_share,
+        disagreement=disagreement,
         tolerance=tolerance_of(file, service),
         service_speed=service,
         bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
@@ -152,8 +166,9 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
         known = imbalance_of(replaced, case.planes)
         target = tuple(Q - mass for Q, mass in zip(solution.imbalance, known, strict=True))
         by = [*changes(case, method, sigma), *_of_fitted(case, replaced, sigma)]
-        spread = [*(change.imbalance for change in by), *placing([(Q,) for Q in target], sigma)]
-        share = _rest_share(solution, spread)
+        placed = placing([(Q,) for Q in target], sigma)
+        left = remainders(case, solution, by, placed, (0j,) * case.planes)
+        share = _worst_share(left, [each.errors for each in left])
         if share > HOPELESS and not replaced and _finely_measured(case, method, by):
             return _Answer(solution, target, by, below=True)
         if share > HOPELESS:
@@ -191,14 +206,33 @@ def _hopeless(case: Balancing, share: float) -> str:
     )
 
 
-def _rest_share(solution: Solution, spread: Spread) -> float:
-    """Vibration that is left over that before, at the worst of the runs' speeds; 0 where there is none before."""
-    shares = [0.0]
-    for matrix in solution.influences:
-        before = math.hypot(*map(abs, motion_of(matrix, solution.imbalance)))
-        if before > 0:
-            shares.append(math.hypot(*motions(matrix, spread)) / before)
-    return max(shares)
+def _worst_share(left: Sequence[Remainder], parts: Sequence[Floats]) -> float:
+    """Parts of the vibration over that before, at the worst speed; 0 where nothing moves before.
+
+    A speed of little vibration counts from a tenth of the largest on.
+    """
+    before = [each.scale * size(each.now) for each in left]
+    least = SEEN * max(before)
+    after = [each.scale * size(part) for each, part in zip(left, parts, strict=True)]
+    return max(rest / (max(now, least) or math.inf) for rest, now in zip(after, before, strict=True))
+
+
+def _misfits(case: Balancing, answer: "_Answer", left: Sequence[Remainder]) -> tuple[float | None, float | None]:
+    """Vibration that the planes leave over that before, of all speeds, 0 where errors explain it; and the largest
+    misfit, in standard deviations, that no further plane could take away. None for what the runs do not tell.
+    """
+    solution, by = answer.solution, answer.by
+    if len(case.runs[0].amplitudes) <= case.planes:
+        return None, in_deviations(solution, by, np.array)
+    lack = in_deviations(solution, by, lambda misfits: of_planes(case, solution, misfits)) or 0.0
+    few = lack > BEYOND_ERRORS
+    mean = few or len(case.speed_groups) == 1
+    contradiction = in_deviations(
+        solution, by, lambda misfits: np.array(misfits) - of_planes(case, solution, misfits, all_speeds=mean)
+    )
+    sizes = [(each.scale * size(each.planes), each.scale * size(each.now)) for each in left]
+    rest, now = (math.hypot(*each) for each in zip(*sizes, strict=True))
+    return rest / (now or math.inf) if few else 0.0, contradiction
 
 
 def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[float, float] | None:
@@ -212,11 +246,10 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
         case.runs[0], speed=speed, quantity="displacement", sensor=0.0, weights=(), noise=(),
         amplitudes=tuple(abs(phasor) for phasor in motion), phases=tuple(-cmath.phase(phasor) for phasor in motion),
     )  # fmt: skip
-    by = changes(replace(case, runs=(run,)), "rig data", sigma)
-    there = replace(solution, influences=(matrix,))
-    return speed, _rest_share(
-        there, [*(change.imbalance for change in by), *placing([(Q,) for Q in solution.imbalance], sigma)]
-    )
+    there = replace(case, runs=(run,))
+    placed = placing([(Q,) for Q in solution.imbalance], sigma)
+    left = remainders(there, solved(there, "rig data"), changes(there, "rig data", sigma), placed, (0j, 0j))
+    return speed, _worst_share(left, [each.errors for each in left])
 
 
 def _service_speed(file: ReadingsFile, case: Balancing) -> float:

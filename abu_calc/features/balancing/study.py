@@ -13,9 +13,8 @@ from abu_calc.features.balancing.case import Taken, taken_runs
 from abu_calc.features.balancing.checks import balance_checks, balance_warnings
 from abu_calc.features.balancing.coefficients import Stored, coefficients_of, coefficients_text, read_coefficients
 from abu_calc.features.balancing.corrections import MassShare
-from abu_calc.features.balancing.errors import angular, motions, radial, size
+from abu_calc.features.balancing.errors import Remainder, angular, radial, size
 from abu_calc.features.balancing.formulas import Matrix, Vector, natural_frequencies, reading_factor, support_damping
-from abu_calc.features.balancing.methods import Solution, motion_of
 from abu_calc.features.balancing.next_run import proposals
 from abu_calc.features.balancing.read import Readings, read_readings
 from abu_calc.features.balancing.records import (
@@ -23,6 +22,7 @@ from abu_calc.features.balancing.records import (
     Complex,
     ErrorShare,
     PlaneCorrection,
+    Predicted,
     ResidualCheck,
     RunReadings,
     SensorReading,
@@ -32,7 +32,7 @@ from abu_calc.features.balancing.records import (
     TrialMassResult,
     Verification,
 )
-from abu_calc.features.balancing.runs import ONE_SPEED, Balancing
+from abu_calc.features.balancing.runs import Balancing
 from abu_calc.features.balancing.solution import Found, find
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.units import from_si, wrapped_deg
@@ -115,32 +115,31 @@ def residual_check(balancing: Found, taken: Sequence[Taken]) -> ResidualCheck:
         rest_share=balancing.rest_share,
         reproduced=misfit / largest if largest else 0.0,
         disagreement=balancing.disagreement,
-        verification=tuple(_verification(balancing, own, matrix) for own, matrix in _unlike(taken, solution)),
+        verification=tuple(_verification(own, remainder) for own, remainder in _unlike(taken, balancing)),
+        planes_share=balancing.planes_share,
+        minimised=balancing.case.quantity if balancing.case.overdetermined else None,
     )
 
 
-def _unlike(taken: Sequence[Taken], solution: Solution) -> list[tuple[Taken, Matrix]]:
-    """Runs of other speeds or units than those before."""
-    kept: list[tuple[Taken, Matrix]] = []
-    for own, matrix in zip(taken, solution.influences, strict=True):
-        alike = [
-            peer
-            for peer, _ in kept
-            if peer.instrument == own.instrument and abs(peer.run.speed / own.run.speed - 1) <= ONE_SPEED
-        ]
-        if not alike:
-            kept.append((own, matrix))
-    return kept
+def _unlike(taken: Sequence[Taken], balancing: Found) -> list[tuple[Taken, Remainder]]:
+    """A run of each speed and unit, with what remains at its speed."""
+    kept: dict[tuple[int, str], tuple[Taken, Remainder]] = {}
+    for number, (group, remainder) in enumerate(zip(balancing.case.speed_groups, balancing.remainders, strict=True)):
+        for index in group:
+            kept.setdefault((number, taken[index].instrument.shown), (taken[index], remainder))
+    return list(kept.values())
 
 
-def _verification(balancing: Found, taken: Taken, matrix: Matrix) -> Verification:
+def _verification(taken: Taken, remainder: Remainder) -> Verification:
     run, instrument = taken.run, taken.instrument
-    scale = abs(reading_factor(run.quantity, run.speed))
-    before = [instrument.reading(abs(value) * scale) for value in motion_of(matrix, balancing.solution.imbalance)]
-    after = [instrument.reading(amplitude * scale) for amplitude in motions(matrix, balancing.spread)]
+    scale = abs(reading_factor(run.quantity, remainder.speed))
+    amplitudes = {"before": abs(remainder.now), "after": abs(remainder.after), "expected": remainder.expected,
+                  "at_most": remainder.at_most}  # fmt: skip
     sensors = tuple(
-        SensorVerification(name=name, before=now, expected=rest, at_most=2 * rest)
-        for name, now, rest in zip(taken.sensors, before, after, strict=True)
+        SensorVerification(
+            name=name, **{key: instrument.reading(scale * float(own[k])) for key, own in amplitudes.items()}
+        )
+        for k, name in enumerate(taken.sensors)
     )
     sides = {
         f"{side}_{what}": next((getattr(sensor, what) for sensor in sensors if sensor.name == side), None)
@@ -280,6 +279,8 @@ class BalanceResult(Result):
         ),
     ]  # fmt: skip
     coefficients_file: Annotated[str | None, Quantity("stored coefficients of")]
+    predicted: tuple[Predicted, ...]
+    """Readings measured, and those predicted after the correction."""
     uncertainty_by_cause: tuple[ErrorShare, ...]
     trial_masses: tuple[TrialMassResult, ...]
     sensor_to_mark_deg: Annotated[float, Quantity("sensor of the mark", "", 4, "from the vibration sensors, first run")]
@@ -320,6 +321,7 @@ def balance(
     if balancing.solution.method == "trial masses":
         values = coefficients_of(balancing.case, balancing.solution, balancing.by)
         text = coefficients_text(file.rotor.name, file.planes, taken[0].sensors, values)
+    residual = residual_check(balancing, taken)
     return BalanceResult(
         title=file.rotor.name,
         checks=balance_checks(balancing, taken),
@@ -333,12 +335,19 @@ def balance(
         left=named.get("left"),
         right=named.get("right"),
         single_plane=named.get("single"),
-        residual_check=residual_check(balancing, taken),
+        residual_check=residual,
         tolerance=tolerance_result(balancing),
         runs=tuple(map(run_readings, taken)),
         natural_frequencies_hz=natural_hz(balancing.case),
         influence_coefficients=complex_rows(balancing.solution.influences[0]),
         coefficients_file=None if stored is None else stored.file,
+        predicted=tuple(
+            Predicted(
+                sensor=sensor.name, speed_rpm=run.speed_rpm, measured=sensor.before, after=sensor.after, unit=run.unit
+            )
+            for run in residual.verification
+            for sensor in run.sensors
+        ),
         uncertainty_by_cause=causes(balancing),
         trial_masses=trial_masses(readings, balancing),
         sensor_to_mark_deg=math.degrees(taken[0].run.sensor),

@@ -28,8 +28,10 @@ MARKS: Final = {
 }
 CONVENTION: Final = (
     "A lagging phase is that of A_j·cos(Ωt − phase), a leading one that of A_j·cos(Ωt + phase), t from the passage of "
-    "the mark at its sensor. Uncertainties are one standard deviation, by [errors]. The verification run is expected "
-    "to show the rms over them. At most means twice that, exceeded less than once in twenty."
+    "the mark at its sensor. Uncertainties are one standard deviation, by [errors]. A reading below a tenth of the "
+    "largest at its speed has the errors of that tenth. Predicted is what remains without errors. Expected is the rms "
+    "over the errors. At most adds twice the rms of the errors to what the planes leave. It is exceeded less than once "
+    "in twenty."
 )
 TRIALS_OFF: Final = "The correction is for the rotor without the trial masses: remove them first."
 TOTAL: Final = "The correction takes the place of the fitted masses: remove them first."
@@ -42,7 +44,10 @@ PRINTED: Final = (
 
 def balance_screen(result: BalanceResult) -> tuple[Block, ...]:
     """Correction to make, drawn, on one screen."""
-    return one_screen(result, _about(result), [_planes(result), *_drawn(result)])
+    verification = result.residual_check.verification
+    shown = all(len(run.sensors) == len(result.planes) for run in verification)
+    table: list[Block] = [] if shown else [Paragraph(""), _verification(verification)]
+    return one_screen(result, _about(result), [_planes(result), *table, *_drawn(result)])
 
 
 def balance_blocks(result: BalanceResult) -> tuple[Block, ...]:
@@ -256,11 +261,11 @@ def _drawn(result: BalanceResult) -> list[Block]:
 def _verification(runs: Sequence[Verification]) -> Grid:
     rows = tuple(
         (f"{run.speed_rpm:.0f}", f"{run.quantity}, {run.unit}", sensor.name,
-         *map(number, (sensor.before, sensor.expected, sensor.at_most), (4, 2, 2)))
+         *map(number, (sensor.before, sensor.after, sensor.expected, sensor.at_most), (4, 3, 2, 2)))
         for run in runs
         for sensor in run.sensors
     )  # fmt: skip
-    return Grid(("rpm", "quantity", "", "now", "expected", "at most"), rows, frozenset({0, 3, 4, 5}))
+    return Grid(("rpm", "quantity", "", "now", "predicted", "expected", "at most"), rows, frozenset({0, 3, 4, 5, 6}))
 
 
 def misfit(check: ResidualCheck) -> str:
@@ -272,8 +277,12 @@ def _misfit(result: BalanceResult) -> str:
     check = result.residual_check
     text = f"Readings recalculated from this imbalance differ by {misfit(check)} of the largest reading"
     if check.disagreement is not None:
-        text += f", {number(check.disagreement, 2)} standard deviations"
-    return f"{text}. Vibration expected after the correction: {number(100 * check.rest_share, 2)} % of that now."
+        text += "," if check.planes_share is None else ". Beyond what the planes leave, runs differ by"
+        text += f" {number(check.disagreement, 2)} standard deviations"
+    text += f". Vibration expected after the correction: {number(100 * check.rest_share, 2)} % of that now."
+    if check.minimised is not None:
+        text += f" No other correction in these planes makes the sum of its squares smaller ({check.minimised})."
+    return text
 
 
 ROUNDING: Final = 1e-6

@@ -1,7 +1,8 @@
 """Balancing of one plane from amplitudes alone: four runs or more, three of them with trial masses.
 
-Every amplitude is proportional to the imbalance that is on: A_k = g·|Q + T|, with one gain g for each sensor and
-speed. The squares are linear in g², g²·Q and g²·|Q|², which gives a start; Newton steps on the amplitudes follow.
+Every amplitude is proportional to the imbalance that is on: A_k = g·|Q + T|, with one gain g and one imbalance Q for
+each sensor and speed. The squares are linear in g², g²·Q and g²·|Q|², which gives a start; Newton steps on the
+amplitudes follow.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,10 +29,12 @@ MOST_DAMPING: Final = 1e8
 
 
 @dataclass(frozen=True)
-class SpeedSet:
-    """Runs of one speed: their places, the masses that were on [kg m], amplitudes (runs × sensors) [m]."""
+class AmplitudeSet:
+    """Amplitudes of a sensor in the runs of one speed [m], and the masses that were on [kg m]."""
 
+    speed: float
     runs: tuple[int, ...]
+    sensor: int
     placed: Complexes
     amplitudes: Floats
 
@@ -54,19 +57,24 @@ class SpeedSet:
         values = np.linalg.svd(self.terms, compute_uv=False)
         return float(values[-1] / values[0])
 
-    def gains(self, Q: complex) -> Floats:
-        """Gains of the sensors by least squares at a given imbalance."""
+    def gain(self, Q: complex) -> float:
+        """Gain by least squares at a given imbalance [m per kg m]."""
         sizes = np.abs(Q + self.placed)
-        whole = float(sizes @ sizes)
-        return np.asarray(sizes @ self.amplitudes / whole if whole else np.zeros(self.amplitudes.shape[1]))
+        return float(sizes @ self.amplitudes / (sizes @ sizes or 1.0))
+
+    def motions(self, Q: complex) -> Complexes:
+        """Amplitudes with the directions of the imbalances that are on."""
+        return np.asarray(self.amplitudes * np.exp(1j * np.angle(Q + self.placed)))
 
 
-def _sets(case: Balancing) -> list[SpeedSet]:
+def amplitude_sets(case: Balancing) -> list[AmplitudeSet]:
+    """One for each sensor at each speed."""
     made = []
     for group in case.speed_groups:
         runs = [case.runs[index] for index in group]
-        amplitudes = np.array([[abs(x) for x in run.motion] for run in runs])
-        made.append(SpeedSet(group, np.array([run.placed[0] for run in runs]), amplitudes))
+        placed = np.array([run.placed[0] for run in runs])
+        for sensor, readings in enumerate(zip(*(run.motion for run in runs), strict=True)):
+            made.append(AmplitudeSet(runs[0].speed, group, sensor, placed, np.abs(readings)))
     return made
 
 
@@ -75,7 +83,7 @@ def tells_without_phase(case: Balancing) -> None:
     if case.planes != 1:
         raise InputError("without phase one plane can be balanced, not two", place=Place(key="run"),
                          remedy="add phase_deg = …, or [single_plane]")  # fmt: skip
-    sets = _sets(case)
+    sets = amplitude_sets(case)
     if max(each.apart for each in sets) > TELLS:
         return
     most = max(len(set(each.placed.tolist())) for each in sets)
@@ -99,72 +107,64 @@ def tells_without_phase(case: Balancing) -> None:
     "kg m",
     where=(
         "A_k² = g_s²·(|Q|² + 2·Re(Q̄·T_trial) + |T_trial|²) is linear in g_s², g_s²·Q and its size: the start. Least "
-        "squares of the amplitudes give the result. Four runs are needed: three leave two solutions. No solution is "
-        "unique if zero and all T_trial lie on one line or on one circle."
+        "squares of the amplitudes of each sensor give its result. Four runs are needed: three leave two solutions. No "
+        "solution is unique if zero and all T_trial lie on one line or on one circle."
     ),
     source="the circles of the four-run method as equations",
 )
-def solved_without_phase(case: Balancing, near: complex | None = None) -> tuple[complex, tuple[tuple[float, ...], ...]]:
-    """Imbalance [kg m], and the gain of each sensor at each run [m per kg m].
+def solved_without_phase(sets: Sequence[AmplitudeSet], near: Sequence[complex] = ()) -> tuple[complex, ...]:
+    """Imbalance that each sensor tells at each speed [kg m]; at a speed of too few runs that of another speed.
 
     `near`: solution of nearly the same case, from which the search starts.
     """
-    sets = _sets(case)
-    starts = [near] if near is not None else [start for start in _starts(sets) if np.isfinite(start)]
-    if not starts:
+    told = dict[int, complex]()
+    for index, each in enumerate(sets):
+        starts = [near[index]] if near else [start for start in _starts(each) if np.isfinite(start)]
+        if starts and each.apart > TELLS:
+            fits = [_refined(each, start) for start in starts]
+            told[index] = min(fits, key=lambda Q: float(np.sum(_residuals(each, Q) ** 2)))
+    if not told:
         raise NotTrustworthyError(
             "the trial masses do not change the readings, so that their gain is not known.\n  Heavier trial masses."
         )
-    fits = [_refined(sets, start) for start in starts]
-    imbalance = min(fits, key=lambda Q: float(np.sum(_residuals(sets, Q) ** 2)))
-    gains: list[tuple[float, ...]] = [()] * len(case.runs)
-    for each in sets:
-        for index in each.runs:
-            gains[index] = tuple(each.gains(imbalance).tolist())
-    return imbalance, tuple(gains)
+    alike = {sets[index].sensor: Q for index, Q in told.items()}
+    other = next(iter(told.values()))
+    return tuple(told.get(index, alike.get(each.sensor, other)) for index, each in enumerate(sets))
 
 
-def _starts(sets: Sequence[SpeedSet]) -> Iterator[complex]:
-    """Solutions of the linear equations of each sensor and speed whose masses tell one.
+def _starts(each: AmplitudeSet) -> Iterator[complex]:
+    """Solution of the linear equations.
 
     Noise may lead the start to the other side of the circle of the trial masses, so its image in it is one, too.
     """
-    for each in sets:
-        if each.apart <= TELLS:
-            continue
-        for readings in each.amplitudes.T:
-            _, along, across, gain = np.linalg.lstsq(each.terms, readings**2, rcond=None)[0]
-            if gain > 0:
-                start = complex(along, across) / gain * each.scale
-                yield start
-                if start:
-                    yield each.scale**2 / start.conjugate()
+    _, along, across, gain = np.linalg.lstsq(each.terms, each.amplitudes**2, rcond=None)[0]
+    if gain > 0:
+        start = complex(along, across) / gain * each.scale
+        yield start
+        if start:
+            yield each.scale**2 / start.conjugate()
 
 
-def _residuals(sets: Sequence[SpeedSet], Q: complex) -> Floats:
-    """Misfits of all amplitudes, those of each sensor and speed over their largest."""
-    parts = []
-    for each in sets:
-        off = each.amplitudes - np.abs(Q + each.placed)[:, None] * each.gains(Q)[None, :]
-        most = each.amplitudes.max(axis=0)
-        parts.append((off / np.where(most > 0, most, 1.0)).ravel())
-    return np.concatenate(parts)
+def _residuals(each: AmplitudeSet, Q: complex) -> Floats:
+    """Misfits of the amplitudes over their largest."""
+    off = each.amplitudes - each.gain(Q) * np.abs(Q + each.placed)
+    return np.asarray(off / (each.amplitudes.max() or 1.0))
 
 
-def _refined(sets: Sequence[SpeedSet], start: complex) -> complex:
+def _refined(each: AmplitudeSet, start: complex) -> complex:
     """Imbalance with the least squares of misfits, by damped Gauss–Newton steps from a start."""
     Q, damping = start, 0.0
-    scale = max([abs(start), *(each.scale for each in sets)])
-    residuals = _residuals(sets, Q)
+    scale = max(abs(start), each.scale)
+    residuals = _residuals(each, Q)
     for _ in range(STEPS):
         step = 1e-6 * scale
         columns = np.column_stack([
-            (_residuals(sets, Q + turn * step) - _residuals(sets, Q - turn * step)) / (2 * step) for turn in (1, 1j)
+            (_residuals(each, Q + turn * step) - _residuals(each, Q - turn * step)) / (2 * step) for turn in (1, 1j)
         ])  # fmt: skip
         normal = columns.T @ columns
         change = np.linalg.lstsq(normal + damping * np.diag(np.diag(normal)), -columns.T @ residuals, rcond=None)[0]
         moved = Q + complex(change[0], change[1])
-        after = _residuals(sets, moved)
+        after = _residuals(each, moved)
         if after @ after <= residuals @ residuals:
             done = abs(moved - Q) <= CLOSE * scale
             Q, residuals, damping = moved, after, damping / 10

@@ -35,6 +35,13 @@ def test_the_preset_says_what_to_do_on_one_screen() -> None:
     assert "AGAINST rotation" in abu("balance", PRESET, "--full").out
 
 
+def test_explain_adds_every_formula_with_the_numbers_to_the_report() -> None:
+    full, explained = (abu("balance", PRESET, option) for option in ("--full", "--explain"))
+    assert explained.status == 0 and explained.width <= 80 and explained.out.startswith(full.out.rstrip()[:2000])
+    assert "→ left plane: q = 12.00 g at 205.0°" in explained.out and "→ left plane" not in full.out
+    assert "Source: Goodman 1964" in explained.out
+
+
 def test_the_document_is_as_interface_and_schema_say() -> None:
     document = abu("balance", PRESET, "--json").document
     result = document["result"]
