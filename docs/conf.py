@@ -13,7 +13,8 @@ copyright = "The abu-calc authors"
 release = version = __version__
 
 extensions = [
-    "myst_nb", "sphinx_copybutton", "command_output", "generated_reference", "validation_cases", "for_agents",
+    "myst_nb", "sphinx_copybutton", "command_output", "effect_prices", "generated_reference", "validation_cases",
+    "for_agents",
 ]  # fmt: skip
 # The notebook runs when the site is built, in a folder of its own; an error ends the build.
 nb_execution_mode = "force"

@@ -7,6 +7,7 @@ what that changes counts as error. `audit` simulates the scene once more with ev
 import math
 import time
 from collections.abc import Sequence, Set
+from contextlib import suppress
 from dataclasses import replace
 from typing import Final
 
@@ -46,8 +47,8 @@ class Entry:
 class Ledger:
     """The scene to simulate, and what stands for each effect there is data for; `promise`: weight of what is out.
 
-    `spared`: what those left out for being light take of the accuracy, by estimate or, once simulated, as measured; the
-    rest is for the integration. `whole`: the scene with them.
+    `spared`: what those left out for being light take of the accuracy, by estimate and, once simulated, as measured;
+    the rest is for the integration. `whole`: the scene with them.
     """
 
     scene: Scene
@@ -100,25 +101,26 @@ def simulate_chosen(
     Without light effects, if one run with them shows that they change little enough: its difference is part of the
     error. Otherwise with them. Raises NotTrustworthyError as `simulate` does.
     """
-    run = simulate(ledger.scene, accuracy - ledger.spared, sample_times, most_evaluations, integrator, progress)
     if not ledger.spared:
-        return ledger, run
-    began, left = time.perf_counter(), (most_evaluations or usual_work(ledger.whole, integrator)) - run.cost.work
-    progress(f"{ledger.whole.name}: with the effects left out")
-    try:
-        with_them, evaluations, work = _once(ledger.whole, tolerances(accuracy)[0], left, integrator)
-    except NotTrustworthyError:
-        measured, evaluations, work = math.inf, 0, 0
-    else:
-        measured = run_difference(run.scene, run.response, with_them)
-    if run.error_estimate + measured <= accuracy:
-        cost = replace(run.cost, evaluations=run.cost.evaluations + evaluations, work=run.cost.work + work,
-                       wall_s=run.cost.wall_s + time.perf_counter() - began)  # fmt: skip
-        return replace(ledger, spared=measured), replace(run, cost=cost)
-    run = simulate(ledger.whole, accuracy, sample_times, left - work, integrator, progress)
+        return ledger, simulate(ledger.scene, accuracy, sample_times, most_evaluations, integrator, progress)
+    most, changed = most_evaluations or usual_work(ledger.whole, integrator), math.inf
+    began, spent = time.perf_counter(), 0
+    with suppress(NotTrustworthyError):  # of no matter to the scene with all effects
+        own = max(accuracy * (1 - SHARE), ACCURACY.low)
+        run = simulate(ledger.scene, own, sample_times, most, integrator, progress)
+        spent += run.cost.work
+        progress(f"{ledger.whole.name}: with the effects left out")
+        tolerance = run.cost.tolerance if run.rung == "equations" else tolerances(own)[1]
+        with_them, evaluations, work = _once(ledger.whole, tolerance, most - spent, integrator)
+        spent, changed = spent + work, run_difference(run.scene, run.response, with_them)
+        if run.error_estimate + max(changed, ledger.spared) <= accuracy:
+            cost = replace(run.cost, evaluations=run.cost.evaluations + evaluations, work=spent,
+                           wall_s=time.perf_counter() - began)  # fmt: skip
+            return replace(ledger, spared=max(changed, ledger.spared)), replace(run, cost=cost)
+    run = simulate(ledger.whole, accuracy, sample_times, max(most - spent, 1), integrator, progress)
+    changes = f"changes {changed:.2g} of it" if changed < math.inf else "leads the balls another way"
+    why = f"light at steady state, but in this motion leaving it out {changes}"
     names = {effect.name for effect in ledger.whole.effects}
-    changed = f"changes {measured:.2g} of it" if measured < math.inf else "leads the balls another way"
-    why = f"light at steady state, but in this motion leaving it out {changed}"
     entries = tuple(
         replace(entry, included=True, why=why) if entry.name in names and not entry.included else entry
         for entry in ledger.entries
