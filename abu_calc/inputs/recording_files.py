@@ -311,7 +311,7 @@ def read_recording(
     file that is clipped is read, and `clipped` names its channels; without it the file is refused. Raises InputError
     with file, line and column for what is wrong.
     """
-    path, content = _content(file)
+    path, content = content_of(file)
     known = next((name for name in QUANTITIES if name == quantity), None)
     if quantity is not None and known is None:
         allowed = ", ".join(QUANTITIES)
@@ -359,7 +359,7 @@ def is_recording(file: str) -> bool:
     return Path(file).suffix.lower() in SUFFIXES
 
 
-def _content(file: str | os.PathLike[str]) -> tuple[str, bytes]:
+def content_of(file: str | os.PathLike[str]) -> tuple[str, bytes]:
     """The name of a file as text, and its bytes."""
     if not isinstance(file, (str, os.PathLike)):
         raise InputError("not the name of a file", place=Place(key="source"), found=found_as(file))

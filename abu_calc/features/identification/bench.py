@@ -5,7 +5,6 @@ and |sin θ| ≤ f cos θ, f = k_r/r.
 """
 
 import math
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -16,6 +15,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import GRAVITY, from_si, to_si
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.recording_files import content_of
 from abu_calc.inputs.recording_table import decoded, table_of
 
 STARTS_UM: Final = (0.5, 5.0, 20.0)
@@ -40,11 +40,7 @@ class BenchValues:
 
 def read_decay(file: str) -> tuple[Array, Array]:
     """Times [s] and angles [rad] of a film; columns t_s and angle_deg."""
-    try:
-        content = Path(file).read_bytes()
-    except OSError as error:
-        raise InputError("the file cannot be read", place=Place(file), found=error.strerror or str(error)) from None
-    table = table_of(file, decoded(file, content), [])
+    table = table_of(file, decoded(*content_of(file)), [])
     names = [name.lower() for name in table.names]
     if "t_s" not in names or "angle_deg" not in names:
         raise InputError(

@@ -18,9 +18,10 @@ from abu_calc.features.optimise.costs import (
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Grade
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.variation import NOT_OF_THE_MACHINE, Variation, path_of, variation
+from abu_calc.inputs.variation import NOT_OF_THE_MACHINE, in_key_units, path_of, variation
 from abu_calc.sizing.balls import Candidate, candidates, sound
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.imbalance import find_imbalance
@@ -88,13 +89,13 @@ def _option(key: object, how: object, place: Place) -> Option:
     path = path_of(str(key))
     if path[0] in NOT_OF_THE_MACHINE or path[0] in ("start", "measured", "measured_after", "limits"):
         raise InputError("no value that a design can choose", place=here, allowed="a key of machine or autobalancer")
-    way: Variation = variation(how, here)
+    own, way = in_key_units(str(key), variation(how, here), MachineFile, here)
     if not way.values:
         raise InputError("a distribution is no list of values", place=here, found=way.text, allowed=GRAMMAR)
     values = list(dict.fromkeys(way.values))
     if len(values) < len(way.values):
         raise InputError("a value is listed twice", place=here, found=way.text)
-    return Option(str(key), tuple({str(key): value} for value in values))
+    return Option(own, tuple({own: value} for value in values))
 
 
 def _tried(machine: Machine, assignment: Assignment, place: Place) -> None:

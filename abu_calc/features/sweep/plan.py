@@ -31,9 +31,20 @@ from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.reading.table import Table
 from abu_calc.inputs.scene import SceneDescription, SceneFile
 from abu_calc.inputs.two_races import MOST_WHEELS, TwoRaceFile
-from abu_calc.inputs.variation import MOST_RUNS, NOT_OF_THE_MACHINE, Sweep, Variants, Variation, path_of, variation
+from abu_calc.inputs.variation import (
+    MOST_RUNS,
+    NOT_OF_THE_MACHINE,
+    Sweep,
+    Variants,
+    Variation,
+    canonical_key,
+    in_key_units,
+    path_of,
+    variation,
+)
 from abu_calc.inputs.variation import RUNS as USUAL
 from abu_calc.simulation.arguments import one_of
 from abu_calc.simulation.scene_of_file import scene_from
@@ -80,7 +91,8 @@ def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Swe
         RUNS.check(chosen["runs"])
     SEED.check(chosen["seed"])
     here = Place(source.file or None, source.lines.get("sweep.vary"), "sweep.vary")
-    ways, given = _ways(table.vary, here), _ways(vary, Place(key="vary"))
+    model = SceneFile if isinstance(source, SceneDescription) else type(source.tables)
+    ways, given = _ways(table.vary, here, model), _ways(vary, Place(key="vary"), model)
     of_table = {f"vary {key}": replace(here, key=f"sweep.vary {key}") for key in ways if key not in given}
     ways |= given
     nothing = not ways and all(options.get(name) is None for name in ("runs", "tolerances", "sensitivity", "seed"))
@@ -89,7 +101,7 @@ def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Swe
         runs=chosen["runs"],
         what=chosen["what"],
         tolerances=chosen["tolerances"],
-        grid=None if chosen["grid"] is None else (chosen["grid"][0], chosen["grid"][1]),
+        grid=None if chosen["grid"] is None else tuple(canonical_key(key, model) for key in chosen["grid"]),
         sensitivity=chosen["sensitivity"],
         sampling=chosen["sampling"],
         seed=chosen["seed"],
@@ -113,7 +125,7 @@ def _table(source: Machine | SceneDescription) -> Sweep:
     return _given(source) or Sweep()
 
 
-def _ways(vary: Vary, place: Place) -> dict[str, Variation]:
+def _ways(vary: Vary, place: Place, model: type[Table]) -> dict[str, Variation]:
     """Variation of each key; a list has entries KEY=…, each key once."""
     if vary is None:
         return {}
@@ -121,9 +133,10 @@ def _ways(vary: Vary, place: Place) -> dict[str, Variation]:
     variations: dict[str, Variation] = {}
     for key, how in pairs:
         here = Place(place.file, place.line, f"{place.key} {key}")
-        if key in variations:
+        own, way = in_key_units(key, variation(how, here), model, here)
+        if own in variations:
             raise InputError("it varies twice", place=here, remedy="Give each key once.")
-        variations[key] = variation(how, here)
+        variations[own] = way
     return variations
 
 

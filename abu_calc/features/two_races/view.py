@@ -13,13 +13,22 @@ from abu_calc.reporting.parts import (
     warning_blocks,
 )
 from abu_calc.reporting.screen import one_screen, verdict_line
+from abu_calc.reporting.solids.assembly import SolidAssembly
 
 
 def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
     """Outcome of the command: screen and whole report."""
     return Outcome.of(
-        result, lambda: two_race_blocks(result), lambda: two_race_screen(result), lambda: _drawings(result)
-    )
+        result, lambda: two_race_blocks(result), lambda: two_race_screen(result), lambda: _drawings(result),
+        lambda: _solids(result),
+    )  # fmt: skip
+
+
+def _solids(result: TwoRaceSizeResult) -> SolidAssembly:
+    """Both autobalancers as solids."""
+    from abu_calc.features.two_races.drawing import both_solids
+
+    return both_solids(result)
 
 
 def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:

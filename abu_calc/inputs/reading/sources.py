@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
+from abu_calc.foundation.call_files import will_read
 from abu_calc.foundation.errors import InputError, Place
 
 SUFFIX: Final = ".toml"
@@ -76,7 +77,11 @@ def regular_file(path: Path, most: int = LARGEST_FILE) -> bytes:
 
     A pipe or a device, which may never end or begin, is not waited for.
     """
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
+    try:
+        will_read(path)
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
+    except ValueError:  # a NUL in the name
+        raise InputError("not a file name", place=Place(str(path))) from None
     with os.fdopen(handle, "rb") as stream:
         if not stat.S_ISREG(os.fstat(handle).st_mode):
             raise InputError(
