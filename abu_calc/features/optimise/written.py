@@ -68,7 +68,9 @@ def _put(text: str, override: Override) -> str:
     following = re.search(r"(?m)^\[", text[header.end() :])
     end = header.end() + following.start() if following else len(text)
     body = text[header.end() : end]
-    replaced, count = re.subn(rf"(?m)^(?:{key}|{_without_unit(override)})\s*=[^#\n]*?(?=\s*(#|$))", lambda _: line, body, count=1)
+    replaced, count = re.subn(
+        rf"(?m)^(?:{key}|{_without_unit(override)})\s*=[^#\n]*?(?=\s*(#|$))", lambda _: line, body, count=1
+    )
     if not count:
         replaced = f"\n{line}{body}"
     else:

@@ -59,14 +59,17 @@ def intensity_factors(bearing: SeatedBearing, joint: Joint) -> IntensityFactors:
     """Factors of the load intensity of a seat. Source: `standards/data/load_intensity.toml`."""
     table, service = toml_table("load_intensity")["factors"], bearing.service
     bore, outer = bearing.inner.diameter, bearing.outer.diameter
-    hollow = (bearing.shaft.other or 0.0) / bore if joint.seat == "shaft" else outer / (bearing.housing.other or math.inf)
-    column = 4 if joint.seat == "housing" else 1 + sum(outer / bore > ratio for ratio in table["diameter_ratios"])
+    if joint.seat == "housing":
+        thinness, column = outer / (bearing.housing.other or math.inf), 4
+    else:
+        thinness = (bearing.shaft.other or 0.0) / bore
+        column = 1 + sum(outer / bore > ratio for ratio in table["diameter_ratios"])
     rows = 1.0
     if bearing.kind == "spherical" and bearing.ratings and service.radial_load and service.axial_load:
         factors, _ = load_factors(bearing.kind, bearing.entry, bearing.ratings, service.axial_load)
         cotangent = 1.5 / factors.e if factors else 0.0  # e = 1.5·tan α of two rows, ISO 281
         rows = _above(table["rows"], service.axial_load / service.radial_load * cotangent)[1]
-    return IntensityFactors(table["load"][service.load_kind], _above(table["part"], hollow)[column], rows)
+    return IntensityFactors(table["load"][service.load_kind], _above(table["part"], thinness)[column], rows)
 
 
 def _above(rows: list[list[float]], value: float) -> list[float]:

@@ -95,13 +95,14 @@ def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Swe
     ways, given = _ways(table.vary, here, model), _ways(vary, Place(key="vary"), model)
     of_table = {f"vary {key}": replace(here, key=f"sweep.vary {key}") for key in ways if key not in given}
     ways |= given
+    grid = chosen["grid"]
     nothing = not ways and all(options.get(name) is None for name in ("runs", "tolerances", "sensitivity", "seed"))
     return SweepRequest(
         vary=tuple(ways.items()),
         runs=chosen["runs"],
         what=chosen["what"],
         tolerances=chosen["tolerances"],
-        grid=None if chosen["grid"] is None else tuple(canonical_key(key, model) for key in chosen["grid"]),
+        grid=None if grid is None else (canonical_key(grid[0], model), canonical_key(grid[1], model)),
         sensitivity=chosen["sensitivity"],
         sampling=chosen["sampling"],
         seed=chosen["seed"],
