@@ -92,7 +92,7 @@ def write_files(outcome: Outcome, how: Delivery) -> bool:
     files = (
         *outcome.further,
         *(Target(path, _made(as_file, outcome, path.suffix.lower())) for path in how.outputs),
-        *(Target(path, _checked(path, text, force=how.force)) for path, text in sheets),
+        *(Target(path, _made(_sheet, path, text, how.force)) for path, text in sheets),
         *(Target(path, _made(_drawn, outcome.command, figures, name, path)) for name, path in how.figures),
     )
     try:
@@ -112,12 +112,12 @@ def _made(make: "Callable[..., str | bytes]", *arguments: Any) -> Iterator[str |
     yield make(*arguments)
 
 
-def _checked(path: Path, text: str | bytes | Iterable[str | bytes], *, force: bool) -> Iterator[str | bytes]:
+def _sheet(path: Path, text: str, force: bool) -> str:
     """The text of a further sheet, whose file was not asked for by name."""
     from abu_calc.reporting.write import check_target
 
     check_target(path, force=force)
-    yield from [text] if isinstance(text, (str, bytes)) else text
+    return text
 
 
 def _drawn(command: str, figures: "Callable[[], tuple[Figure, ...]]", name: str, path: Path) -> bytes | str:

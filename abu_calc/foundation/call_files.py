@@ -1,7 +1,6 @@
 """Files of one call: it writes none twice, and none that it reads.
 
-`one_call` opens the list of files, `will_write` and `will_read` enter one. Outside of a call, as in Python, there is no
-list.
+`one_call` opens the list of files, and `enter` adds one. Outside of a call, as in Python, there is no list.
 """
 
 import os
@@ -9,53 +8,34 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final
 
 from abu_calc.foundation.errors import OutputError, Place
 
-
-class CallFiles(NamedTuple):
-    """Files that a call reads, and those that it writes."""
-
-    read: list[Path]
-    written: list[Path]
-
-
-_CALL: Final[ContextVar[CallFiles | None]] = ContextVar("files of the call", default=None)
+_CALL: Final[ContextVar[list[tuple[Path, bool]] | None]] = ContextVar("files of the call", default=None)
+"""Each file of the call, and whether it is written."""
+_SAME, _READ = "two outputs name the same file", "the command reads the file that it would write"
 
 
 @contextmanager
 def one_call() -> Iterator[None]:
     """Context of one call."""
-    token = _CALL.set(CallFiles([], []))
+    token = _CALL.set([])
     try:
         yield
     finally:
         _CALL.reset(token)
 
 
-def will_read(path: Path) -> None:
-    """Enter a file that is read; raises OutputError if the call writes it."""
-    if (call := _CALL.get()) is not None:
-        for other in call.written:
-            _refuse(other, path, "the command reads the file that it would write")
-        call.read.append(path)
-
-
-def will_write(path: Path) -> None:
-    """Enter a file that will be written; raises OutputError if the call reads it, or writes it already."""
-    if (call := _CALL.get()) is not None:
-        for other in call.written:
-            _refuse(path, other, "two outputs name the same file")
-        for other in call.read:
-            _refuse(path, other, "the command reads the file that it would write")
-        call.written.append(path)
-
-
-def _refuse(output: Path, other: Path, message: str) -> None:
-    if same_file(output, other):
-        found = None if output == other else str(other)
-        raise OutputError(message, place=Place(str(output)), found=found, remedy="Give the output another name.")
+def enter(path: Path, *, written: bool) -> None:
+    """Enter a file; raises OutputError if the call reads it and writes it, or writes it twice."""
+    call = _CALL.get()
+    for other, others in call or ():
+        if (written or others) and same_file(path, other):
+            place = Place(str(path if written else other))
+            raise OutputError(_SAME if written and others else _READ, place=place, remedy="Give it another name.")
+    if call is not None:
+        call.append((path, written))
 
 
 def same_file(path: Path, other: Path) -> bool:

@@ -140,11 +140,11 @@ class MachineFile(Table):
 
     @model_validator(mode="after")
     def _costs_are_of_keys(self) -> Self:
-        for written in tuple(self.costs):
-            key, cost = own_cost(written, self.costs.pop(written), MachineFile)
-            if key in self.costs:
-                raise problem("the key has two costs", "costs", written, found=key, remedy="keep one of the two")
-            self.costs[key] = cost
+        own = [own_cost(key, cost, MachineFile) for key, cost in self.costs.items()]
+        if len(dict(own)) < len(own):
+            raise problem("a key has two costs", "costs", remedy="keep one of the two")
+        self.costs.clear()
+        self.costs.update(own)
         return self
 
     @model_validator(mode="after")

@@ -78,23 +78,22 @@ def _checked(costs: dict[str, object]) -> dict[str, object]:
 
 def own_cost(written: str, cost: object, model: type[Table]) -> tuple[str, object]:
     """A key of [costs] and its cost, with the file's own key and values in its unit."""
+    listed = cost if isinstance(cost, list) else []
     try:
         path = path_of(written)
         own = canonical_path(path, model)
-        if own is None:
-            known = [key_path((*above, key)) for above, table in all_tables(model) for key in table.model_fields]
-            near = nearest(written, known)
-            raise problem("no key of a machine", "costs", written, remedy=f'the nearest is "{near}"' if near else None)
-        if not isinstance(cost, list):
-            if own != path:
-                remedy = f'write "{key_path(own)}", or a list of [value with unit, cost]'
-                raise problem("a cost for each unit, and the key names no unit", "costs", written, remedy=remedy)
-            return written, cost
-        place = Place(key=written)
-        pairs = [[convert_entry(path, value, model, lambda _: place)[1], each] for value, each in cost]
+        pairs = [[convert_entry(path, value, model, lambda _: Place())[1], each] for value, each in listed]
     except InputError as error:
         raise problem(error.message, "costs", written, found=error.found, allowed=error.allowed) from None
-    return (written if own == path else key_path(own)), pairs
+    if own is None:
+        near = nearest(
+            written, [key_path((*above, key)) for above, table in all_tables(model) for key in table.model_fields]
+        )
+        raise problem("no key of a machine", "costs", written, remedy=f'the nearest is "{near}"' if near else None)
+    if own != path and not listed:
+        remedy = f'write "{key_path(own)}", or a list of [value with unit, cost]'
+        raise problem("a cost for each unit, and the key names no unit", "costs", written, remedy=remedy)
+    return (written if own == path else key_path(own)), pairs or cost
 
 
 COSTS: Final = (

@@ -388,12 +388,7 @@ def content_of(file: str | os.PathLike[str]) -> tuple[str, bytes]:
     if not isinstance(file, (str, os.PathLike)):
         raise InputError("not the name of a file", place=Place(key="source"), found=found_as(file))
     path = os.fspath(file)
-    try:
-        content = regular_file(Path(path), LARGEST)
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", place=Place(path)) from None
-    if len(content) > LARGEST:
-        raise InputError("the file is too large", place=Place(path), allowed=f"at most {LARGEST} bytes")
+    content = regular_file(Path(path), LARGEST)
     if not content.strip():
         raise InputError("the file is empty", place=Place(path))
     return path, content

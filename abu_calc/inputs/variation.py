@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Annotated, Final, Generic, Literal
+from typing import Annotated, Any, Final, Generic, Literal
 
 from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema
 
@@ -105,6 +105,26 @@ def in_key_units(key: str, way: Variation, model: type[Table], place: Place) -> 
     values = tuple(value for _, value, _ in done)
     listed = ", ".join(map(str, values))
     return key_path(done[0][0]), replace(way, values=values, text=listed if way.listed else f"{way.kind}({listed})")
+
+
+def ways_of(given: Any, model: type[Table], place: Place, example: str) -> dict[str, Variation]:
+    """Variation by the file's own key, of KEY=HOW as on the command line, or of a table by key; each key once."""
+    pairs = given.items() if isinstance(given, Mapping) else [_assigned(text, place, example) for text in given or ()]
+    ways: dict[str, Variation] = {}
+    for key, how in pairs:
+        here = Place(place.file, place.line, f"{place.key} {key}")
+        own, way = in_key_units(str(key), variation(how, here), model, here)
+        if own in ways:
+            raise InputError("the key stands twice", place=here, remedy="Give each key once.")
+        ways[own] = way
+    return ways
+
+
+def _assigned(text: object, place: Place, example: str) -> tuple[str, str]:
+    key, equals, how = text.partition("=") if isinstance(text, str) else ("", "", "")
+    if not equals or not key.strip():
+        raise InputError("not KEY=…", place=place, found=str(text), allowed=example)
+    return key.strip(), how.strip()
 
 
 def canonical_key(key: str, model: type[Table]) -> str:

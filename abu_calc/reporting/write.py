@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from abu_calc.foundation.call_files import will_write
+from abu_calc.foundation.call_files import enter
 from abu_calc.foundation.errors import InputError, OutputError, Place
 
 
@@ -44,7 +44,7 @@ def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = (), opt
         _check_kind(path)
         if os.path.lexists(path) and not force:
             raise _exists(path)
-        will_write(path)
+        enter(path, written=True)
     except OSError as error:
         named = Place(str(path), key=option)
         raise OutputError(f"cannot be written: {error.strerror or error}", place=named) from None

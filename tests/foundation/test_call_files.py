@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from abu_calc.foundation import call_files
-from abu_calc.foundation.call_files import one_call, same_file, will_read, will_write
+from abu_calc.foundation.call_files import enter, one_call, same_file
 from abu_calc.foundation.errors import OutputError
 
 posix = pytest.mark.skipif(os.name == "nt", reason="links need rights there")
@@ -42,14 +42,14 @@ def test_capitals_count_where_the_file_system_says_so(
 
 def test_a_call_writes_no_file_twice_and_none_that_it_reads(tmp_path: Path) -> None:
     file, other = tmp_path / "a", tmp_path / "b"
-    for first, second in ((will_write, will_write), (will_write, will_read), (will_read, will_write)):
+    for first, second in ((True, True), (True, False), (False, True)):
         with one_call():
-            first(file)
-            second(other)
-            with pytest.raises(OutputError, match="same file|reads the file"):
-                second(file)
+            enter(file, written=first)
+            enter(other, written=second)
+            with pytest.raises(OutputError, match="same file" if first and second else "reads the file"):
+                enter(file, written=second)
     with one_call():
-        will_read(file)
-        will_read(file)
-    will_write(file)  # outside of a call nothing is entered
-    will_write(file)
+        enter(file, written=False)
+        enter(file, written=False)
+    enter(file, written=True)  # outside of a call nothing is entered
+    enter(file, written=True)

@@ -25,6 +25,8 @@ LOST_DRAG: Final = 20.0
 ANGLE: Final = Range("angle of the ball from the bottom", -170, 170, "deg")
 STEPS: Final = 1500
 FEWEST: Final = 20
+LONGEST: Final = 1e4
+"""Duration [s] of a film at most: a ball comes to rest within minutes."""
 
 
 @dataclass(frozen=True)
@@ -51,12 +53,12 @@ def read_decay(file: str) -> tuple[Array, Array]:
             remedy="Give the time, and the angle of the ball from the bottom.",
         )
     times, angles = table.values[:, names.index("t_s")], table.values[:, names.index("angle_deg")]
-    if len(times) < FEWEST or not np.all(np.diff(times) > 0):
+    if len(times) < FEWEST or not np.all(np.diff(times) > 0) or times[-1] - times[0] > LONGEST:
         raise InputError(
-            "too few rows, or times that do not ascend",
+            "too few rows, times that do not ascend, or too long a film",
             place=Place(file),
-            found=f"{len(times)} rows",
-            allowed=f"at least {FEWEST}, ascending",
+            found=f"{len(times)} rows, {np.ptp(times) if len(times) else 0:g} s",
+            allowed=f"at least {FEWEST}, ascending, {LONGEST:g} s",
         )
     for angle in (float(angles.min()), float(angles.max())):
         ANGLE.check(angle)

@@ -153,19 +153,14 @@ def _identity(ask: OptimiseRequest, study: VariantStudy, accuracy: float) -> dic
         "base": 0,
         "seed": ask.seed,
         "accuracy": accuracy,
-        "machine": {
-            str(number): Variants.of(machine, MachineFile).content for number, machine in enumerate(ask.machines, 1)
-        },
-        "scatter": {
-            str(number): {"tolerances": request.tolerances, "vary": {key: way.text for key, way in request.vary},
-                          "time limit": request.time_limit}
-            for number, request in enumerate(ask.requests, 1)
-        },
+        "machines": [Variants.of(machine, MachineFile).content for machine in ask.machines],
+        "scatter": [
+            {"tolerances": request.tolerances, "vary": {key: way.text for key, way in request.vary},
+             "time limit": request.time_limit}
+            for request in ask.requests
+        ],
         "fresh": study.fresh[0].runs,
-        "variant": {
-            str(number): {"machine": machine + 1, **{key: str(value) for key, value in values}}
-            for number, (machine, values) in enumerate(study.variants, 1)
-        },
+        "variants": [{"machine": machine + 1, **dict(values)} for machine, values in study.variants],
         "versions": software(),
     }  # fmt: skip
 

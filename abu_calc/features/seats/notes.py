@@ -25,14 +25,6 @@ _AS_SOLID: Final = 0.97
 """Share of the pressure above which a part is called solid or thick."""
 
 
-class IntensityFactors(NamedTuple):
-    """k₁ of the load, k₂ of a hollow shaft or thin housing, k₃ of the rows."""
-
-    load: float
-    part: float
-    rows: float
-
-
 @formula(
     "Load intensity of a seat",
     "P_R = k₁·k₂·k₃·F_r/b_s",
@@ -47,16 +39,16 @@ class IntensityFactors(NamedTuple):
     checked=(SEAT_LENGTH,),
     source="GOST 3325-85 as handbooks quote it; Afanasiev 2015",
 )
-def load_intensity(load: float, seat_length: float, factors: IntensityFactors) -> float:
+def load_intensity(load: float, seat_length: float, factors: tuple[float, float, float]) -> float:
     """
-    >>> round(1e-3 * load_intensity(3000.0, 29e-3, IntensityFactors(1.8, 1.0, 1.0)), 1)
+    >>> round(1e-3 * load_intensity(3000.0, 29e-3, (1.8, 1.0, 1.0)), 1)
     186.2
     """
     return math.prod(factors) * load / SEAT_LENGTH.check(seat_length)
 
 
-def intensity_factors(bearing: SeatedBearing, joint: Joint) -> IntensityFactors:
-    """Factors of the load intensity of a seat. Source: `standards/data/load_intensity.toml`."""
+def intensity_factors(bearing: SeatedBearing, joint: Joint) -> tuple[float, float, float]:
+    """k₁, k₂ and k₃ of the load intensity of a seat. Source: `standards/data/load_intensity.toml`."""
     table, service = toml_table("load_intensity")["factors"], bearing.service
     bore, outer = bearing.inner.diameter, bearing.outer.diameter
     if joint.seat == "housing":
@@ -69,7 +61,7 @@ def intensity_factors(bearing: SeatedBearing, joint: Joint) -> IntensityFactors:
         factors, _ = load_factors(bearing.kind, bearing.entry, bearing.ratings, service.axial_load)
         cotangent = 1.5 / factors.e if factors else 0.0  # e = 1.5·tan α of two rows, ISO 281
         rows = _above(table["rows"], service.axial_load / service.radial_load * cotangent)[1]
-    return IntensityFactors(table["load"][service.load_kind], _above(table["part"], thinness)[column], rows)
+    return table["load"][service.load_kind], _above(table["part"], thinness)[column], rows
 
 
 def _above(rows: list[list[float]], value: float) -> list[float]:

@@ -17,7 +17,7 @@ from abu_calc.reporting.drawings.shapes import (
     fitting_height,
     plain,
     text_width,
-)
+)  # fmt: skip
 
 WIDE, HIGH = 420.0, 297.0
 """A3 [mm]."""
