@@ -115,9 +115,7 @@ def test_load_intensity_of_a_hollow_shaft():
     assert 1e-3 * shaft.load_intensity == pytest.approx(2574, rel=1e-3)
     assert any("k₂ 1.7, k₃ 1: the handbook table gives n6" in note for note in shaft.notes)
     assert 1e-3 * housing.load_intensity == pytest.approx(2574 / 1.7, rel=1e-3)
-    thin = seat_bearing(
-        by_designation(**bearing, housing_outer_mm=90.0)
-    ).housing  # 75/90 = 0.83: the largest factor
+    thin = seat_bearing(by_designation(**bearing, housing_outer_mm=90.0)).housing  # 75/90 = 0.83: the largest factor
     assert thin.load_intensity == pytest.approx(1.8 * housing.load_intensity)
 
 

@@ -4,7 +4,18 @@ import math
 
 import pytest
 
-from abu_calc.reporting.drawings.shapes import SMALL, Drawing, Length, Radius, Text, digits, fitted, fitting_height, plain, text_width
+from abu_calc.reporting.drawings.shapes import (
+    SMALL,
+    Drawing,
+    Length,
+    Radius,
+    Text,
+    digits,
+    fitted,
+    fitting_height,
+    plain,
+    text_width,
+)
 
 
 def test_a_text_stands_left_right_or_about_its_place() -> None:
