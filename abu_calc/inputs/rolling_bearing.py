@@ -32,7 +32,7 @@ class RollingBearing(Table):
     designation: Name | None = Field(
         default=None,
         description="Designation whose sizes, type, series and load ratings are looked up, in quotes; seals and the "
-        "like may follow (6203-2RS), C3 and P5 count; GOST's class may stand before it (6-205). Or give bore_mm, "
+        "like may follow (6203-2RS), C3 and P5 count. GOST's class may stand before it (6-205). Or give bore_mm, "
         "outer_mm and width_mm.",
         examples=["6203"],
         min_length=1,
