@@ -13,8 +13,8 @@ import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import cache
 from inspect import Parameter
-from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final, get_args
 
@@ -23,7 +23,8 @@ import typer
 from abu_calc.cli.help import OUTPUT, HelpAll, SectionedCommand
 from abu_calc.cli.output import Delivery, asked_figures, deliver, figure_option
 from abu_calc.cli.progress import progress
-from abu_calc.foundation.errors import InputError, OutputError, Place
+from abu_calc.foundation.call_files import one_call
+from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.patience import limited
 from abu_calc.foundation.progress import Progress, Stage
 from abu_calc.registry import extras_of, group_of
@@ -80,23 +81,24 @@ def _option(parameter: Parameter) -> str | None:
 
 
 def write_files(outcome: Outcome, how: Delivery) -> bool:
-    """Write all of them; False: there are none. Where one cannot be written, what was computed is told all the same."""
+    """Write all that can be written; False: there are none. For a file that cannot, the computed result is told."""
     if not how.outputs and not outcome.further and not how.figures:
         return False
     from abu_calc.reporting.files import as_file, further_sheets
-    from abu_calc.reporting.write import Target, check_target, write
+    from abu_calc.reporting.write import Target, write
 
-    own = [Target(path, as_file(outcome, path.suffix.lower())) for path in how.outputs]
     sheets = [sheet for path in how.outputs for sheet in further_sheets(outcome, path)]
+    figures = cache(lambda: outcome.extras().figures if outcome.extras else ())
+    files = (
+        *outcome.further,
+        *(Target(path, _made(as_file, outcome, path.suffix.lower())) for path in how.outputs),
+        *(Target(path, _made(_sheet, path, text, how.force)) for path, text in sheets),
+        *(Target(path, _made(_drawn, outcome.command, figures, name, path)) for name, path in how.figures),
+    )
     try:
-        for target in sheets:
-            check_target(target.path, force=how.force)
         with progress(how) as tell:
-            named = _figures(outcome, how)
-            files = chain(outcome.further, own, sheets, (Target(path, _drawn(figure, path)) for figure, path in named))
-            targets = (Target(path, _told(text, f"writing {path}", tell)) for path, text in files)
-            write(targets, force=how.force)
-    except (InputError, OutputError) as error:
+            write((Target(path, _told(text, f"writing {path}", tell)) for path, text in files), force=how.force)
+    except InputError as error:
         computed = (
             f"The computed result is {outcome.status}; without the file, the exit status is {outcome.exit_status}."
         )
@@ -105,20 +107,25 @@ def write_files(outcome: Outcome, how: Delivery) -> bool:
     return True
 
 
-def _figures(outcome: Outcome, how: Delivery) -> "list[tuple[Figure, Path]]":
-    """Requested figures; raises InputError for one that this result does not have."""
-    if not how.figures:
-        return []
+def _made(make: "Callable[..., str | bytes]", *arguments: Any) -> Iterator[str | bytes]:
+    """The text of a file, made when it is written."""
+    yield make(*arguments)
+
+
+def _sheet(path: Path, text: str, force: bool) -> str:
+    """The text of a further sheet, whose file was not asked for by name."""
+    from abu_calc.reporting.write import check_target
+
+    check_target(path, force=force)
+    return text
+
+
+def _drawn(command: str, figures: "Callable[[], tuple[Figure, ...]]", name: str, path: Path) -> bytes | str:
+    """File of a figure; raises InputError for one that the result does not have."""
     from abu_calc.registry import named
-
-    there = outcome.extras().figures if outcome.extras else ()
-    return [(named(outcome.command, there, name), path) for name, path in how.figures]
-
-
-def _drawn(figure: "Figure", path: Path) -> Iterator[str | bytes]:
     from abu_calc.reporting.charts.matplotlib_draw import figure_file
 
-    yield figure_file(figure, path.suffix.lower())
+    return figure_file(named(command, figures(), name), path.suffix.lower())
 
 
 def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:
@@ -211,12 +218,13 @@ def add_command(
 
     def run(**given: Any) -> None:
         how = _shared(**{key: given[key] for key in shared})
-        how.check(name, drawn)
         wanted = {"how": how} if "how" in own else {}
-        with _naming_options(options), limited(given.get("patience")):
-            outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
-        outcome = replace(outcome, settings=settings(name, own, given), extras=_extras(outcome))
-        status = deliver(outcome, how, wrote=write_files(outcome, how))
+        with one_call():
+            how.check(name, drawn)
+            with _naming_options(options), limited(given.get("patience")):
+                outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
+            outcome = replace(outcome, settings=settings(name, own, given), extras=_extras(outcome))
+            status = deliver(outcome, how, wrote=write_files(outcome, how))
         if status:
             raise typer.Exit(status)
 

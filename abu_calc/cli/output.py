@@ -14,7 +14,7 @@ from typing import Annotated, Final, NamedTuple
 import typer
 
 from abu_calc.cli.help import OUTPUT as PANEL
-from abu_calc.foundation.errors import AbuError, InputError, OutputError, Place
+from abu_calc.foundation.errors import AbuError, InputError, Place
 from abu_calc.foundation.escaping import escaped, escaped_lines, shortened
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.registry import BY_NAME, known, names_of
@@ -49,18 +49,14 @@ def _pair(text: str) -> tuple[str, Path]:
     return name.strip(), Path(file.strip())
 
 
-def check_figures(command: str, figures: Iterable[tuple[str, Path]], outputs: Iterable[Path], *, force: bool) -> None:
+def check_figures(command: str, figures: Iterable[tuple[str, Path]], *, force: bool) -> None:
     """Refuse unknown names, files that could not be written, and what is not installed."""
     from abu_calc.reporting.charts.matplotlib_draw import SUFFIXES, check_matplotlib
     from abu_calc.reporting.write import check_target
 
-    taken = {os.path.realpath(path) for path in outputs}
     for name, path in figures:
         figure = known(command, name)
         check_target(path, force=force, suffixes=SUFFIXES, option=OPTION)
-        if os.path.realpath(path) in taken:
-            raise OutputError("two outputs name the same file", place=Place(str(path)), remedy="Give another name.")
-        taken.add(os.path.realpath(path))
         if not (figure.drawn and path.suffix.lower() == ".svg"):
             check_matplotlib(f"{path.suffix.lower()} files of {name}")
 
@@ -82,19 +78,15 @@ class Delivery(NamedTuple):
     def check(self, command: str, drawn: tuple[str, ...] = ()) -> None:
         """Refuse before computing what could not be written after; `drawn`: formats of the command's drawing."""
         if self.figures:
-            check_figures(command, self.figures, self.outputs, force=self.force)
+            check_figures(command, self.figures, force=self.force)
         if not self.outputs:
             return
         from abu_calc.reporting.files import FORMATS, check_extra
         from abu_calc.reporting.write import check_target
 
-        taken = set[str]()
         for path in self.outputs:
             check_target(path, force=self.force, suffixes=(*FORMATS, *drawn), option="--output")
             check_extra(path.suffix.lower())
-            if os.path.realpath(path) in taken:
-                raise OutputError("two outputs name the same file", place=Place(str(path)), remedy="Give another name.")
-            taken.add(os.path.realpath(path))
 
 
 def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:

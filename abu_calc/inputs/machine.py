@@ -25,7 +25,7 @@ from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
 from abu_calc.inputs.identified import Identified
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
 from abu_calc.inputs.oil import Oil
-from abu_calc.inputs.optimisation import COSTS, Costs, Optimise
+from abu_calc.inputs.optimisation import COSTS, Costs, Optimise, own_cost
 from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
@@ -137,6 +137,15 @@ class MachineFile(Table):
                 value = getattr(self.autobalancer, key)
                 yield ("identified", key), f"does not hold autobalancer.{key} = {bounded(value)}: it is not used."
         yield from rim_too_fast(self.machine, self.wheel, self.motor)
+
+    @model_validator(mode="after")
+    def _costs_are_of_keys(self) -> Self:
+        own = [own_cost(key, cost, MachineFile) for key, cost in self.costs.items()]
+        if len(dict(own)) < len(own):
+            raise problem("a key has two costs", "costs", remedy="keep one of the two")
+        self.costs.clear()
+        self.costs.update(own)
+        return self
 
     @model_validator(mode="after")
     def _oil_is_in_a_race(self) -> Self:

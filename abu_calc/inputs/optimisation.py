@@ -5,9 +5,13 @@ from typing import Annotated, Final, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
+from abu_calc.foundation.errors import InputError, Place
 from abu_calc.inputs.reading.plain import found_as, plain_number
-from abu_calc.inputs.reading.table import Table, problem
-from abu_calc.inputs.variation import Vary
+from abu_calc.inputs.reading.suggestions import nearest
+from abu_calc.inputs.reading.table import Table, all_tables, problem
+from abu_calc.inputs.reading.text import key_path
+from abu_calc.inputs.reading.values_with_units import canonical_path, convert_entry
+from abu_calc.inputs.variation import Vary, path_of
 
 PARTS: Final = ("balls", "race", "housing", "oil")
 """Parts that machines of a family can share."""
@@ -70,6 +74,26 @@ def _checked(costs: dict[str, object]) -> dict[str, object]:
         if len({repr(value) for value in values}) < len(values):
             raise problem("a value has two costs", key, found=found_as(cost))
     return costs
+
+
+def own_cost(written: str, cost: object, model: type[Table]) -> tuple[str, object]:
+    """A key of [costs] and its cost, with the file's own key and values in its unit."""
+    listed = cost if isinstance(cost, list) else []
+    try:
+        path = path_of(written)
+        own = canonical_path(path, model)
+        pairs = [[convert_entry(path, value, model, lambda _: Place())[1], each] for value, each in listed]
+    except InputError as error:
+        raise problem(error.message, "costs", written, found=error.found, allowed=error.allowed) from None
+    if own is None:
+        near = nearest(
+            written, [key_path((*above, key)) for above, table in all_tables(model) for key in table.model_fields]
+        )
+        raise problem("no key of a machine", "costs", written, remedy=f'the nearest is "{near}"' if near else None)
+    if own != path and not listed:
+        remedy = f'write "{key_path(own)}", or a list of [value with unit, cost]'
+        raise problem("a cost for each unit, and the key names no unit", "costs", written, remedy=remedy)
+    return (written if own == path else key_path(own)), pairs or cost
 
 
 COSTS: Final = (

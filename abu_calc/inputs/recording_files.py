@@ -7,6 +7,7 @@ are told before it is looked into.
 
 import io
 import os
+import struct
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -219,8 +220,8 @@ def wav_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
             remedy="Give --scale S: m/s² at full scale (with --quantity velocity m/s); Python: scale=. Or give "
             "--full-scale-mV and --sensitivity (Python: full_scale_mV=, sensitivity=).",
         )  # fmt: skip
-    rate, data = _read(path, content)
     remarks: list[str] = []
+    rate, data = _read(path, _with_lengths(content, remarks))
     columns = data.reshape(len(data), -1).T
     names = [f"channel {k}" for k in range(1, len(columns) + 1)]
     picked = chosen(path, names, asked.asked_channels) if asked.asked_channels else list(range(len(columns)))
@@ -243,6 +244,29 @@ def wav_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
         for k, column, sensor in zip(picked, described, sensors, strict=True)
     ]
     return recording(path, content, quantity, axes, float(rate), remarks, handles=asked.handle_names(), clipped=clipped)
+
+
+UNKNOWN: Final = 0x7FFFF000
+"""Least length that programs write into the header of a file whose end they do not know; others write 0."""
+
+
+def _with_lengths(content: bytes, remarks: list[str]) -> bytes:
+    """A WAV file with the lengths that its header leaves open, as of a stream: the samples last to the end."""
+    order = {b"RIFF": "<I", b"RIFX": ">I"}.get(content[:4])
+    place, frame = 12, 1
+    while order and place + 8 <= len(content):
+        name, (whole,) = content[place : place + 4], struct.unpack_from(order, content, 4)
+        (size,) = struct.unpack_from(order, content, place + 4)
+        if name == b"fmt " and place + 22 <= len(content):
+            (frame,) = struct.unpack_from(f"{order[0]}H", content, place + 20)
+        if name == b"data" and not any(0 < length < UNKNOWN for length in (whole, size)):
+            rest = len(content) - place - 8
+            rest -= rest % max(frame, 1)
+            remarks.append("The file's header leaves its length open, as a stream does: it is read to its end.")
+            head = content[:4] + struct.pack(order, place + rest) + content[8 : place + 4] + struct.pack(order, rest)
+            return head + content[place + 8 : place + 8 + rest]
+        place += 8 + size + size % 2
+    return content
 
 
 def _read(path: str, content: bytes) -> tuple[int, NDArray[Any]]:
@@ -311,7 +335,7 @@ def read_recording(
     file that is clipped is read, and `clipped` names its channels; without it the file is refused. Raises InputError
     with file, line and column for what is wrong.
     """
-    path, content = _content(file)
+    path, content = content_of(file)
     known = next((name for name in QUANTITIES if name == quantity), None)
     if quantity is not None and known is None:
         allowed = ", ".join(QUANTITIES)
@@ -359,17 +383,12 @@ def is_recording(file: str) -> bool:
     return Path(file).suffix.lower() in SUFFIXES
 
 
-def _content(file: str | os.PathLike[str]) -> tuple[str, bytes]:
+def content_of(file: str | os.PathLike[str]) -> tuple[str, bytes]:
     """The name of a file as text, and its bytes."""
     if not isinstance(file, (str, os.PathLike)):
         raise InputError("not the name of a file", place=Place(key="source"), found=found_as(file))
     path = os.fspath(file)
-    try:
-        content = regular_file(Path(path), LARGEST)
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", place=Place(path)) from None
-    if len(content) > LARGEST:
-        raise InputError("the file is too large", place=Place(path), allowed=f"at most {LARGEST} bytes")
+    content = regular_file(Path(path), LARGEST)
     if not content.strip():
         raise InputError("the file is empty", place=Place(path))
     return path, content

@@ -32,7 +32,8 @@ class RollingBearing(Table):
     designation: Name | None = Field(
         default=None,
         description="Designation whose sizes, type, series and load ratings are looked up, in quotes; seals and the "
-        "like may follow (6203-2RS), C3 and P5 count. Or give bore_mm, outer_mm and width_mm.",
+        "like may follow (6203-2RS), C3 and P5 count. GOST's class may stand before it (6-205). Or give bore_mm, "
+        "outer_mm and width_mm.",
         examples=["6203"],
         min_length=1,
     )
@@ -91,6 +92,12 @@ class RollingBearing(Table):
         ge=0,
         le=1e5,
         json_schema_extra=usual(0.01, 300),
+    )
+    load_kind: Literal["moderate", "shock"] | None = Field(
+        default=None,
+        description="Kind of the load for the load intensity (GOST 3325): moderate (overload to 150 %) or shock "
+        "(shocks and vibration, to 300 %). Default: shock.",
+        examples=["moderate"],
     )
     dynamic_load_rating_kN: float | None = Field(
         default=None,

@@ -8,8 +8,9 @@ import copy
 import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
-from typing import Annotated, Final, Generic, Literal
+from typing import Annotated, Any, Final, Generic, Literal
 
 from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema
 
@@ -21,7 +22,7 @@ from abu_calc.inputs.reading.overrides import Override, apply, parse_override
 from abu_calc.inputs.reading.plain import found_as, plain_number
 from abu_calc.inputs.reading.table import Table, problem
 from abu_calc.inputs.reading.text import Part, key_path
-from abu_calc.inputs.reading.values_with_units import convert
+from abu_calc.inputs.reading.values_with_units import canonical_path, convert, convert_entry
 
 GRAMMAR: Final = (
     "LOW:HIGH:N, a list A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), triangular(LOW,MODE,HIGH), "
@@ -91,6 +92,45 @@ def variation(value: object, place: Place) -> Variation:
     if "," in text or _NUMBER.fullmatch(text):
         return Variation("values", (), _several(_listed(text, place), place, text), text)
     raise _refused(text, place)
+
+
+def in_key_units(key: str, way: Variation, model: type[Table], place: Place) -> tuple[str, Variation]:
+    """Key and variation with the file's own key and its unit: race_eccentricity=5 µm is race_eccentricity_mm=0.005."""
+    path = path_of(key)
+    done = [convert_entry(path, value, model, lambda _: place) for value in way.values]
+    if not any(converted for *_, converted in done):
+        return key, way
+    if len({own for own, *_ in done}) > 1:
+        raise InputError("a number without its unit in a list with units", place=place, found=way.text)
+    values = tuple(value for _, value, _ in done)
+    listed = ", ".join(map(str, values))
+    return key_path(done[0][0]), replace(way, values=values, text=listed if way.listed else f"{way.kind}({listed})")
+
+
+def ways_of(given: Any, model: type[Table], place: Place, example: str) -> dict[str, Variation]:
+    """Variation by the file's own key, of KEY=HOW as on the command line, or of a table by key; each key once."""
+    pairs = given.items() if isinstance(given, Mapping) else [_assigned(text, place, example) for text in given or ()]
+    ways: dict[str, Variation] = {}
+    for key, how in pairs:
+        here = Place(place.file, place.line, f"{place.key} {key}")
+        own, way = in_key_units(str(key), variation(how, here), model, here)
+        if own in ways:
+            raise InputError("the key stands twice", place=here, remedy="Give each key once.")
+        ways[own] = way
+    return ways
+
+
+def _assigned(text: object, place: Place, example: str) -> tuple[str, str]:
+    key, equals, how = text.partition("=") if isinstance(text, str) else ("", "", "")
+    if not equals or not key.strip():
+        raise InputError("not KEY=…", place=place, found=str(text), allowed=example)
+    return key.strip(), how.strip()
+
+
+def canonical_key(key: str, model: type[Table]) -> str:
+    """The file's own key, however its unit is written; the key itself if the file has none like it."""
+    own = canonical_path(path_of(key), model)
+    return key if own in (None, path_of(key)) else key_path(own or ())
 
 
 def _refused(

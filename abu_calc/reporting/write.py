@@ -4,11 +4,12 @@ import contextlib
 import os
 import stat
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from abu_calc.foundation.errors import OutputError, Place
+from abu_calc.foundation.call_files import enter
+from abu_calc.foundation.errors import InputError, OutputError, Place
 
 
 class Target(NamedTuple):
@@ -19,7 +20,8 @@ class Target(NamedTuple):
 
 
 def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = (), option: str | None = None) -> None:
-    """Refuse early what could not be written later: unknown suffix, missing folder, existing file without --force.
+    """Refuse early what could not be written later: unknown suffix, missing folder, existing file without --force, a
+    file that the same call reads or writes already.
 
     `option`: that names the file, for errors about names that no file can have.
     """
@@ -37,38 +39,54 @@ def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = (), opt
             raise OutputError("this is a folder", place=place, remedy="Give a file's name.")
         if not path.absolute().parent.is_dir():
             raise OutputError("the folder does not exist", place=place, remedy="Make it first.")
+        if not os.access(_final(path).parent, os.W_OK):
+            raise OutputError("the folder cannot be written", place=place, remedy="Name a file in another folder.")
         _check_kind(path)
         if os.path.lexists(path) and not force:
             raise _exists(path)
+        enter(path, written=True)
     except OSError as error:
         named = Place(str(path), key=option)
         raise OutputError(f"cannot be written: {error.strerror or error}", place=named) from None
 
 
 def write(targets: Iterable[Target], *, force: bool) -> None:
-    """Write files, all of them beside their places first, then put into these.
+    """Write files, all of them beside their places first, then put into these; what can be written is.
 
     Without `force` none takes the place of a file, even one that has come since `check_target` looked. Symbolic links
-    stay, the file they point to is replaced. Raises OutputError, naming the file.
+    stay, the file they point to is replaced. Raises an error that names the files that were not written, and those that
+    were.
     """
     ready: list[tuple[Path, Path]] = []
-    path, named = Path(), ""
+    faults, written = list[InputError](), list[str]()
     try:
         for path, text in targets:
-            ready.append((_beside(path, [text] if isinstance(text, (str, bytes)) else text), path))
+            with _noted(faults, path):
+                ready.append((_beside(path, [text] if isinstance(text, (str, bytes)) else text), path))
         for temporary, path in ready:
-            _place(temporary, path, force=force)
-            named += f"{', ' if named else 'Written is: '}{path}"
-    except OutputError as error:
-        error.remedy = ". ".join(part for part in ((error.remedy or "").removesuffix("."), named) if part) + "."
-        raise
-    except OSError as error:
-        message = f"cannot be written: {error.strerror or error}"
-        raise OutputError(message, place=Place(str(path)), remedy=f"{named}." if named else None) from error
+            with _noted(faults, path):
+                _place(temporary, path, force=force)
+                written.append(str(path))
     finally:
         for temporary, _ in ready:
             with contextlib.suppress(OSError):
                 temporary.unlink(missing_ok=True)
+    if faults:
+        error = faults[0] if len(faults) == 1 else OutputError("\n".join(map(str, faults)))
+        named = f"Written is: {', '.join(written)}." if written else None
+        error.remedy = " ".join(part for part in (error.remedy, named) if part) or None
+        raise error
+
+
+@contextlib.contextmanager
+def _noted(faults: list[InputError], path: Path) -> Iterator[None]:
+    """Note the error about one file, so that the others are written."""
+    try:
+        yield
+    except InputError as error:
+        faults.append(error)
+    except OSError as error:
+        faults.append(OutputError(f"cannot be written: {error.strerror or error}", place=Place(str(path))))
 
 
 def _exists(path: Path) -> OutputError:

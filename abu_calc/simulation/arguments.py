@@ -137,7 +137,19 @@ def one_of(argument: str, value: str | None, allowed: Collection[str]) -> None:
     )
 
 
-def check_effects(present: Sequence[str], with_effects: Sequence[str], without_effects: Sequence[str]) -> None:
+NEEDED: Final = {
+    "gravity": 'machine.spindle_axis = "horizontal".',
+    "grinding_contact": "the scene grinding, and a table [grinding] whose contact is compliant or rigid.",
+    "run_up": "the scene run-up, and a table [run_up].",
+    "motor": "the scene run-up, and the tables [run_up] and [motor].",
+    "transverse_motion": 'the scene grinding, grinding.contact = "face", wheel.axial_runout_mm above 0, and balls.',
+}
+"""Needs of an effect in a machine file; the other effects are there always."""
+
+
+def check_effects(
+    present: Sequence[str], with_effects: Sequence[str], without_effects: Sequence[str], *, machine: bool = False
+) -> None:
     """Refuse effects nobody knows, those there is no data for, and those asked both in and out."""
     from abu_calc.dynamics.effects.registry import REGISTRY
 
@@ -152,7 +164,7 @@ def check_effects(present: Sequence[str], with_effects: Sequence[str], without_e
                 place=Place(key="with_effects"),
                 found=name,
                 allowed=", ".join(present) or "none",
-                remedy="Write its table into the file.",
+                remedy=f"It needs {NEEDED[name]}" if machine and name in NEEDED else "Write its table into the file.",
             )
         if name in without_effects:
             raise InputError("an effect cannot be both in and out", place=Place(key="without_effects"), found=name)

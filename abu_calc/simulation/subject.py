@@ -67,7 +67,8 @@ class Subject:
 
     def ledger(self, accuracy: float, with_effects: Sequence[str] = (), without_effects: Sequence[str] = ()) -> Ledger:
         """The scene with the effects it calls for, and why."""
-        check_effects([effect.name for effect in self.scene.effects], with_effects, without_effects)
+        present = [effect.name for effect in self.scene.effects]
+        check_effects(present, with_effects, without_effects, machine=self.design is not None)
         with self.located():
             return chosen(self.scene, accuracy, with_effects, without_effects)
 

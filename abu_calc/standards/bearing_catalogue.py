@@ -236,6 +236,11 @@ PAIRS: Final = ("CA", "CB", "CC", "GA", "GB", "GC")
 _SEPARATORS: Final = " -/.,"
 # Shields and seals of GOST names: 60203, 80203 shields, 160203, 180203 seals.
 _GOST_CLOSED: Final = re.compile(r"(60|80|160|180)(\d{3})$")
+# GOST puts the class before the number, and a clearance group before the class: 6-205, 76-180205.
+_GOST_CLASS: Final = re.compile(r"([A-Z]?\d*?)(6[XХ]|\d)[-‐‑‒–—―−](\d{3}.*)")
+_GOST_GROUPS: Final = {"": None, "6": "C2", "7": "C3", "8": "C4", "9": "C5"}
+"""Clearance groups of GOST 24810 by those of ISO 5753."""
+_GOST_CLASSES: Final = ("0", "6", "6X", "5", "4", "2")
 _SMALL: Final = re.compile(r"61([89])/(\d(?:\.5)?)(?![\d.])")
 _LIKE_BALL: Final = re.compile(r"(NUP|NU|NJ|NF|N)(\d)(\d\d)")
 _TYPES: Final = (
@@ -262,7 +267,7 @@ class Designation(NamedTuple):
 
 
 def read_designation(text: str) -> Designation:
-    """A designation with its suffixes: 6203-2RS, 6203ZZ, 6203-2Z/C3, 180203.
+    """A designation with its suffixes: 6203-2RS, 6203ZZ, 6203-2Z/C3, 180203; or with GOST's class: 6-205, 76-180205.
 
     Cages, snap rings and greases change neither seats nor ratings and are passed over. Seals change the limiting speed.
     InputError: a number that is not tabulated, a suffix that is not known.
@@ -272,6 +277,8 @@ def read_designation(text: str) -> Designation:
     """
     spaced = " ".join(text.upper().split()).translate(str.maketrans("АВС", "ABC"))
     name = spaced.replace(" ", "")
+    if classed := _GOST_CLASS.fullmatch(name):
+        return _with_gost_class(classed[1], classed[2].replace("Х", "X"), classed[3], text)
     name = _as_nsk(name)
     closure: Closure | None = None
     if (closed := _GOST_CLOSED.fullmatch(name)) and closed[2].lstrip("0") in known_names():
@@ -286,6 +293,27 @@ def read_designation(text: str) -> Designation:
             return Designation(bearing(basic), *_suffixes(written[len(basic) :], text, basic))
     _refuse_other_types(name, text)
     return Designation(bearing(text), None, None)  # refused there, with the nearest known
+
+
+def _with_gost_class(group: str, accuracy: str, basic: str, text: str) -> Designation:
+    """A designation behind GOST's prefix of clearance group and accuracy class; InputError for another prefix."""
+    try:
+        rest = read_designation(basic)
+    except InputError as error:
+        error.found = text
+        raise
+    if accuracy not in _GOST_CLASSES or group not in _GOST_GROUPS:
+        raise InputError(
+            f"the prefix {group}{accuracy} of the bearing designation is not known", found=text,
+            allowed="an accuracy class 0, 6, 5, 4 or 2, a clearance group 6, 7, 8 or 9 before it: 6-205, 76-180205",
+            remedy=f'Give {basic}, with bearing_class = "{accuracy if accuracy in _GOST_CLASSES else 0}".',
+        )  # fmt: skip
+    if rest.accuracy is not None or (group and rest.group is not None):
+        raise InputError(
+            "prefix and suffix of the bearing designation both give the class or the clearance", found=text,
+            remedy="Leave out the one or the other.",
+        )  # fmt: skip
+    return rest._replace(group=_GOST_GROUPS[group] or rest.group, accuracy=accuracy)
 
 
 def _as_nsk(name: str) -> str:

@@ -6,9 +6,9 @@ from typing import Annotated, ClassVar
 
 import pytest
 
-from abu_calc.cli.output import BUG, Delivery, asked_figures, check_figures, deliver, fail, figure_option
+from abu_calc.cli.output import BUG, Delivery, asked_figures, deliver, fail, figure_option
 from abu_calc.foundation.checks import Check
-from abu_calc.foundation.errors import InputError, OutputError, Place
+from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
@@ -94,15 +94,6 @@ def test_a_figure_is_a_name_and_a_file() -> None:
         with pytest.raises(InputError) as caught:
             asked_figures([text])
         assert (caught.value.place.key, caught.value.found) == ("--figure", text)
-
-
-def test_two_outputs_do_not_share_a_file(tmp_path: Path) -> None:
-    pair = [("levels", tmp_path / "a.svg"), ("section", tmp_path / "a.svg")]
-    with pytest.raises(OutputError, match="same file"):
-        check_figures("size", pair, (), force=False)
-    with pytest.raises(OutputError, match="same file"):
-        check_figures("size", pair[1:], [tmp_path / "a.svg"], force=False)
-    check_figures("size", pair[1:], [tmp_path / "b.svg"], force=False)
 
 
 def test_commands_without_figures_have_no_option_for_them() -> None:

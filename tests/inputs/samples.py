@@ -154,6 +154,7 @@ FULL: dict[str, dict[str, str]] = {
         "dynamic_load_rating_kN": "9.95",
         "static_load_rating_kN": "4.75",
         "radial_load_kN": "0.8",
+        "load_kind": '"moderate"',
         "series": '"light"',
         "inner_ring_load": '"rotating"',
         "outer_ring_load": '"stationary"',

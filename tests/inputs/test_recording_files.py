@@ -276,6 +276,25 @@ def test_samples_of_24_bits(tmp_path: Path) -> None:
     assert read_recording(file, scale=1.0).samples[0] == pytest.approx(TONE, abs=1e-6)
 
 
+@pytest.mark.parametrize("lengths", [(0xFFFFFFFF, 0xFFFFFFFF), (0, 0), (0x7FFFF024, 0x7FFFF000)])
+def test_a_streamed_wav_is_read_to_its_end(tmp_path: Path, lengths: tuple[int, int]) -> None:
+    """A program that writes to a pipe, as FFmpeg, or SoX, leaves both lengths open; half a frame at the end is cut."""
+    whole = wav(np.stack([TONE, TONE / 2], axis=1).astype("float32"))
+    place = whole.index(b"data") + 4
+    riff, data = (length.to_bytes(4, "little") for length in lengths)
+    open_ended = whole[:4] + riff + whole[8:place] + data + whole[place + 4 :] + b"\1\2\3"
+    found = read_recording(written(tmp_path, open_ended, "r.wav"), scale=1.0)
+    assert found.samples[1] == pytest.approx(TONE / 2, abs=1e-6) and len(found.samples[0]) == 8000
+    assert any("leaves its length open" in remark for remark in found.remarks)
+    cut_off = whole[:-400]
+    assert "not a WAV file that can be read" in str(refused(written(tmp_path, cut_off, "cut.wav"), scale=1.0))
+
+
+@pytest.mark.parametrize("name", ["\0", "a\0.csv", "a\0.wav"])
+def test_a_name_that_no_file_can_have_is_refused(name: str) -> None:
+    assert "not a file name" in str(refused(name))
+
+
 def test_channels_of_a_wav_are_axes(tmp_path: Path) -> None:
     both = written(tmp_path, wav(np.stack([TONE, TONE / 2], axis=1).astype("float32")), "r.wav")
     found = read_recording(both, "acceleration", 10.0)

@@ -159,3 +159,20 @@ def test_what_is_no_list_of_overrides_is_refused(tmp_path: Path, overrides: Any)
 def test_a_file_of_bearings_is_refused_in_the_name_of_the_study(name: str) -> None:
     assert "this command needs a whole machine" in str(refused(getattr(abu_calc, name), BEARINGS))
     assert "holds bearings only" in str(refused(BEARINGS.whole))
+
+
+@pytest.mark.parametrize(
+    ("effect", "needs"),
+    [("transverse_motion", 'grinding.contact = "face", wheel.axial_runout_mm above 0'), ("motor", "[motor]"),
+     ("gravity", "horizontal")],
+)  # fmt: skip
+def test_an_effect_that_a_machine_lacks_says_what_it_needs(effect: str, needs: str) -> None:
+    error = refused(abu_calc.simulate, MACHINE, with_effects=[effect])
+    assert needs in (error.remedy or "") and error.place.key == "with_effects"
+
+
+def test_a_machine_that_has_what_an_effect_needs_gets_it() -> None:
+    from abu_calc.simulation.subject import subject_of
+
+    subject = subject_of(MACHINE.changed({"wheel.axial_runout_mm": 0.1}), "grinding")
+    assert subject.scene.effect("transverse_motion") is not None

@@ -19,6 +19,8 @@ from abu_calc.standards.bearing_catalogue import read_designation
         ("NU 208 ECP", "NU208", None, None), ("NJ2310/C3", "NJ2310", "C3", None), ("22216 E", "22216", None, None),
         ("22220 CC/W33 C3", "22220", "C3", None), ("HK 1010", "HK1010", None, None), ("6312 C5", "6312", "C5", None),
         ("7208 BECBP", "7208B", "CB", None), ("7210 BEGAP", "7210B", "GA", None), ("7005C/P4", "7005C", None, "4"),
+        ("6-205", "6205", None, "6"), ("76-180205", "6205", "C3", "6"), ("5 – 206", "6206", None, "5"),
+        ("0−205", "6205", None, "0"), ("6Х-7516", "32216", None, "6X"),
         ("32008 X/Q", "32008", None, None), ("61805-2Z", "61805", None, None), ("NA4905", "NA4905", None, None),
     ],
 )  # fmt: skip
@@ -34,7 +36,8 @@ def test_suffixes_are_read(text, name, group, accuracy):
         ("24140", "spherical roller bearings"), ("HK9999", "drawn-cup"),
         ("6203-FOO", "suffix FOO"), ("62033", "unknown bearing designation"),
         ("7216", "two meanings"), ("6203 C3 QQQ8", "suffix 8"), ("", "unknown bearing designation"),
-        ("6203-P7", "suffix P7|suffix 7"),
+        ("6203-P7", "suffix P7|suffix 7"), ("9-205", "prefix 9.*6-205, 76-180205.*Give 205"), ("А75-205", "prefix A75"),
+        ("6-205/P5", "both give the class"), ("6-999", "unknown bearing designation .found 6-999"),
     ],
 )  # fmt: skip
 def test_what_is_not_known_is_refused_for_a_true_reason(text, said):

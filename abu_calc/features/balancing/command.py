@@ -1,5 +1,6 @@
 """`abu balance READINGS`: balancing of a rotor in one plane or two from runs on a rig or in the field."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -43,14 +44,17 @@ def balance(
         check_target(save_coefficients, force=how.force, suffixes=(".toml",), option="--save-coefficients")
     result = study(read_readings(readings, set_ or ()), coefficients)
     outcome = outcome_of(result, explain=explain)
-    if save_coefficients is None:
-        return outcome
+    return replace(outcome, further=(Target(save_coefficients, _stored(result)),)) if save_coefficients else outcome
+
+
+def _stored(result: "BalanceResult") -> Iterator[str]:
+    """Text of the influence coefficients; raises InputError for an answer without them."""
     if result.coefficients_text is None:
         raise InputError(
             "influence coefficients come from trial masses", place=Place(key="--save-coefficients"),
             found=f"an answer by {result.method}", remedy="Make a run with a trial mass in each plane.",
         )  # fmt: skip
-    return replace(outcome, further=(Target(save_coefficients, result.coefficients_text),))
+    yield result.coefficients_text
 
 
 def outcome_of(result: "BalanceResult", *, explain: bool = False) -> Outcome:

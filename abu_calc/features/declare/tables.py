@@ -2,19 +2,37 @@
 
 from typing import Annotated, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
+from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.text import shown_short
+from abu_calc.inputs.sensitivity import ALLOWED, sensitivities
 
 MOST_FILES = 2000
 Text = Annotated[str, Field(min_length=1, max_length=200)]
 SensitivityValue = float | Text
 Columns = Annotated[tuple[Text | int, ...], Field(strict=False, min_length=1, max_length=3)]
-Sensitivities = (
+
+
+def _readable(given: object) -> object:
+    """Sensitivities that can be read; raises the error about the others."""
+    values = list(given.values()) if isinstance(given, dict) else given if isinstance(given, (list, tuple)) else [given]
+    try:
+        if values and all(isinstance(value, (int, float, str)) and not isinstance(value, bool) for value in values):
+            sensitivities({str(number): value for number, value in enumerate(values)})
+            return given
+    except InputError:
+        pass
+    raise problem("not a sensitivity", found=shown_short(given), allowed=ALLOWED)
+
+
+Sensitivities = Annotated[
     SensitivityValue
     | Annotated[tuple[SensitivityValue, ...], Field(strict=False, min_length=1, max_length=3)]
-    | dict[Text, SensitivityValue]
-)
+    | dict[Text, SensitivityValue],
+    BeforeValidator(_readable),
+]
 SENSITIVITY = (
     "Sensitivity of sensors that were recorded in V or mV: mV per m/s², or a text with its unit such as "
     '"100 mV/g"; for all channels, a list in the order of the columns, or a table by channel.'

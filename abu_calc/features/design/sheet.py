@@ -28,7 +28,7 @@ from abu_calc.reporting.drawings.shapes import SCALES, Drawing, Point, Shape, di
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
 
-COLUMNS: Final = (10.0, 40.0, 13.0, 18.0, 80.0, 19.0)
+COLUMNS: Final = (10.0, 42.0, 13.0, 18.0, 78.0, 19.0)
 """Widths of the parts list."""
 GAP = 12.0
 """Distance between views, and between views and the frame. All lengths are on paper [mm]."""

@@ -1,6 +1,7 @@
 """Parts and balls of a design as solids: the assembly that CAD programs open."""
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from abu_calc.reporting.drawings.shapes import plain
@@ -23,15 +24,20 @@ def size_solids(result: "SizeResult") -> SolidAssembly:
 
     The axis is z; the closed web's face lies at z = 0. The first ball lies on x.
     """
+    return SolidAssembly(
+        "autobalancer", f"Autobalancer of {plain(result.title)}, lengths in mm", tuple(design_items(result))
+    )
+
+
+def design_items(result: "SizeResult") -> Iterator[PlacedSolid]:
+    """Parts and balls of one autobalancer."""
     densities = {name: density for density, name in MATERIALS.items()}
     parts = tuple(
         RevolvedSolid(part.name, part.outline_mm, part.material, densities[part.material])
         for part in result.section.parts
     )
-    return SolidAssembly(
-        "autobalancer", f"Autobalancer of {plain(result.title)}, lengths in mm",
-        (*(PlacedSolid(part.name, part) for part in parts), *_balls(result)),
-    )  # fmt: skip
+    yield from (PlacedSolid(part.name, part) for part in parts)
+    yield from _balls(result)
 
 
 def _balls(result: "SizeResult") -> tuple[PlacedSolid, ...]:

@@ -1,7 +1,7 @@
 """`abu explain [STEP|CODE|EFFECT|KEY|TABLE]`: a step's formulas, a check's question, an effect, a key or a table."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -22,6 +22,10 @@ What = Annotated[
 ]
 
 
+CODE_SIGNS: Final = str.maketrans("OILАВО", "011AB0")
+"""Signs that are easily taken for those of a code: O for 0, I and l for 1, Cyrillic letters."""
+
+
 def explain(step: What = None) -> Outcome:
     """Explain a sizing step, a check, an effect or a key of a machine file.
 
@@ -35,8 +39,8 @@ def explain(step: What = None) -> Outcome:
         return _listed()
     if step in STEPS:
         return _step(step)
-    if step.upper() in CHECK_CODES:
-        return _code(step.upper())
+    if (code := step.upper().translate(CODE_SIGNS)) in CHECK_CODES:
+        return _code(code)
     from abu_calc.dynamics.effects.registry import REGISTRY
 
     effects = dict(REGISTRY)

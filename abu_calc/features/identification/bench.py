@@ -5,7 +5,6 @@ and |sin θ| ≤ f cos θ, f = k_r/r.
 """
 
 import math
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -16,6 +15,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import GRAVITY, from_si, to_si
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.recording_files import content_of
 from abu_calc.inputs.recording_table import decoded, table_of
 
 STARTS_UM: Final = (0.5, 5.0, 20.0)
@@ -25,6 +25,8 @@ LOST_DRAG: Final = 20.0
 ANGLE: Final = Range("angle of the ball from the bottom", -170, 170, "deg")
 STEPS: Final = 1500
 FEWEST: Final = 20
+LONGEST: Final = 1e4
+"""Duration [s] of a film at most: a ball comes to rest within minutes."""
 
 
 @dataclass(frozen=True)
@@ -40,11 +42,7 @@ class BenchValues:
 
 def read_decay(file: str) -> tuple[Array, Array]:
     """Times [s] and angles [rad] of a film; columns t_s and angle_deg."""
-    try:
-        content = Path(file).read_bytes()
-    except OSError as error:
-        raise InputError("the file cannot be read", place=Place(file), found=error.strerror or str(error)) from None
-    table = table_of(file, decoded(file, content), [])
+    table = table_of(file, decoded(*content_of(file)), [])
     names = [name.lower() for name in table.names]
     if "t_s" not in names or "angle_deg" not in names:
         raise InputError(
@@ -55,12 +53,12 @@ def read_decay(file: str) -> tuple[Array, Array]:
             remedy="Give the time, and the angle of the ball from the bottom.",
         )
     times, angles = table.values[:, names.index("t_s")], table.values[:, names.index("angle_deg")]
-    if len(times) < FEWEST or not np.all(np.diff(times) > 0):
+    if len(times) < FEWEST or not np.all(np.diff(times) > 0) or times[-1] - times[0] > LONGEST:
         raise InputError(
-            "too few rows, or times that do not ascend",
+            "too few rows, times that do not ascend, or too long a film",
             place=Place(file),
-            found=f"{len(times)} rows",
-            allowed=f"at least {FEWEST}, ascending",
+            found=f"{len(times)} rows, {np.ptp(times) if len(times) else 0:g} s",
+            allowed=f"at least {FEWEST}, ascending, {LONGEST:g} s",
         )
     for angle in (float(angles.min()), float(angles.max())):
         ANGLE.check(angle)

@@ -36,7 +36,7 @@ def identify(
         float | None, typer.Option("--run-up", metavar="S", help="Run-up time instead of the file's.")
     ] = None,
     write: Annotated[
-        str | None,
+        Path | None,
         typer.Option("--write", metavar="FILE", help="File to write: this one with the identified values."),
     ] = None,
 ) -> Outcome:
@@ -48,20 +48,19 @@ def identify(
     from abu_calc.features.identification.study import identify as study
     from abu_calc.inputs.scene import read_any
 
-    target = None if write is None else Path(write)
-    if target is not None:
-        check_target(target, force=how.force, suffixes=(".toml",), option="--write")
+    if write is not None:
+        check_target(write, force=how.force, suffixes=(".toml",), option="--write")
     with progress(how) as tell:
         result = study(
             read_any(file, set_ or ()), recordings, without=without, bench=bench, mark_angle_deg=mark_angle,
             run_up_s=run_up, progress=tell,
         )  # fmt: skip
     outcome = outcome_of(result)
-    if target is None:
+    if write is None:
         return outcome
     from abu_calc.features.identification.written import identified_text
 
-    return replace(outcome, further=(Target(target, identified_text(file, result)),))
+    return replace(outcome, further=(Target(write, identified_text(file, result)),))
 
 
 def outcome_of(result: "IdentifyResult") -> Outcome:

@@ -18,9 +18,10 @@ from abu_calc.features.optimise.costs import (
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Grade
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.variation import NOT_OF_THE_MACHINE, Variation, path_of, variation
+from abu_calc.inputs.variation import NOT_OF_THE_MACHINE, Variation, path_of, ways_of
 from abu_calc.sizing.balls import Candidate, candidates, sound
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.imbalance import find_imbalance
@@ -55,13 +56,10 @@ def options_of(machine: Machine, choose: object, place: Place) -> tuple[Option, 
     """Options as asked (`KEY=choice(A, B)` each, or a table by key), or the default list."""
     if choose is None:
         return tuple(_usual(machine))
-    pairs = list(choose.items()) if isinstance(choose, Mapping) else [_pair(text, place) for text in _listed(choose)]
-    if not pairs:
+    listed = choose if isinstance(choose, (list, tuple, Mapping)) else [choose]
+    options = tuple(_option(*each, place) for each in ways_of(listed, MachineFile, place, GRAMMAR).items())
+    if not options:
         raise InputError("nothing to choose from", place=place, allowed=GRAMMAR)
-    options = tuple(_option(key, how, place) for key, how in pairs)
-    names = [option.name for option in options]
-    if twice := next((name for name in names if names.count(name) > 1), None):
-        raise InputError("chosen twice", place=place, found=twice, remedy="Give each key once.")
     _refuse_many(options, place)
     for option in options:
         for assignment in option.values:
@@ -72,29 +70,15 @@ def options_of(machine: Machine, choose: object, place: Place) -> tuple[Option, 
 GRAMMAR: Final = '"KEY=choice(A, B, …)"'
 
 
-def _listed(choose: object) -> Sequence[object]:
-    return choose if isinstance(choose, (list, tuple)) else [choose]
-
-
-def _pair(text: object, place: Place) -> tuple[str, str]:
-    key, equals, how = text.partition("=") if isinstance(text, str) else ("", "", "")
-    if not equals or not key.strip() or not how.strip():
-        raise InputError("not KEY=choice(…)", place=place, found=str(text), allowed=GRAMMAR)
-    return key.strip(), how.strip()
-
-
-def _option(key: object, how: object, place: Place) -> Option:
+def _option(key: str, way: Variation, place: Place) -> Option:
     here = Place(place.file, place.line, f"{place.key} {key}")
-    path = path_of(str(key))
-    if path[0] in NOT_OF_THE_MACHINE or path[0] in ("start", "measured", "measured_after", "limits"):
+    if path_of(key)[0] in (*NOT_OF_THE_MACHINE, "start", "measured", "measured_after", "limits"):
         raise InputError("no value that a design can choose", place=here, allowed="a key of machine or autobalancer")
-    way: Variation = variation(how, here)
     if not way.values:
         raise InputError("a distribution is no list of values", place=here, found=way.text, allowed=GRAMMAR)
-    values = list(dict.fromkeys(way.values))
-    if len(values) < len(way.values):
+    if len(set(way.values)) < len(way.values):
         raise InputError("a value is listed twice", place=here, found=way.text)
-    return Option(str(key), tuple({str(key): value} for value in values))
+    return Option(key, tuple({key: value} for value in way.values))
 
 
 def _tried(machine: Machine, assignment: Assignment, place: Place) -> None:

@@ -15,6 +15,7 @@ from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.features.sweep.command import Cluster, ClusterWait, Resume, StoreFile, Workers, cluster_executor, wording
+from abu_calc.foundation.call_files import enter
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.write import Target, check_target
@@ -109,7 +110,7 @@ def optimise(
     for file in files:
         check_target(file, force=how.force, suffixes=(".toml",), option="--write")
     if store is not None:
-        checked_path(store, taken=(*how.outputs, *(path for _, path in how.figures), *files))
+        enter(checked_path(store), written=True)
     read = [read_machine(machine, set_ or ()) for machine in machines]
     with _naming(), wording(store), cluster_executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
         result = study(

@@ -30,7 +30,9 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.variation import Variants
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.simulate import ACCURACY
 
@@ -151,15 +153,14 @@ def _identity(ask: OptimiseRequest, study: VariantStudy, accuracy: float) -> dic
         "base": 0,
         "seed": ask.seed,
         "accuracy": accuracy,
-        "machines": [machine.sha256 for machine in ask.machines],
-        "overrides": [{each.key: str(each.value) for each in machine.overrides} for machine in ask.machines],
+        "machines": [Variants.of(machine, MachineFile).content for machine in ask.machines],
         "scatter": [
             {"tolerances": request.tolerances, "vary": {key: way.text for key, way in request.vary},
              "time limit": request.time_limit}
             for request in ask.requests
         ],
         "fresh": study.fresh[0].runs,
-        "variants": [f"{machine}: {dict(values)}" for machine, values in study.variants],
+        "variants": [{"machine": machine + 1, **dict(values)} for machine, values in study.variants],
         "versions": software(),
     }  # fmt: skip
 

@@ -10,7 +10,9 @@ from abu_calc.features.optimise.result import OptimiseResult
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.overrides import Override, apply, overrides_of
+from abu_calc.inputs.reading.table import table_at
 from abu_calc.inputs.reading.text import shown
+from abu_calc.inputs.reading.values_with_units import canonical_keys
 
 HEADER: Final = r"(?m)^\[{}\][^\n]*$"
 DROPPED: Final = ("expected",)
@@ -25,11 +27,15 @@ def written_text(machine: Machine, values: Mapping[str, Any], result: OptimiseRe
     content = copy.deepcopy(machine.document.content)
     for name in DROPPED:
         content.pop(name, None)
-    apply(content, (*machine.overrides, *overrides_of(scatter)), MachineFile)
+    overrides = (*machine.overrides, *overrides_of(scatter))
+    for override in overrides:
+        if len(override.path) == 2 and isinstance(held := content.get(str(override.path[0])), dict):
+            held.pop(_without_unit(override), None)
+    apply(content, overrides, MachineFile)
     text = machine.document.text
     for name in DROPPED:
         text = re.sub(rf"(?ms)^\[{name}[.\]].*?(?=^\[|\Z)", "", text)
-    for override in (*machine.overrides, *overrides_of(scatter)):
+    for override in overrides:
         text = _put(text, override)
     try:
         same = tomllib.loads(text) == content
@@ -40,6 +46,14 @@ def written_text(machine: Machine, values: Mapping[str, Any], result: OptimiseRe
     import tomli_w
 
     return tomli_w.dumps(content)
+
+
+def _without_unit(override: Override) -> str:
+    """The key of an override as it stands beside a value with its unit."""
+    *above, key = override.path
+    table = table_at(MachineFile, tuple(above))
+    written = {} if table is None else {own: stem for stem, own in canonical_keys(table).items()}
+    return written.get(str(key), str(key))
 
 
 def _put(text: str, override: Override) -> str:
@@ -54,7 +68,9 @@ def _put(text: str, override: Override) -> str:
     following = re.search(r"(?m)^\[", text[header.end() :])
     end = header.end() + following.start() if following else len(text)
     body = text[header.end() : end]
-    replaced, count = re.subn(rf"(?m)^{key}\s*=[^#\n]*?(?=\s*(#|$))", lambda _: line, body, count=1)
+    replaced, count = re.subn(
+        rf"(?m)^(?:{key}|{_without_unit(override)})\s*=[^#\n]*?(?=\s*(#|$))", lambda _: line, body, count=1
+    )
     if not count:
         replaced = f"\n{line}{body}"
     else:

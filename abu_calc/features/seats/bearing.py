@@ -80,6 +80,7 @@ class Service:
     the rings over mounting (20 °C); `extremes` the lowest and highest of all parts over mounting. `seat_friction`:
     coefficient of friction between ring and seat. `viscosity` [m²/s] of the lubricant at its temperature,
     `contamination` factor e_C, `required_life` [s] (None: the makers' guide).
+    `load_kind`: "moderate" or "shock".
     """
 
     radial_load: float | None = None
@@ -95,6 +96,7 @@ class Service:
     contamination: float = 0.5
     required_life: float | None = None
     extremes: tuple[float, float] | None = None
+    load_kind: str = "shock"
 
     def __post_init__(self) -> None:
         _check(AXIAL_LOAD, self.axial_load)

@@ -69,6 +69,7 @@ OPTIONS: Final = (
     BearingOption("name", "--name", BEARING, str, "NAME", "Name of the bearing in the report."),
     BearingOption("radial_load_kN", "--radial-load-kN", LOADS, float, "KN", "Radial load."),
     BearingOption("axial_load_kN", "--axial-load-kN", LOADS, float, "KN", "Axial load."),
+    BearingOption("load_kind", "--load-kind", LOADS, str, "NAME", "moderate (to 150 %) or shock (to 300 %)."),
     BearingOption("inner_ring_load", "--inner-ring-load", LOADS, str, "NAME", f"Inner ring: {KINDS}"),
     BearingOption("outer_ring_load", "--outer-ring-load", LOADS, str, "NAME", f"Outer ring: {KINDS}"),
     BearingOption("speed_rpm", "--speed", LOADS, float, "RPM", "Speed of the shaft."),

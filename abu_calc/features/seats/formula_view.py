@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.joint import CENTRIFUGAL, TEMPERATURE, Joint, inner_ring_diameter
 from abu_calc.features.seats.joints import warm_parts
-from abu_calc.features.seats.notes import SHOCK_FACTOR
+from abu_calc.features.seats.notes import intensity_factors
 from abu_calc.features.seats.rating_life import exponent
 from abu_calc.features.seats.records import Clearance, SeatResult, um, um_pair
 from abu_calc.features.seats.seats import BearingSeats
@@ -29,7 +29,7 @@ def _seat(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str, 
     """Lines of one seat; those the file has no data for are left out."""
     return (
         *_fit(joint, seat),
-        *_load(joint, seat),
+        *_load(bearing, joint, seat),
         *_losses(bearing, joint, seat),
         _stress(joint, seat),
         *_moment(bearing, joint, seat),
@@ -50,17 +50,18 @@ def _fit(joint: Joint, seat: SeatResult) -> tuple[str, ...]:
     )
 
 
-def _load(joint: Joint, seat: SeatResult) -> tuple[str, ...]:
+def _load(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str, ...]:
     intensity = None if seat.needs_no_grip else seat.load_intensity_kN_per_m
     if joint.radial_load is None or joint.length is None or intensity is None:
         return ()
     load, length = _g(from_si(joint.radial_load, "kN")), _g(from_si(joint.length, "mm"))
     source, catalogue = (_g(loss.amount_um) for loss in seat.losses if loss.name == "load")
+    factors = "·".join(map(_g, intensity_factors(bearing, joint)))
     under = f"{_mm(joint.diameter)}·{_g(joint.radial_load)}/{_mm(joint.ring.width)}"
     return (
         f"13·F_r·k_B/b_s = 13·{load}·{_g(joint.factor)}/{length} = {source} µm",
         f"0.08·√(d·F_r/B) = 0.08·√({under}) = {catalogue} µm",
-        f"P_R = k₁·F_r/b_s = {SHOCK_FACTOR:g}·{load}/{_g(joint.length)} = {_g(intensity)} kN/m",
+        f"P_R = k₁·k₂·k₃·F_r/b_s = {factors}·{load}/{_g(joint.length)} = {_g(intensity)} kN/m",
     )
 
 

@@ -110,6 +110,7 @@ def _service(table: "BearingTable") -> Service:
         viscosity=_si(table.lubricant_viscosity_mm2_per_s, "mm2_per_s"),
         contamination=table.contamination_factor,
         required_life=_si(table.required_life_h, "h"),
+        load_kind=table.load_kind or "shock",
         extremes=None if table.temperature_range_K is None else (*table.temperature_range_K,),  # type: ignore[arg-type]
     )
 

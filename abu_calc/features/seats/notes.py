@@ -8,6 +8,7 @@ import math
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing
+from abu_calc.features.seats.equivalent_load import load_factors
 from abu_calc.features.seats.interference import Interval
 from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, MEASURED, TEMPERATURE, InterferenceLoss, Joint
 from abu_calc.features.seats.joints import makers_classes
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 
 _AS_SOLID: Final = 0.97
 """Share of the pressure above which a part is called solid or thick."""
-SHOCK_FACTOR: Final = 1.8
-"""k₁ of the load intensity: strong shocks, overload to 300 %, taken always as the safe side (moderate ones: 1.0)."""
 
 
 @formula(
@@ -31,23 +30,50 @@ SHOCK_FACTOR: Final = 1.8
     "P_R = k₁·k₂·k₃·F_r/b_s",
     "N/m",
     shown="kN_per_m",
-    where="The tolerance class that follows from it is unverified advice.",
+    where=(
+        "k₁ is 1 for a moderate load (load_kind, overload to 150 %) and 1.8 for shocks and vibration (to 300 %). k₂ is "
+        "1 for solid shafts and thick housings, up to 3 for hollow shafts and 1.8 for thin housings. k₃ is 1 for one "
+        "row of rolling elements, up to 2 for two rows under an axial load. The tolerance class that follows from it "
+        "is unverified advice."
+    ),
     checked=(SEAT_LENGTH,),
-    source="handbooks as quoted by Afanasiev 2015",
+    source="GOST 3325-85 as handbooks quote it; Afanasiev 2015",
 )
-def load_intensity(load: float, seat_length: float) -> float:
+def load_intensity(load: float, seat_length: float, factors: tuple[float, float, float]) -> float:
     """
-    >>> round(1e-3 * load_intensity(3000.0, 29e-3), 1)
+    >>> round(1e-3 * load_intensity(3000.0, 29e-3, (1.8, 1.0, 1.0)), 1)
     186.2
     """
-    return SHOCK_FACTOR * load / SEAT_LENGTH.check(seat_length)
+    return math.prod(factors) * load / SEAT_LENGTH.check(seat_length)
 
 
-def seat_intensity(joint: Joint) -> float | None:
+def intensity_factors(bearing: SeatedBearing, joint: Joint) -> tuple[float, float, float]:
+    """k₁, k₂ and k₃ of the load intensity of a seat. Source: `standards/data/load_intensity.toml`."""
+    table, service = toml_table("load_intensity")["factors"], bearing.service
+    bore, outer = bearing.inner.diameter, bearing.outer.diameter
+    if joint.seat == "housing":
+        thinness, column = outer / (bearing.housing.other or math.inf), 4
+    else:
+        thinness = (bearing.shaft.other or 0.0) / bore
+        column = 1 + sum(outer / bore > ratio for ratio in table["diameter_ratios"])
+    rows = 1.0
+    if bearing.kind == "spherical" and bearing.ratings and service.radial_load and service.axial_load:
+        factors, _ = load_factors(bearing.kind, bearing.entry, bearing.ratings, service.axial_load)
+        cotangent = 1.5 / factors.e if factors else 0.0  # e = 1.5·tan α of two rows, ISO 281
+        rows = _above(table["rows"], service.axial_load / service.radial_load * cotangent)[1]
+    return table["load"][service.load_kind], _above(table["part"], thinness)[column], rows
+
+
+def _above(rows: list[list[float]], value: float) -> list[float]:
+    """The last row whose first number a value exceeds; the first row for none."""
+    return next((row for row in reversed(rows) if value > row[0] + 1e-9), rows[0])
+
+
+def seat_intensity(bearing: SeatedBearing, joint: Joint) -> float | None:
     """Load intensity of a seat [N/m]; None without a load or a length."""
     if joint.radial_load is None or joint.length is None:
         return None
-    return load_intensity(joint.radial_load, joint.length)
+    return load_intensity(joint.radial_load, joint.length, intensity_factors(bearing, joint))
 
 
 def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:
@@ -267,17 +293,18 @@ def least_text(length: float) -> str:
 
 
 def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
-    intensity = seat_intensity(joint)
+    intensity = seat_intensity(bearing, joint)
     if intensity is None:
         return ()
     static = bearing.ratings.static if bearing.ratings else 0.0
     heavy = joint.must_grip and joint.radial_load is not None and 0 < static < 4 * joint.radial_load
     tolerance_class = advised_class(joint.seat, joint.diameter, intensity)
     table = f"table gives {tolerance_class}" if tolerance_class else "tables end below it"
-    strong = f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m with strong shocks"
+    load, part, rows = intensity_factors(bearing, joint)
+    factors = f"k₁ {load:g} ({bearing.service.load_kind}), k₂ {part:g}, k₃ {rows:g}"
     return (
         f"k_B = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
-        f"{strong}: the handbook {table} (unverified).",
+        f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m, {factors}: the handbook {table} (unverified).",
         *(("The load is above a quarter of C0: catalogues then give 0.02·F_r/B as its loss.",) if heavy else ()),
     )
 

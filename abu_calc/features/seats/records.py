@@ -278,7 +278,7 @@ class SeatResult(Record):
     ]
     rejected_fits: tuple[RejectedFit, ...]
     admissible_fits: tuple[AdmissibleFit, ...]
-    load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·F_r/b_s")]
+    load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·k₂·k₃·F_r/b_s")]
     creep: Creep
     requirements: Requirements
     form: DrawnForm

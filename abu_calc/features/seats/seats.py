@@ -250,7 +250,7 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
             Admissible(candidate.tolerance_class, candidate.interference, candidate.clearance_probability)
             for candidate in admissible(joint, start, own.best)
         ),
-        load_intensity=seat_intensity(joint),
+        load_intensity=seat_intensity(bearing, joint),
         creep=creep_result,
         requirements=seat_requirements(joint, wanted, bearing.bearing_class),
         form=seat_form(joint, joint.tolerance_class if given and not joint.measured else wanted, bearing.bearing_class),

@@ -110,10 +110,6 @@ def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) ->
             raise InputError("--samples goes with --trajectory", remedy="Add --trajectory FILE.csv.")
         return
     check_target(trajectory, force=how.force, suffixes=(".csv",), option="--trajectory")
-    if trajectory.resolve() in {path.resolve() for path in how.outputs}:
-        raise InputError("--output and --trajectory name the same file", found=str(trajectory))
-    if trajectory.resolve() in {path.resolve() for _, path in how.figures}:
-        raise InputError("--figure and --trajectory name the same file", found=str(trajectory))
 
 
 def outcome_of(result: "SimulateResult") -> Outcome:

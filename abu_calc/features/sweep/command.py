@@ -14,6 +14,7 @@ import typer
 from abu_calc.cli.command import File, Overrides, add_command
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
+from abu_calc.foundation.call_files import enter
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place, StoppedError
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.reporting.outcome import Outcome
@@ -154,8 +155,7 @@ def sweep(
     if resume and store is None:
         raise InputError("--resume goes with --store", remedy="Add --store FILE.sqlite.")
     if store is not None:
-        files = (*how.outputs, *(path for _, path in how.figures))
-        checked_path(store, taken=files)
+        enter(checked_path(store), written=True)
     with wording(store), cluster_executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
         result = study(
             read_any(machine, set_ or ()),

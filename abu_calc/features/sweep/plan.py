@@ -33,7 +33,17 @@ from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneDescription, SceneFile
 from abu_calc.inputs.two_races import MOST_WHEELS, TwoRaceFile
-from abu_calc.inputs.variation import MOST_RUNS, NOT_OF_THE_MACHINE, Sweep, Variants, Variation, path_of, variation
+from abu_calc.inputs.variation import (
+    MOST_RUNS,
+    NOT_OF_THE_MACHINE,
+    Sweep,
+    Variants,
+    Variation,
+    canonical_key,
+    path_of,
+    variation,
+    ways_of,
+)  # fmt: skip
 from abu_calc.inputs.variation import RUNS as USUAL
 from abu_calc.simulation.arguments import one_of
 from abu_calc.simulation.scene_of_file import scene_from
@@ -80,16 +90,18 @@ def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Swe
         RUNS.check(chosen["runs"])
     SEED.check(chosen["seed"])
     here = Place(source.file or None, source.lines.get("sweep.vary"), "sweep.vary")
-    ways, given = _ways(table.vary, here), _ways(vary, Place(key="vary"))
+    model = SceneFile if isinstance(source, SceneDescription) else type(source.tables)
+    ways, given = ways_of(table.vary, model, here, EXAMPLE), ways_of(vary, model, Place(key="vary"), EXAMPLE)
     of_table = {f"vary {key}": replace(here, key=f"sweep.vary {key}") for key in ways if key not in given}
     ways |= given
+    grid = chosen["grid"]
     nothing = not ways and all(options.get(name) is None for name in ("runs", "tolerances", "sensitivity", "seed"))
     return SweepRequest(
         vary=tuple(ways.items()),
         runs=chosen["runs"],
         what=chosen["what"],
         tolerances=chosen["tolerances"],
-        grid=None if chosen["grid"] is None else (chosen["grid"][0], chosen["grid"][1]),
+        grid=None if grid is None else (canonical_key(grid[0], model), canonical_key(grid[1], model)),
         sensitivity=chosen["sensitivity"],
         sampling=chosen["sampling"],
         seed=chosen["seed"],
@@ -113,29 +125,7 @@ def _table(source: Machine | SceneDescription) -> Sweep:
     return _given(source) or Sweep()
 
 
-def _ways(vary: Vary, place: Place) -> dict[str, Variation]:
-    """Variation of each key; a list has entries KEY=…, each key once."""
-    if vary is None:
-        return {}
-    pairs = list(vary.items()) if isinstance(vary, Mapping) else [_pair(text, place) for text in vary]
-    variations: dict[str, Variation] = {}
-    for key, how in pairs:
-        here = Place(place.file, place.line, f"{place.key} {key}")
-        if key in variations:
-            raise InputError("it varies twice", place=here, remedy="Give each key once.")
-        variations[key] = variation(how, here)
-    return variations
-
-
-def _pair(text: object, place: Place) -> tuple[str, str]:
-    key, equals, how = text.partition("=") if isinstance(text, str) else ("", "", "")
-    if not equals or not key.strip():
-        raise InputError(
-            "not KEY=…", place=place, found=str(text), allowed="wheel.imbalance_g_mm=normal(265,40), in quotes"
-        )
-    return key.strip(), how.strip()
-
-
+EXAMPLE: Final = "wheel.imbalance_g_mm=normal(265,40), in quotes"
 DRAG, WARMTH = "autobalancer.rolling_drag_per_s", "start.temperature_C"
 WARM: Final = 0.55
 """ln 3 / 2: drags of a third and of three times the one given, oil hot and cold, are two standard deviations off."""

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from abu_calc.features.sweep.columns import MEMBER, OUTSIDE, OVERTIME, REASON, SampleColumn
 from abu_calc.features.sweep.store_faults import PLACE, damaged, fault, faults_of, refuse_foreign
 from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.reading.text import shown_short
 
 Identity = Mapping[str, Any]
 
@@ -396,7 +397,11 @@ def differences(there: object, wanted: object, path: str = "") -> list[str]:
 
     >>> differences({"machine": {"mass_kg": 5.6}}, {"machine": {"mass_kg": 5.7}})
     ['machine.mass_kg is 5.6 there and 5.7 here']
+    >>> differences({"variants": [{"machine": 1}, {"machine": 2}]}, {"variants": [{"machine": 3}]})
+    ['variants.0.machine is 1 there and 3 here', 'variants.1 is a table there and none here']
     """
+    if isinstance(there, list) and isinstance(wanted, list):
+        there, wanted = (dict(enumerate(each)) for each in (there, wanted))
     if isinstance(there, Mapping) and isinstance(wanted, Mapping):
         return [
             text
@@ -407,8 +412,7 @@ def differences(there: object, wanted: object, path: str = "") -> list[str]:
 
 
 def _short(value: object) -> str:
-    text = "none" if value is None else str(value)
-    return text if len(text) <= 60 else text[:59] + "…"
+    return "none" if value is None else shown_short(value)
 
 
 def _now() -> str:

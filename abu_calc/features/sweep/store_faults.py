@@ -1,6 +1,5 @@
 """Errors of a store in words: each names the store, the fault, and how to go on."""
 
-import os
 import sqlite3
 import stat
 from collections.abc import Iterator
@@ -62,11 +61,8 @@ def faults_of(path: Path) -> Iterator[None]:
         raise damaged(path, f"{type(error).__name__}: {error}") from None
 
 
-def checked_path(given: str | Path, taken: tuple[Path, ...] = ()) -> Path:
-    """A path where a store can be, whether or not it is there; `taken`: files that the same command writes.
-
-    Raises OutputError.
-    """
+def checked_path(given: str | Path) -> Path:
+    """A path where a store can be, whether or not it is there; raises OutputError."""
     text, path = str(given), Path(given)
     if not text.strip() or text == ":memory:":
         raise fault(path, "nothing kept in memory outlives the sweep", "Name a file, as members.sqlite.")
@@ -83,20 +79,7 @@ def checked_path(given: str | Path, taken: tuple[Path, ...] = ()) -> Path:
             raise fault(path, "this is no regular file", "Name another file.")
         if not path.absolute().parent.is_dir():
             raise fault(path, "the folder does not exist", "Make it first.")
-        for other in taken:
-            if same_file(path, other):
-                raise fault(path, "another output of this command is written there", "Name another file for one.")
     return path
-
-
-def same_file(path: Path, other: Path) -> bool:
-    """Tell whether both paths lead to the same file, through links, too."""
-    if os.path.realpath(path) == os.path.realpath(other):
-        return True
-    try:
-        return path.samefile(other)
-    except OSError:
-        return False
 
 
 def refuse_foreign(path: Path, tables: set[str]) -> None:

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.features.design.records import AutobalancerRecord, Section
 from abu_calc.features.design.section_drawing import described, section_view
+from abu_calc.features.design.solids import design_items
 from abu_calc.features.two_races.records import TwoRaceSizeResult
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.reporting.drawings.dimensions import extent, moved
-from abu_calc.reporting.drawings.shapes import SCALES, Drawing, Shape, Text, digits
+from abu_calc.reporting.drawings.shapes import SCALES, Drawing, Shape, Text, digits, plain
+from abu_calc.reporting.solids.assembly import PlacedSolid, SolidAssembly
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
@@ -54,6 +56,20 @@ def both_sections(result: TwoRaceSizeResult, room: float = ROOM) -> Drawing:
         "section", f"Section of both autobalancers, {result.title}", words, scale,
         (low[0] - margin, low[1] - margin), (high[0] + margin, high[1] + margin), tuple(shapes),
     )  # fmt: skip
+
+
+def both_solids(result: TwoRaceSizeResult) -> SolidAssembly:
+    """Both autobalancers on one axis, the middle of each at its plane along the spindle."""
+    items = tuple(
+        PlacedSolid(
+            f"race {number} {item.name}",
+            replace(item.solid, name=f"race {number} {item.solid.name}"),
+            (*item.shift[:2], item.shift[2] + own.plane_mm - own.width_mm / 2),
+        )
+        for number, (own, race) in enumerate(zip(result.autobalancers, races_of(result), strict=True), 1)
+        for item in design_items(race)
+    )
+    return SolidAssembly("autobalancers", f"Both autobalancers of {plain(result.title)}, lengths in mm", items)
 
 
 def _titled(view: Sequence[Shape], title: str) -> Iterator[Shape]:

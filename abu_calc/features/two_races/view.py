@@ -1,6 +1,7 @@
 """The screen and the whole report of `abu size` for a machine with two races."""
 
 from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
+from abu_calc.registry import imported
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.outcome import Outcome
@@ -18,8 +19,9 @@ from abu_calc.reporting.screen import one_screen, verdict_line
 def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
     """Outcome of the command: screen and whole report."""
     return Outcome.of(
-        result, lambda: two_race_blocks(result), lambda: two_race_screen(result), lambda: _drawings(result)
-    )
+        result, lambda: two_race_blocks(result), lambda: two_race_screen(result), lambda: _drawings(result),
+        lambda: imported("two_races.drawing:both_solids")(result),
+    )  # fmt: skip
 
 
 def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:

@@ -121,14 +121,16 @@ def input_error(error: ValidationError, origin: Origin) -> InputError:
 def _written(path: tuple[Part, ...], whole: object) -> tuple[Part, ...]:
     """The path without a place in a list where the file has a single value, which stands for a list of one.
 
-    Keys of a single table follow it.
+    Keys of a single table follow it. Names of forms that a value may have are left out.
     """
     document = whole
     for place, part in enumerate(path):
         if isinstance(part, int) and isinstance(document, dict):
             return _written(path[:place] + path[place + 1 :], whole)
-        if isinstance(part, int) and not isinstance(document, list):
+        if (isinstance(part, int) and not isinstance(document, list)) or not isinstance(document, (dict, list)):
             return path[:place]
+        if isinstance(part, str) and part.endswith("]") and part not in document:  # pydantic's name of a form
+            return _written(path[:place] + path[place + 1 :], whole)
         if isinstance(document, dict):
             document = document.get(part)
         elif isinstance(document, list) and isinstance(part, int):

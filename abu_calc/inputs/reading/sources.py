@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
+from abu_calc.foundation.call_files import enter
 from abu_calc.foundation.errors import InputError, Place
 
 SUFFIX: Final = ".toml"
@@ -54,13 +55,9 @@ def bytes_of(source: str) -> bytes:
 
     Raises InputError if it is no file, cannot be read, or is too large.
     """
-    place = Place(source)
-    try:
-        raw = _standard_input() if source == STANDARD_INPUT else regular_file(_path(source))
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror or error}", place=place) from None
-    if len(raw) > LARGEST_FILE:
-        raise InputError("the file is too large", place=place, allowed=f"at most {LARGEST_FILE} bytes")
+    raw = _standard_input() if source == STANDARD_INPUT else regular_file(_path(source))
+    if len(raw) > LARGEST_FILE:  # of standard input
+        raise InputError("the file is too large", place=Place(source), allowed=f"at most {LARGEST_FILE} bytes")
     return raw
 
 
@@ -72,19 +69,26 @@ def _standard_input() -> bytes:
 
 
 def regular_file(path: Path, most: int = LARGEST_FILE) -> bytes:
-    """First `most` bytes of a file and one more.
+    """Bytes of a file. Raises InputError for what is no regular file, cannot be read, or is too large.
 
     A pipe or a device, which may never end or begin, is not waited for.
     """
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
-    with os.fdopen(handle, "rb") as stream:
-        if not stat.S_ISREG(os.fstat(handle).st_mode):
-            raise InputError(
-                "this is not a regular file",
-                place=Place(str(path)),
-                remedy="Save it as a file, or give it on standard input and name that: -",
-            )
-        return stream.read(most + 1)
+    place = Place(str(path))
+    try:
+        enter(path, written=False)
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
+        with os.fdopen(handle, "rb") as stream:
+            if not stat.S_ISREG(os.fstat(handle).st_mode):
+                remedy = "Save it as a file, or give it on standard input and name that: -"
+                raise InputError("this is not a regular file", place=place, remedy=remedy)
+            raw = stream.read(most + 1)
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror or error}", place=place) from None
+    except ValueError:  # a NUL in the name
+        raise InputError("not a file name", place=place) from None
+    if len(raw) > most:
+        raise InputError("the file is too large", place=place, allowed=f"at most {most} bytes")
+    return raw
 
 
 def _path(source: str) -> Path:

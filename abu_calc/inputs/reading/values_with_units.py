@@ -122,6 +122,16 @@ def convert_entry(
     )
 
 
+def canonical_path(path: tuple[Part, ...], model: type[Table]) -> tuple[Part, ...] | None:
+    """The path with the model's own key, which ends in its unit; None for a key that the model does not have."""
+    last = max((place for place, part in enumerate(path) if isinstance(part, str)), default=0)
+    table, key = table_at(model, path[:last]), path[last]
+    if table is None or not isinstance(key, str):
+        return None
+    own = canonical_keys(table).get(key, key)
+    return (*path[:last], own, *path[last + 1 :]) if own in table.model_fields else None
+
+
 def _around(parent: tuple[Part, ...], places: tuple[Part, ...], below: tuple[Part, ...]) -> tuple[Part, ...]:
     """Path of an entry of a table that was set as a whole."""
     return (*parent, below[0], *places, *below[1:])

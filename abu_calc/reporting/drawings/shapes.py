@@ -184,9 +184,14 @@ def text_width(text: str, height: float) -> float:
     return SIGN_WIDTH * TALL * height * len(text)
 
 
+def fitting_height(text: str, width: float, height: float) -> float:
+    """Height [mm], at most the one given, at which the whole text fits a width on paper."""
+    return min(height, height * width / max(text_width(text, height), 1e-9))
+
+
 def fitted(text: str, width: float, height: float) -> tuple[str, float]:
     """A text and its height [mm] that fit a width on paper: smaller writing first, then dots in place of its middle."""
-    wanted = min(height, max(SMALL * 0.8, height * width / max(text_width(text, height), 1e-9)))
+    wanted = max(SMALL * 0.8, fitting_height(text, width, height))
     most = max(int(width / text_width("0", wanted) + 1e-9), 5)
     if len(text) <= most:
         return text, wanted

@@ -110,7 +110,7 @@ def written_string(text: str) -> str:
     for sign in text:
         if " " <= sign <= "~":
             flush()
-            pieces.append({"'": "''", "\\": "\\\\"}.get(sign, sign))
+            pieces.append({"'": "\\X\\27", "\\": "\\\\"}.get(sign, sign))
         elif sign.isprintable():
             codes += f" {ord(sign):04X}"
         else:

@@ -317,3 +317,10 @@ def test_lists_and_recordings_do_not_mix(tmp_path: Path) -> None:
     path, file = listed(tmp_path), run_file(tmp_path, "a.csv", 1.0)
     with pytest.raises(InputError, match="stands alone"):
         abu_calc.declare_recordings([path, file])
+
+
+@pytest.mark.parametrize("value", ["true", "[]", '""', "{}", "[true]", '[""]', "{ ax_mV = true }", "0", '"5 V"'])
+def test_what_is_no_sensitivity_is_refused_by_its_line(value: str) -> None:
+    with pytest.raises(InputError, match="not a sensitivity") as caught:
+        read_recordings(f'[[recording]]\nfile = "a.csv"\nsensitivity = {value}\n')
+    assert (caught.value.place.line, caught.value.place.key) == (3, "recording[0].sensitivity")

@@ -29,7 +29,12 @@ def test_codes_are_listed_and_given_as_data() -> None:
     assert listed["checks"]["ABU203"] == "mass of the autobalancer"
     told = abu("explain", "ABU203", "--json").document["result"]
     assert (told["check"], told["step"]) == ("ABU203", "balls")
-    assert "did you mean" in abu("explain", "ABU2O3").err.lower()
+    assert "did you mean" in abu("explain", "ABU2Z3").err.lower()
+
+
+@pytest.mark.parametrize("typed", ["ABU4O1", "abu4o1", "ABU40l", "ABU4OI", "АВU4О1"])
+def test_a_letter_for_a_digit_of_a_code_is_understood(typed: str) -> None:
+    assert abu("explain", typed, "--json").document["result"]["check"] == "ABU401"
 
 
 def test_a_step_has_each_of_its_formulas() -> None:

@@ -54,7 +54,10 @@ def test_values_of_a_decay_are_found(tmp_path: Path, drag: float, lever: float) 
 
 def test_wrong_films_are_refused(tmp_path: Path) -> None:
     file = tmp_path / "decay.csv"
-    for text, words in (("t_s,x\n0,1\n1,2\n2,3\n", "missing"), ("t_s,angle_deg\n0,1\n1,2\n", "few rows")):
+    long = "t_s,angle_deg\n" + "".join(f"{k}e300,{k}\n" for k in range(25))
+    for text, words in (
+        ("t_s,x\n0,1\n1,2\n2,3\n", "missing"), ("t_s,angle_deg\n0,1\n1,2\n", "few rows"), (long, "too long a film"),
+    ):  # fmt: skip
         file.write_text(text, encoding="utf-8")
         with pytest.raises(InputError, match=words):
             read_decay(str(file))

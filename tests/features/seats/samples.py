@@ -18,6 +18,7 @@ def table(**changes: Any) -> Any:
         "width_mm": 33.0,
         "chamfer_mm": 2.0,
         "radial_load_kN": 3.0,
+        "load_kind": None,
         "series": "light",
         "inner_ring_load": "rotating",
         "outer_ring_load": "stationary",

@@ -46,7 +46,8 @@ def test_every_key_has_an_option_that_is_taken():
              "--static-load-rating": "4.75", "--housing-limits": "0:20", "--temperature-rise": "30",
              "--housing-temperature-difference": "-4", "--shaft-material": "stainless-steel",
              "--shaft-strength": "250", "--housing-strength": "120", "--bearing-type": "ball",
-             "--axial-load-kN": "0.1", "--lubricant-viscosity": "20", "--contamination-factor": "0.6",
+             "--axial-load-kN": "0.1", "--load-kind": "moderate",
+             "--lubricant-viscosity": "20", "--contamination-factor": "0.6",
              "--required-life": "500", "--position": "35", "--short-pairs-warn": "2", "--short-pairs-fail": "6",
              "--temperature-range": "-20:60"}  # fmt: skip
     others = {"--bore", "--outer", "--width", "--shaft-limits", "--housing-split"}

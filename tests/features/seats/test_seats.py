@@ -108,6 +108,31 @@ def test_load_intensity_of_the_example():
     assert "the handbook table gives K7 (unverified)" in housing.notes[1]
 
 
+def test_load_intensity_of_a_hollow_shaft():
+    """A course work on a wheel's drive shaft: d 45, D 75, k₁·k₂·k₃ = 1.8·1.7·1, 2574 N/mm, hence n6."""
+    bearing = {"designation": "6009", "bearing_class": "5", "radial_load_kN": 11.774, "shaft_bore_mm": 34.0}
+    shaft, housing = seat_bearing(by_designation(**bearing)).seats
+    assert 1e-3 * shaft.load_intensity == pytest.approx(2574, rel=1e-3)
+    assert any("k₂ 1.7, k₃ 1: the handbook table gives n6" in note for note in shaft.notes)
+    assert 1e-3 * housing.load_intensity == pytest.approx(2574 / 1.7, rel=1e-3)
+    thin = seat_bearing(by_designation(**bearing, housing_outer_mm=90.0)).housing  # 75/90 = 0.83: the largest factor
+    assert thin.load_intensity == pytest.approx(1.8 * housing.load_intensity)
+
+
+def test_load_intensity_of_a_moderate_load():
+    """A course work on bearing 205: R = 3 kN, b = 15 − 2·1.5 mm, moderate load, 250 N/mm, hence js6."""
+    shaft = seat_bearing(by_designation("205", radial_load_kN=3.0, chamfer_mm=1.5, load_kind="moderate")).shaft
+    assert 1e-3 * shaft.load_intensity == pytest.approx(250)
+    assert any("gives js6" in note for note in shaft.notes)
+
+
+def test_load_intensity_of_two_rows_under_an_axial_load():
+    """22210: e = 0.24, so ctg α = 1.5/0.24; axial over radial load 0.1 gives 0.63, in the row 0.6 … 1 with k₃ = 1.6."""
+    axial, alone = ({"designation": "22210", "radial_load_kN": 10.0} | more for more in ({"axial_load_kN": 1.0}, {}))
+    shafts = [seat_bearing(by_designation(**given)).shaft.load_intensity for given in (axial, alone)]
+    assert shafts[0] == pytest.approx(1.6 * shafts[1])
+
+
 def test_losses_count_only_where_given():
     plain = seats(shaft_fit="m6")
     rough = seats(shaft_fit="m6", shaft_rz_um=4.0, housing_rz_um=6.3)

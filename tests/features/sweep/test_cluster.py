@@ -113,7 +113,7 @@ def test_another_state_of_the_source_is_another_study(sweeps: Sweeps, monkeypatc
     programs.software.cache_clear()
     monkeypatch.setattr(programs, "_source", lambda: "0123456789ab")
     try:
-        with pytest.raises(abu_calc.InputError, match=r"versions\.source is \w+ there and 0123456789ab here"):
+        with pytest.raises(abu_calc.InputError, match=r"versions\.source is .\w+. there and .0123456789ab. here"):
             sweeps.run(resume=True)
     finally:
         programs.software.cache_clear()

@@ -74,3 +74,13 @@ def test_what_cannot_vary_is_refused_by_its_key(
     with pytest.raises(InputError) as refused:
         planned(machine, asked(machine, vary, **options), 0.01)
     assert refused.value.place.key == key
+
+
+def test_a_key_is_the_same_however_its_unit_is_written(machine: abu_calc.Machine) -> None:
+    """97 Hz are 5820 rpm."""
+    given = ["machine.speed=90 Hz, 97 Hz", "wheel.imbalance_g_mm=200, 300"]
+    ask = asked(machine, given, grid=("machine.speed", "wheel.imbalance"))
+    assert dict(ask.vary)["machine.speed_rpm"].values == pytest.approx((5400.0, 5820.0))
+    assert ask.grid == ("machine.speed_rpm", "wheel.imbalance_g_mm")
+    with pytest.raises(InputError, match="stands twice"):
+        asked(machine, ["machine.speed=90 Hz, 97 Hz", "machine.speed_rpm=5000, 6000"])

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.sweep.store_faults import checked_path, faults_of, refuse_foreign, same_file
+from abu_calc.features.sweep.store_faults import checked_path, faults_of, refuse_foreign
 from tests.features.sweep.conftest import ECCENTRICITY, Sweeps
 
 NO_NAMES = {
@@ -55,16 +55,10 @@ def test_every_fault_names_its_store_and_what_to_do(raised: Exception, part: str
     assert refused.value.place.key == "store"
 
 
-def test_a_path_is_free_unless_it_leads_to_another_output(tmp_path: Path) -> None:
-    output, link = tmp_path / "result.json", tmp_path / "link.sqlite"
-    output.touch()
-    link.symlink_to(output)
-    assert checked_path(tmp_path / "new.sqlite", (output,)) == tmp_path / "new.sqlite"
-    with pytest.raises(abu_calc.OutputError, match="another output"):
-        checked_path(link, (output,))
+def test_a_path_has_a_folder(tmp_path: Path) -> None:
+    assert checked_path(tmp_path / "new.sqlite") == tmp_path / "new.sqlite"
     with pytest.raises(abu_calc.OutputError, match="does not exist"):
         checked_path(tmp_path / "nowhere" / "new.sqlite")
-    assert same_file(output, link) and not same_file(output, tmp_path / "new.sqlite")
 
 
 def test_tables_of_another_program_are_foreign() -> None:

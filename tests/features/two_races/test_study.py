@@ -13,6 +13,7 @@ import abu_calc
 from abu_calc.features.two_races.case import capacity_needs, read_case
 from abu_calc.features.two_races.checks import region_check, start_checks
 from abu_calc.features.two_races.choice import choose_both
+from abu_calc.features.two_races.drawing import both_solids
 from abu_calc.features.two_races.figures import two_race_extras
 from abu_calc.features.two_races.records import TwoRaceSizeResult
 from abu_calc.features.two_races.start_cases import LostRun, StartCase
@@ -174,3 +175,16 @@ def test_an_imbalance_that_no_ball_carries_fails() -> None:
     result = abu_calc.size(read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]))
     failed = {check.code for check in result.checks if check.status == "fail"}
     assert {"ABU101", "ABU201"} <= failed
+
+
+def test_both_autobalancers_stand_at_their_planes_as_solids() -> None:
+    found = sized()
+    assembly = both_solids(found)
+    for number, own in enumerate(found.autobalancers, 1):
+        balls = [item for item in assembly.items if item.name.startswith(f"race {number} {own.corrector} ")]
+        assert len(balls) == own.ball_count
+        for ball in balls:
+            assert math.hypot(*ball.shift[:2]) == pytest.approx(own.pitch_radius_mm)
+            assert ball.shift[2] == pytest.approx(own.plane_mm)
+        mass = sum(item.solid.mass_g for item in assembly.items if item.name.startswith(f"race {number} "))
+        assert mass == pytest.approx(own.mass_g, rel=1e-3)

@@ -4,7 +4,18 @@ import math
 
 import pytest
 
-from abu_calc.reporting.drawings.shapes import SMALL, Drawing, Length, Radius, Text, digits, fitted, plain, text_width
+from abu_calc.reporting.drawings.shapes import (
+    SMALL,
+    Drawing,
+    Length,
+    Radius,
+    Text,
+    digits,
+    fitted,
+    fitting_height,
+    plain,
+    text_width,
+)
 
 
 def test_a_text_stands_left_right_or_about_its_place() -> None:
@@ -47,3 +58,9 @@ def test_a_fitted_text_takes_no_more_than_its_width(width: float) -> None:
 def test_signs_that_no_drawing_shows_are_blanks() -> None:
     assert plain("a\x00\n b\t") == "a b"
     assert digits(2.5000) == "2.5" and digits(1 / 3, 2) == "0.33"
+
+
+def test_a_text_that_must_be_whole_is_written_smaller() -> None:
+    size = "ball Ø10.319 (13/32 in)"
+    height = fitting_height(size, 20.0, 3.5)
+    assert text_width(size, height) == pytest.approx(20.0) and fitting_height("Ø5", 20.0, 3.5) == 3.5

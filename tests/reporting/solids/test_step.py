@@ -21,7 +21,7 @@ def test_a_solid_that_is_used_twice_is_written_once() -> None:
     text = step_text(PAIR)
     assert text.count("MANIFOLD_SOLID_BREP(") == 1 and text.count("NEXT_ASSEMBLY_USAGE_OCCURRENCE(") == 2
     assert text.startswith("ISO-10303-21;\nHEADER;\n") and text.endswith("END-ISO-10303-21;\n") and text.isascii()
-    assert "FILE_DESCRIPTION(('d''\\X2\\00D8\\X0\\'),'2;1');" in text
+    assert "FILE_DESCRIPTION(('d\\X\\27\\X2\\00D8\\X0\\'),'2;1');" in text
     assert "SI_UNIT(.MILLI.,.METRE.)" in text
 
 

@@ -63,16 +63,10 @@ def read_rig_record(path: Path) -> RigRecord:
 
 
 def _text(path: Path) -> str:
-    place = Place(str(path))
     try:
-        raw = regular_file(path, LARGEST)
-        if len(raw) > LARGEST:
-            raise InputError("the record is too large", place=place, allowed=f"at most {LARGEST} bytes")
-        return raw.decode("utf-8-sig")
-    except OSError as error:
-        raise InputError(f"the record cannot be read: {error.strerror or error}", place=place) from None
+        return regular_file(path, LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise InputError("the record is not UTF-8 text", place=place, remedy="export it as CSV") from None
+        raise InputError("the record is not UTF-8 text", place=Place(str(path)), remedy="export it as CSV") from None
 
 
 def _split(row: str, separator: str | None) -> list[str]:

@@ -6,7 +6,18 @@ from typing import Final, NamedTuple
 
 from abu_calc.reporting.drawings.callouts import projection_symbol
 from abu_calc.reporting.drawings.dimensions import roughness
-from abu_calc.reporting.drawings.shapes import HEIGHT, SMALL, Line, Shape, Text, digits, fitted, plain, text_width
+from abu_calc.reporting.drawings.shapes import (
+    HEIGHT,
+    SMALL,
+    Line,
+    Shape,
+    Text,
+    digits,
+    fitted,
+    fitting_height,
+    plain,
+    text_width,
+)  # fmt: skip
 
 WIDE, HIGH = 420.0, 297.0
 """A3 [mm]."""
@@ -121,13 +132,17 @@ def written_notes(head: str, lines: Sequence[str], left: float, low: float) -> I
 
 
 def table(rows: Sequence[Sequence[str]], widths: Sequence[float], left: float, low: float) -> Iterator[Shape]:
-    """A table from its lower left corner; the head stands at the bottom, as a parts list above a title block."""
+    """A table from its lower left corner; the head stands at the bottom, as a parts list above a title block.
+
+    No cell is cut, since it may hold a size; a long one is written smaller.
+    """
     right = left + sum(widths)
     for index, row in enumerate(rows):
         y, x = low + ROW * index, left
         yield Line("frame", (left, y + ROW), (right, y + ROW))
         for cell, wide in zip(row, widths, strict=True):
-            yield Text((x + 1.2, y + 1.6), *fitted(plain(cell), wide - 2, SMALL if index == 0 else HEIGHT * 0.85))
+            text, most = plain(cell), SMALL if index == 0 else HEIGHT * 0.85
+            yield Text((x + 1.2, y + 1.6), text, fitting_height(text, wide - 2, most))
             x += wide
     for x in (left, *(left + sum(widths[: index + 1]) for index in range(len(widths)))):
         yield Line("frame", (x, low), (x, low + ROW * len(rows)))
