@@ -92,9 +92,9 @@ def _quieter(design: Design) -> Design:
     all friction out.
     """
     case, least = design.case, loudness(design)
-    if not least or not design.frequency.balancing_possible:
+    if not any(least) or not design.frequency.balancing_possible:
         return design
-    fails, chosen, refused = least > 1, design, [(design.autobalancer, TOO_LOUD)]
+    fails, chosen, refused = least[0] > 0, design, [(design.autobalancer, TOO_LOUD)]
     for runner_up, _ in design.choice.runners_up:
         if not usable(case, runner_up):
             continue
@@ -107,7 +107,7 @@ def _quieter(design: Design) -> Design:
                 continue
             if (level := loudness(other)) < least:
                 chosen, least = other, level
-            if not level:
+            if not any(level):
                 break
         refused.append((runner_up, TOO_LOUD))
     return chosen if chosen is design else replace(chosen, warnings=(_instead_of(design, chosen), *chosen.warnings))

@@ -26,10 +26,10 @@ def missed(design: "Design") -> frozenset[str]:
     return frozenset(name for name, met in _requirements(design) if not met)
 
 
-def loudness(design: "Design") -> int:
-    """2 if a limit of vibration is exceeded as expected, 1 if in a doubtful case alone, 0 if all are kept."""
+def loudness(design: "Design") -> tuple[int, int]:
+    """How many limits of vibration are exceeded as expected, and how many in doubtful cases."""
     names = missed(design)
-    return 2 if names & EXPECTED else 1 if names & DOUBTFUL else 0
+    return len(names & EXPECTED), len(names & DOUBTFUL)
 
 
 def missed_by_race(case: Case, candidate: "Candidate", race: Track) -> frozenset[str]:
