@@ -1,17 +1,14 @@
 """Requirements of the search for balls, by name: which of them a design misses. The search reads no check."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
-from abu_calc.sizing.balls import shortfalls
+from abu_calc.sizing.balls import Candidate, shortfalls
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import band_end
 from abu_calc.sizing.track import LEAST_HARDNESS_HRC, Track, carries_over
 from abu_calc.sizing.vibration import measurably_lower
-
-if TYPE_CHECKING:
-    from abu_calc.sizing.balls import Candidate
-    from abu_calc.sizing.design import Design
 
 LEVEL, ACCELERATION = "level", "acceleration at the handles"
 EXPECTED: Final = frozenset({LEVEL, ACCELERATION})
@@ -21,25 +18,25 @@ DOUBTFUL: Final = frozenset(limit + state for limit in EXPECTED for state in (FR
 """The same limits in the worst friction case, and at the end of the band that an estimated inertia leaves."""
 
 
-def missed(design: "Design") -> frozenset[str]:
+def missed(design: Design) -> frozenset[str]:
     """Names of the requirements that a design misses. What depends on the file alone is alike for all candidates."""
     return frozenset(name for name, met in _requirements(design) if not met)
 
 
-def loudness(design: "Design") -> tuple[int, int]:
+def loudness(design: Design) -> tuple[int, int]:
     """How many limits of vibration are exceeded as expected, and how many in doubtful cases."""
     names = missed(design)
     return len(names & EXPECTED), len(names & DOUBTFUL)
 
 
-def missed_by_race(case: Case, candidate: "Candidate", race: Track) -> frozenset[str]:
+def missed_by_race(case: Case, candidate: Candidate, race: Track) -> frozenset[str]:
     """Names of the requirements on balls and race alone that they miss."""
     hard = case.autobalancer.race_hardness_HRC >= LEAST_HARDNESS_HRC
     own = ("hardness of the race", hard), ("speed that carries the balls over", carries_over(case, race))
     return frozenset((*shortfalls(case, candidate), *(name for name, met in own if not met)))
 
 
-def _requirements(design: "Design") -> Iterator[tuple[str, bool]]:
+def _requirements(design: Design) -> Iterator[tuple[str, bool]]:
     case, chosen, arm = design.case, design.autobalancer, design.swing_arm
     yield from ((name, False) for name in missed_by_race(case, chosen, design.track))
     yield "speeds at which balls balance", design.frequency.balancing_possible
@@ -50,12 +47,14 @@ def _requirements(design: "Design") -> Iterator[tuple[str, bool]]:
     yield "lower level than without", measurably_lower(design.idle)
     yield from _vibration(design)
     if arm is not None:
-        yield "supercritical arm", arm.supercritical
-        yield "damping of the pivot", arm.damped
-        yield "damping of the pivot, balls together", arm.damped_bunched
+        damping, bunched = arm.arm.joint_damping, arm.damping_limit_bunched
+        softest = min(arm.contact_stiffness_limit, arm.contact_stiffness_limit_exact)
+        yield "supercritical arm", arm.arm.contact_stiffness < softest
+        yield "damping of the pivot", damping > arm.damping_limit
+        yield "damping of the pivot, balls together", bunched is not None and damping > bunched
 
 
-def _vibration(design: "Design") -> Iterator[tuple[str, bool]]:
+def _vibration(design: Design) -> Iterator[tuple[str, bool]]:
     levels, totals, bands, limit = design.speed_levels, design.totals, design.bands, design.case.level_limit
     if levels is not None:
         yield LEVEL, levels.highest.level_after <= limit

@@ -65,26 +65,6 @@ class SwingArmBounds:
     press_force: float | None
     checks: tuple[Check, ...]
 
-    @property
-    def least_limit(self) -> float:
-        """Permitted contact stiffness [N/m] by the safer of two formulas."""
-        return min(self.contact_stiffness_limit, self.contact_stiffness_limit_exact)
-
-    @property
-    def supercritical(self) -> bool:
-        """True if the contact is soft enough."""
-        return self.arm.contact_stiffness < self.least_limit
-
-    @property
-    def damped(self) -> bool:
-        """True if the pivot's damping overcomes parametric resonance."""
-        return self.arm.joint_damping > self.damping_limit
-
-    @property
-    def damped_bunched(self) -> bool:
-        """True if it does so while the balls are together on the heavy side."""
-        return self.damping_limit_bunched is not None and self.arm.joint_damping > self.damping_limit_bunched
-
 
 def swing_arm_bounds(
     case: Case, table: SwingArm, imbalance: float, added_mass: float, capacity: float = 0.0
@@ -156,33 +136,33 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
 
 
 def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
-    arm, stiff = bounds.arm, bounds.supercritical
-    stiffness, lifted = arm_stiffness(arm), _lifted(bounds.lifted_contact_angles)
+    arm, limit = bounds.arm, min(bounds.contact_stiffness_limit, bounds.contact_stiffness_limit_exact)
+    stiff, stiffness, lifted = arm.contact_stiffness < limit, arm_stiffness(arm), _lifted(bounds.lifted_contact_angles)
     return (
         coded("ABU501", verdict(stiff), "The arm must be supercritical at the lowest speed and the worst contact "
               "angle (safer of two formulas). That is necessary, not sufficient",
-              arm.contact_stiffness, bounds.least_limit, "N/m", None if stiff else CHECK_CODES["ABU501"].action),
-        _damped(bounds),
+              arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].action),
+        _damped(arm, bounds.damping_limit, bounds.damping_limit_bunched),
         coded("ABU504", verdict(stiffness > 0), f"Static stiffness with the contact. {lifted}",
               stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].action, "least"),
         _pressing(arm, bounds.pressed_angle),
     )  # fmt: skip
 
 
-def _damped(bounds: SwingArmBounds) -> Check:
+def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
     """Check of the damping against the imbalance.
 
     It warns if balls that are on the heavy side at a start need more.
     """
-    damped, safe, bunched = bounds.damped, bounds.damped_bunched, bounds.damping_limit_bunched
+    damped = arm.joint_damping > limit
+    safe = bunched is not None and arm.joint_damping > bunched
     message = "The damping overcomes parametric resonance at twice the natural frequency while the disk is pressed"
     if not damped:
         message = "Parametric resonance at twice the natural frequency overcomes the damping while the disk is pressed"
     elif not safe:
         message += ". While the balls are together on the heavy side, as in a start, it does not"
     more = None if bunched is None else f"A pivot damping above {bunched:.3g} N·s/m overcomes that, too (calculated)."
-    return coded("ABU502", verdict(damped, safe), message, bounds.arm.joint_damping,
-                 bounds.damping_limit, "N·s/m",
+    return coded("ABU502", verdict(damped, safe), message, arm.joint_damping, limit, "N·s/m",
                  CHECK_CODES["ABU502"].action if not damped else None if safe else more, "least")  # fmt: skip
 
 

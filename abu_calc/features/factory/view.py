@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from abu_calc.features.factory.study import FactoryLevel, FactoryResult, FittedValues, SoftRaceLevel
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.features.factory.study import DeviceNumber, FactoryLevel, FactoryResult, FittedValues, SoftRaceLevel
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.parts import provenance_blocks
 from abu_calc.reporting.screen import many
 
@@ -53,6 +53,7 @@ def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
         Paragraph(SPENT),
         *(Paragraph(_fitted(values), hang=2) for values in result.fitted),
         *_soft_races(result.soft_races),
+        *_devices(result.devices),
         Paragraph(f"{result.background} More: --full, with a remark on each row.".strip()),
     )
 
@@ -175,6 +176,29 @@ def _soft_races(races: Sequence[SoftRaceLevel]) -> list[Block]:
         Grid(heading, cells, frozenset(range(1, 4))),
         Paragraph(f"Published: {races[0].published}. {why}"),
     ]
+
+
+DEVICES = (
+    "The balls are pinned as built, the rest is as in the file. In brackets: published. Mass: the source gives neither "
+    "bore nor wall; slim: bore Ø16 instead of Ø20 mm, walls of 2 instead of 2.5 mm. Required: in the state named, "
+    "without margin. Slowest: of all start cases, cold and hot oil included. Never: from one of them the balls do not "
+    "settle. The source does not list its starts."
+)
+
+
+def _devices(numbers: Sequence[DeviceNumber]) -> list[Block]:
+    """Devices that the factory built, number by number."""
+    if not numbers:
+        return []
+    columns = {(row.short, row.balls, row.state): dict[str, str]() for row in numbers}
+    for row in numbers:
+        published = "" if row.published is None else f" ({row.published:g})"
+        found = number(row.found, 3) if row.found is not None else "never" if "settling" in row.quantity else "–"
+        columns[row.short, row.balls, row.state][row.quantity] = found + published
+    rows = [("balls, Ø mm", *(key[1] for key in columns)), ("enough for", *(key[2] for key in columns))]
+    rows += [(name, *(cells[name] for cells in columns.values())) for name in next(iter(columns.values()))]
+    heading = "as the factory built", *(key[0] for key in columns)
+    return [Paragraph(""), Grid(heading, tuple(rows), frozenset(range(1, len(heading)))), Paragraph(DEVICES)]
 
 
 def _span(span: Span | None) -> str:

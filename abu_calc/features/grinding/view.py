@@ -297,7 +297,7 @@ ENDS: Final = {
 
 
 def wear_blocks(result: GrindingResult) -> list[Block]:
-    """Wear with and without autobalancer, at this contact and a rigid one; then the measured life beside the prediction."""
+    """Wear with and without autobalancer, at this contact and a rigid one; then its measured life."""
     both = ((result.wear_without, "without"), (result.wear, "with"))
     rigid = ((result.wear_rigid_without, "rigid, without"), (result.wear_rigid, "rigid, with"))
     bouncing = ((result.wear_bouncing_without, "bouncing, without"), (result.wear_bouncing, "bouncing, with"))

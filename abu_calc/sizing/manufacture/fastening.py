@@ -127,16 +127,13 @@ class SlipTorque:
         return self.held >= self.needed and self.stress <= self.permitted
 
 
-def _needed(case: Case, parts: HousingParts) -> float:
-    return SLIP_FACTOR * needed_torque(case, whole_inertia(parts))
-
-
 def slip_torque(case: Case, parts: HousingParts, fit: Fit | None) -> SlipTorque | None:
     """Slip torque of the fastening.
 
     None without the force of the nut, without the power that a flange must carry, or without a fit that is shrunk.
     """
     size, own, force = parts.dimensions, case.autobalancer, case.autobalancer.clamp_force_N
+    needed = SLIP_FACTOR * needed_torque(case, whole_inertia(parts))
     if own.fastening == "shrunk" and fit is not None:
         held, stress = shrunk_torque(case, size, fit), shrunk_stress(case, size, fit)
     elif own.fastening == "shrunk" or force is None or (own.fastening, case.table.machine.power_W) == ("flange", None):
@@ -144,14 +141,14 @@ def slip_torque(case: Case, parts: HousingParts, fit: Fit | None) -> SlipTorque 
     else:
         held = clamped_torque(force, size.bore_radius, size.hub_radius)
         stress = force / (math.pi * (size.hub_radius**2 - size.bore_radius**2))
-    return SlipTorque(held, _needed(case, parts), stress, PROOF_SHARE * _hub(case, size).material.strength)
+    return SlipTorque(held, needed, stress, PROOF_SHARE * _hub(case, size).material.strength)
 
 
 def torque_check(case: Case, parts: HousingParts, fit: Fit | None, torque: SlipTorque | None) -> tuple[Check, ...]:
     """Check of the slip torque; none without the force of the nut, or without the power that a flange must carry."""
     fastening, force = case.autobalancer.fastening, case.autobalancer.clamp_force_N
     if fastening == "shrunk":
-        return (_shrunk_check(fit, torque, _needed(case, parts)),)
+        return (_shrunk_check(fit, torque, SLIP_FACTOR * needed_torque(case, whole_inertia(parts))),)
     if torque is None or force is None:
         return ()
     what = "flange" if fastening == "flange" else "housing"

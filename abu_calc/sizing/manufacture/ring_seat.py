@@ -105,14 +105,9 @@ def _own_limits(radius: float, ring: DeviationLimits, needed: float) -> Deviatio
     return DeviationLimits(upper - grade_tolerance(7, 2 * radius), upper)
 
 
-def permitted_stress(parts: HousingParts) -> float:
-    """Permitted hoop stress of the body [Pa]."""
-    return PROOF_SHARE * MATERIALS[parts.body.density].strength
-
-
 def bears_ring(parts: HousingParts, seat: RingSeat | None) -> bool:
     """True if the body bears the interference of its ring, or has none."""
-    return seat is None or seat.stress <= permitted_stress(parts)
+    return seat is None or seat.stress <= PROOF_SHARE * MATERIALS[parts.body.density].strength
 
 
 def seat_check(case: Case, parts: HousingParts, seat: RingSeat | None) -> tuple[Check, ...]:
@@ -120,7 +115,7 @@ def seat_check(case: Case, parts: HousingParts, seat: RingSeat | None) -> tuple[
     if seat is None:
         return ()
     low, high = case.autobalancer.temperature_range_C
-    limit = permitted_stress(parts)
+    limit = PROOF_SHARE * MATERIALS[parts.body.density].strength
     limits = f"{seat.seat_class} " if seat.seat_class else ""
     upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
     message = (
