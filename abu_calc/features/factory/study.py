@@ -198,7 +198,7 @@ def _device(
         ("mass, %", mass, 100 * own.mass_fraction), ("mass if slim, %", mass, 100 * slim.mass_fraction),
         ("capacity, g·mm", None, own.capacity_g_mm), ("required, g·mm", None, required),
         ("idle, median, dB", None, starts[0]), ("idle, loudest, dB", None, starts[1]),
-        ("grinding, dB", None, loaded and loaded.level_after_db),
+        ("grinding, dB", None, None if loaded is None else loaded.level_after_db),
         ("settling, median, s", 1.0, starts[2]), ("settling, slowest, s", 1.0, starts[3]),
     ):  # fmt: skip
         yield DeviceNumber(short=machine.short, balls=balls, state=state, quantity=quantity, published=published,
