@@ -36,11 +36,13 @@ def test_wheels() -> tuple[TestWheel, ...]:
     """
     table = toml_table("test_wheels")
     rule, origin = table["rule"], (table["source"], table["status"])
-    rows = [(diameter, imbalance, float(force), *origin) for diameter, imbalance, force in table["rows"]]
-    rows += [(size, rule["factor"] * size**2, None, rule["source"], rule["status"]) for size in rule["diameters"]]
-    return tuple(
-        TestWheel(to_si(size, "mm"), to_si(imbalance, "g_mm"), *rest) for size, imbalance, *rest in sorted(rows)
-    )
+
+    def wheel(diameter: float, imbalance: float, force: float | None, source: str, status: str) -> TestWheel:
+        return TestWheel(to_si(diameter, "mm"), to_si(imbalance, "g_mm"), force, source, status)
+
+    wheels = [wheel(diameter, imbalance, float(force), *origin) for diameter, imbalance, force in table["rows"]]
+    wheels += [wheel(d, rule["factor"] * d**2, None, rule["source"], rule["status"]) for d in rule["diameters"]]
+    return tuple(sorted(wheels, key=lambda each: each.diameter))
 
 
 def test_wheel(diameter: float) -> TestWheel | None:

@@ -15,11 +15,14 @@ from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read, read_machine
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import pins, with_entries
+from abu_calc.sizing.advice import candidate_checks as own_checks
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.case import read_case as read_one_race
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.requirements import LEVEL, loudness, missed
 from abu_calc.sizing.track import Track
+from abu_calc.sizing.track import track_checks as race_checks
 
 PRESETS = (
     "angle-grinder-125", "avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder",
@@ -60,7 +63,7 @@ vibration_level_db = 109.0
 
 def made(design: Design) -> Design:
     """The design without its checks, and without the file and what only a limit asks for."""
-    return replace(design, checks=(), totals=None, case=abu_calc.sizing.read_case(with_entries(design.case.table, {
+    return replace(design, checks=(), totals=None, case=read_one_race(with_entries(design.case.table, {
         "limits": {"vibration_level_db": design.case.table.limits.vibration_level_db}})))  # fmt: skip
 
 
@@ -72,13 +75,12 @@ def told(case: Case, candidate: Candidate) -> tuple[Check, ...]:
 @pytest.fixture
 def informing(monkeypatch: pytest.MonkeyPatch) -> None:
     """The product with one check more of each design and of each race."""
-    own, of_race = abu_calc.sizing.candidate_checks, abu_calc.sizing.track_checks
 
     def candidate_checks(case: Case, candidate: Candidate) -> tuple[Check, ...]:
-        return *own(case, candidate), *told(case, candidate)
+        return *own_checks(case, candidate), *told(case, candidate)
 
     def track_checks(case: Case, candidate: Candidate, race: Track) -> tuple[Check, ...]:
-        return *of_race(case, candidate, race), *told(case, candidate)
+        return *race_checks(case, candidate, race), *told(case, candidate)
 
     monkeypatch.setattr(abu_calc.sizing, "candidate_checks", candidate_checks)
     monkeypatch.setattr(abu_calc.sizing, "track_checks", track_checks)
@@ -106,7 +108,7 @@ def test_a_limit_of_a_hv_that_is_kept_does_not_undo_the_quieter_choice(tmp_path:
     table = read_machine(str(file)).whole("size")
     for limits in ({}, {"limits.a_hv_m_per_s2": 1000.0}, {"limits.a_hv_m_per_s2": 1.5}):
         best = size(with_entries(table, limits)).autobalancer
-        assert (best.ball_count, best.ball_diameter) == (4, pytest.approx(5.953e-3, abs=1e-6)), limits
+        assert best.ball_count == 4 and best.ball_diameter == pytest.approx(5.953e-3, abs=1e-6), limits
 
 
 def test_a_limit_that_is_not_kept_steers() -> None:

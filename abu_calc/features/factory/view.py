@@ -197,8 +197,8 @@ def _devices(numbers: Sequence[DeviceNumber]) -> list[Block]:
         columns[row.short, row.balls, row.state][row.quantity] = found + published
     rows = [("balls, Ø mm", *(key[1] for key in columns)), ("enough for", *(key[2] for key in columns))]
     rows += [(name, *(cells[name] for cells in columns.values())) for name in next(iter(columns.values()))]
-    heading = "as the factory built", *(key[0] for key in columns)
-    return [Paragraph(""), Grid(heading, tuple(rows), frozenset(range(1, len(heading)))), Paragraph(DEVICES)]
+    grid = Grid(("as the factory built", *(key[0] for key in columns)), tuple(rows), frozenset(range(1, len(rows))))
+    return [Paragraph(""), grid, Paragraph(DEVICES)]
 
 
 def _span(span: Span | None) -> str:

@@ -349,11 +349,8 @@ def _claim(result: GrindingResult) -> list[Block]:
     claim = result.claim
     if claim is None:
         return []
-    power = (
-        "No power of the variable force up to 50 explains the difference"
-        if claim.needed_exponent is None
-        else f"Wear by the force to the power {number(claim.needed_exponent, 2)} would explain the difference"
-    )
+    power = ("No power of the variable force up to 50 explains the difference" if claim.needed_exponent is None
+             else f"Wear by the force to the power {number(claim.needed_exponent, 2)} would explain it")  # fmt: skip
     return [
         Heading("Life of the wheel", "claim"),
         Paragraph(

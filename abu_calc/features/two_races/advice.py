@@ -51,12 +51,10 @@ def missed(design: TwoRaceDesign) -> frozenset[tuple[str, int]]:
     table, names = design.case.table, set[tuple[str, int]]()
     for index, (race, room) in enumerate(zip(design.races, table.autobalancer, strict=True)):
         made = race.design
-        of_both = {
-            MASS: made.autobalancer.mass > room.max_mass_fraction * table.machine.mass_kg,
-            CAPACITY: made.autobalancer.capacity < race.need * room.capacity_margin * (1 - 1e-9),
-        }
-        own = missed_by_race(made.case, made.autobalancer, made.track) - of_both.keys()
-        names |= {(name, index) for name in (*own, *filter(of_both.get, of_both))}
+        heavy = made.autobalancer.mass > room.max_mass_fraction * table.machine.mass_kg
+        small = made.autobalancer.capacity < race.need * room.capacity_margin * (1 - 1e-9)
+        own = missed_by_race(made.case, made.autobalancer, made.track) - {MASS, CAPACITY}
+        names |= {(name, index) for name in (*own, *[MASS] * heavy, *[CAPACITY] * small)}
     return frozenset(names)
 
 

@@ -1,7 +1,7 @@
 """Fastening of the housing on the spindle: the torque that it carries before it slips, and the one it needs."""
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 from abu_calc.formulas.press_fit import (
     ASSEMBLY_TEMPERATURE,
@@ -17,7 +17,6 @@ from abu_calc.formulas.press_fit import (
 )
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
@@ -112,8 +111,7 @@ def whole_inertia(parts: HousingParts) -> float:
     return sum(part.inertia for part in parts.turned) + balls.count * balls.mass * balls.pitch_radius**2
 
 
-@dataclass(frozen=True)
-class SlipTorque:
+class SlipTorque(NamedTuple):
     """Torque that the fastening holds and the one it needs [N m]; stress of the hub and the permitted one [Pa]."""
 
     held: float

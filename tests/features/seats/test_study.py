@@ -68,8 +68,9 @@ def test_a_load_that_is_to_rotate_against_both_rings_is_told(inner: str, outer: 
 
 def test_the_fleshing_machine_follows_its_source() -> None:
     """Afanasiev 2015 rejects k6 and H7/K7, and takes m6/M7 for a load that he calls circulating on both rings."""
-    result = check_fit(read_machine(PRESET))
-    assert {seat.ring_load for seat in result.seats} == {"rotating"}
+    machine = read_machine(PRESET)
+    assert {each.outer_ring_load for each in machine.tables.bearing} == {"rotating"}
+    result = check_fit(machine)
     assert [seat.recommended_fit for seat in result.seats] == ["m6", "M7"] * 3
     failing = [check.name.rpartition("housing, ")[2] for check in result.checks if check.status == "fail"]
     assert set(failing) == {"7516 as built", "7516 proposed, K7"}
