@@ -24,7 +24,7 @@ class TypeTest(Table):
     test_wheel_diameter_mm: float | None = Field(
         default=None,
         description="Diameter of the test wheel [mm]; {range}. The imbalance is built in for 25, 50, 80, 100, 125, 150 "
-        "and 200 mm. Without it: the diameter of the wheel.",
+        "and 200 mm, and by a rule for 115, 180 and 230 mm. Without it: the diameter of the wheel.",
         examples=[150.0],
         gt=0,
         le=1000,

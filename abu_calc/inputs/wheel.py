@@ -261,6 +261,15 @@ class Wheel(Measured):
         le=1e6,
         json_schema_extra=usual(1, 10000),
     )
+    life_with_autobalancer_min: float | None = Field(
+        default=None,
+        description="Life of the wheel that was measured with an autobalancer [minutes], beside life_min without one; "
+        "{range}. `abu grinding` compares it with the prediction. No default.",
+        examples=[48.0],
+        gt=0,
+        le=1e6,
+        json_schema_extra=usual(1, 10000),
+    )
     imbalance_g_mm: float | None = Field(
         default=None,
         description="Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One source is needed: "

@@ -10,17 +10,18 @@ from typing import TYPE_CHECKING, Final
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
+from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks, residual_check
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, sound, why_not
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design, RaceDesign
 from abu_calc.sizing.drawing_requirements import drawing
-from abu_calc.sizing.handles import body_bands, handle_checks
+from abu_calc.sizing.handles import body_bands, handle_checks, highest_totals
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.manufacture.construction import construct
 from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.oil import value_sources, with_oil
 from abu_calc.sizing.operating_speed import frequency_region, region_check
+from abu_calc.sizing.requirements import loudness, missed
 from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.type_test import band, declared_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
@@ -44,7 +45,7 @@ def size(machine: MachineFile) -> Design:
 
 
 def size_race(machine: MachineFile) -> RaceDesign:
-    """Lightest balls and race of a machine, without levels, requirements of the drawing and advice.
+    """Lightest balls and race of a machine, with the checks that concern them alone.
 
     These take most of the time of `size` if the race has many balls.
     """
@@ -54,7 +55,7 @@ def size_race(machine: MachineFile) -> RaceDesign:
     race = track(case, best, frequency_region(case, best.ball_mass, best.mass).natural_frequencies)
     eccentricity = split_eccentricity(case, best)
     construction = construct(case, best, eccentricity)
-    checks = (*candidate_checks(case, best), *track_checks(case, best, race))
+    checks = (residual_check(best), *track_checks(case, best, race))
     return RaceDesign(case, best, race, eccentricity, construction, checks)
 
 
@@ -76,8 +77,6 @@ def usable(case: Case, candidate: Candidate) -> bool:
     return sound(case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count)
 
 
-VIBRATION: Final = frozenset({"ABU401", "ABU404"})
-"""Checks of the idle level and of a_hv at the handles, worst friction cases included."""
 TOO_LOUD: Final = "too loud, if only in the worst friction case"
 MAY_HANG: Final = "friction may hold one of so few balls on the heavy side"
 """Reasons against candidates."""
@@ -89,13 +88,13 @@ a vertical spindle with a lever arm of 2.8 µm and 83 % of the capacity in use."
 def _quieter(design: Design) -> Design:
     """The lightest runner-up that keeps the limits of vibration if a design does not, else one that warns if it fails.
 
-    No other check may come out worse. Fewer than four balls replace no more of them, unless gravity shakes all friction
-    out.
+    No requirement may be missed that is met now. Fewer than four balls replace no more of them, unless gravity shakes
+    all friction out.
     """
-    case, least = design.case, _loudness(design)
-    if not least or not design.frequency.balancing_possible:
+    case, least = design.case, loudness(design)
+    if not any(least) or not design.frequency.balancing_possible:
         return design
-    fails, chosen, refused = least > GRADES.index("warn"), design, [(design.autobalancer, TOO_LOUD)]
+    fails, chosen, refused = least[0] > 0, design, [(design.autobalancer, TOO_LOUD)]
     for runner_up, _ in design.choice.runners_up:
         if not usable(case, runner_up):
             continue
@@ -106,9 +105,9 @@ def _quieter(design: Design) -> Design:
             other = instead(design, runner_up, refused)
             if not no_worse(other, design):
                 continue
-            if (loudness := _loudness(other)) < least:
-                chosen, least = other, loudness
-            if not loudness:
+            if (level := loudness(other)) < least:
+                chosen, least = other, level
+            if not any(level):
                 break
         refused.append((runner_up, TOO_LOUD))
     return chosen if chosen is design else replace(chosen, warnings=(_instead_of(design, chosen), *chosen.warnings))
@@ -121,27 +120,9 @@ def _instead_of(design: Design, chosen: Design) -> str:
     return f"{balls} would be {f'{grams:.1f} g lighter' if grams > 0.05 else 'the first choice'}, but {TOO_LOUD}."
 
 
-GRADES: Final = ("pass", "warn", "not-done", "fail")
-"""Grades, the best first."""
-
-
-def _grades(design: Design) -> dict[str, int]:
-    """Worst grade of each calculated check, by its code."""
-    found = dict[str, int]()
-    for check in design.checks:
-        found[check.code] = max(found.get(check.code, 0), GRADES.index(check.status))
-    return found
-
-
-def _loudness(design: Design) -> int:
-    """Worst grade of the checks of vibration."""
-    return max((grade for code, grade in _grades(design).items() if code in VIBRATION), default=0)
-
-
 def no_worse(other: Design, design: Design) -> bool:
-    """True if no calculated check of another design comes out worse."""
-    before = _grades(design)
-    return all(grade <= before.get(code, 0) for code, grade in _grades(other).items())
+    """True if another design misses no requirement that a design meets."""
+    return missed(other) <= missed(design)
 
 
 def _free(case: Case, candidate: Candidate) -> bool:
@@ -166,6 +147,8 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     worst = worst_residuals(case, imbalance.value, best)
     levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
+    limited = case.table.limits.a_hv_m_per_s2 is not None and frequency.balancing_possible
+    totals = highest_totals(case, imbalance.value, best) if limited else None
     arm = _arm(case, imbalance.value, best)
     eccentricity = split_eccentricity(case, best)
     construction = construct(case, best, eccentricity)
@@ -179,15 +162,15 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *track_checks(case, best, race),
         *construction.checks,
         *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
-        *handle_checks(case, imbalance.value, best, frequency.balancing_possible, bands),
+        *handle_checks(case, best, totals, bands),
         *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
         *(arm.checks if arm else ()),
     )
     warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
-        case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, arm, advice, checks,
-        warnings, bands, eccentricity, construction,
+        case, frequency, imbalance, choice, race, others, idle, worst, levels, totals, loaded, arm, advice,
+        checks, warnings, bands, eccentricity, construction,
     )  # fmt: skip
 
 

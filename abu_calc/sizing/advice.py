@@ -19,7 +19,7 @@ from abu_calc.standards.balls import stock_diameter
 
 def candidate_checks(case: Case, chosen: Candidate) -> tuple[Check, ...]:
     """Checks of the chosen autobalancer: capacity, residual displacement, mass, and a race near the wheel."""
-    return _capacity(case, chosen), _budget(chosen), _mass(case, chosen), *_plane(case, chosen)
+    return _capacity(case, chosen), residual_check(chosen), _mass(case, chosen), *_plane(case, chosen)
 
 
 def _capacity(case: Case, candidate: Candidate) -> Check:
@@ -38,7 +38,8 @@ def _with_margin(case: Case, candidate: Candidate) -> float:
     return from_si(candidate.requirement.required * case.autobalancer.capacity_margin, "g_mm")
 
 
-def _budget(candidate: Candidate) -> Check:
+def residual_check(candidate: Candidate) -> Check:
+    """Check of the residual displacement against the permitted one."""
     budget = candidate.budget
     speed = f"{from_si(budget.speed, 'rpm'):.6g} rpm"
     return coded("ABU202", verdict(budget.within), f"At {speed}, race eccentricity, dry friction and two-lobe ovality "

@@ -394,10 +394,13 @@ def sound(case: Case, candidate: Candidate) -> bool:
     return not any(_shortfalls(case, candidate))
 
 
+CAPACITY, MASS = "capacity", "mass of the autobalancer"
+
+
 def shortfalls(case: Case, candidate: Candidate) -> tuple[str, ...]:
     """Names of the requirements that the candidate falls short of."""
-    named = ("capacity", "strength", "roundness of the race", "way of the balls into the race", "accuracy of the race",
-             "mass of the autobalancer")  # fmt: skip
+    named = (CAPACITY, "strength", "roundness of the race", "way of the balls into the race", "accuracy of the race",
+             MASS)  # fmt: skip
     return tuple(name for name, bad in zip(named, _shortfalls(case, candidate), strict=True) if bad)
 
 

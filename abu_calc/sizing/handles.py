@@ -112,19 +112,22 @@ def _highest(totals: list[HighestTotal | None]) -> HighestTotal | None:
 
 
 def handle_checks(
-    case: Case, imbalance: float, candidate: Candidate, possible: bool, bands: BodyBands | None
+    case: Case, candidate: Candidate, totals: HighestTotals | None, bands: BodyBands | None
 ) -> tuple[Check, ...]:
-    """Check of the weighted acceleration at the highest handle; none without a limit in the file."""
+    """Check of the weighted acceleration at the highest handle; none without a limit in the file.
+
+    `totals`: None if the balls cannot balance.
+    """
     limit = case.table.limits.a_hv_m_per_s2
     if limit is None:
         return ()
-    if not possible:
+    if totals is None:
         reason = "The acceleration is not known: the balls cannot balance at these speeds"
         return (coded("ABU404", "not-done", reason, None, limit, "m/s²"),)
-    expected, arranged, upright = highest_totals(case, imbalance, candidate)
+    expected, arranged, upright = totals
     if expected is None or arranged is None:
         return (coded("ABU404", "not-done", "W_h is not defined at this speed (5.62 … 1413 Hz)", None, limit, "m/s²"),)
-    high = _band_end(expected, bands, case)
+    high = band_end(expected, bands, case)
     notes = [f"{_place(expected)}: expected {_said(expected.total)} (limit {limit:g} m/s²)"]
     notes.append(f"Worst friction case: {_said(arranged.total)}")
     if upright is not None and upright.total > SHOWN * arranged.total:
@@ -142,7 +145,7 @@ def handle_checks(
     return (coded("ABU404", verdict(kept, safe), ". ".join(notes), expected.total, limit, "m/s²", action),)
 
 
-def _band_end(expected: HighestTotal, bands: BodyBands | None, case: Case) -> float | None:
+def band_end(expected: HighestTotal, bands: BodyBands | None, case: Case) -> float | None:
     """Upper end of the band of the highest a_hv [m/s²], in proportion to the speed; None if nothing is estimated."""
     if bands is None:
         return None

@@ -39,7 +39,6 @@ from abu_calc.standards.type_test import (
     declared_uncertainty,
     reproducibility,
     test_wheel,
-    test_wheel_source,
 )
 from abu_calc.standards.vibration import third_octaves
 
@@ -72,7 +71,7 @@ def chosen_wheel_of(test: TypeTest | None, wheel_diameter_mm: float) -> ChosenWh
         return ChosenWheel(diameter, to_si(test.test_wheel_imbalance_g_mm, "g_mm"), None, IN_FILE, "given")
     if known is None:
         return None
-    return ChosenWheel(known.diameter, known.imbalance, known.feed_force, *test_wheel_source())
+    return ChosenWheel(known.diameter, known.imbalance, known.feed_force, known.source, known.status)
 
 
 def type_test_body(case: Case, candidate: Candidate | None = None) -> TypeTestBody:

@@ -278,7 +278,7 @@ def vibration_checks(
         allowed = {"ABU401": limit, "ABU402": before}
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     message = "The idle level with the autobalancer must be below the level without it"
-    measurable = _measurably_lower(idle)
+    measurable = measurably_lower(idle)
     if idle.lowered and not measurable:
         message += f". It is lower by less than {LEAST_GAIN:g} dB, which no measurement tells from none"
     return (
@@ -292,7 +292,7 @@ LEAST_GAIN: Final = 1.0
 """Reduction of the idle level [dB] that a measurement tells from none (engineering practice, unverified)."""
 
 
-def _measurably_lower(idle: VibrationLevels) -> bool:
+def measurably_lower(idle: VibrationLevels) -> bool:
     """True if the wheel moves less with the autobalancer, and the level falls by as much as can be measured."""
     before, after = idle.worst.before, idle.worst.after
     return idle.lowered and before is not None and after is not None and before - after >= LEAST_GAIN
@@ -396,7 +396,7 @@ def _lower(case: Case, candidate: Candidate, level: float) -> Action:
     for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
         idle = None if after is None else idle_vibration(*after, possible=True)
-        if after is not None and idle is not None and idle.worst.after is not None and _measurably_lower(idle):
+        if after is not None and idle is not None and idle.worst.after is not None and measurably_lower(idle):
             moved = Moved("the idle level with the autobalancer", level, idle.worst.after, "dB", idle.worst.before)
             return set_action(entries, after.candidate, moved)
     return Action("The wheel is balanced better than balls can balance it: no autobalancer is needed.")

@@ -14,30 +14,39 @@ from abu_calc.standards.tables import toml_table
 
 @dataclass(frozen=True)
 class TestWheel:
-    """A test wheel of aluminium [SI]: its diameter, its imbalance [kg m], the feed force [N]."""
+    """A test wheel of aluminium [SI]: diameter, imbalance [kg m], feed force [N] if it is known, source."""
 
     __test__ = False  # not a test of pytest
 
     diameter: float
     imbalance: float
-    feed_force: float
+    feed_force: float | None
+    source: str
+    status: str
 
 
 @cache
 def test_wheels() -> tuple[TestWheel, ...]:
-    """The test wheels by diameter, smallest first. Source: ISO 28927-4:2010, secondary.
+    """The test wheels by diameter, smallest first: rows of ISO 28927-4:2010 (secondary), and wheels by a rule.
+
+    The rule is U = 2.88e-3·D² g·mm, D in mm. It holds the rows from 80 to 200 mm within 3 %.
 
     >>> [round(1e6 * wheel.imbalance, 1) for wheel in test_wheels()]
-    [3.6, 14.5, 18.0, 29.0, 45.0, 65.0, 115.0]
+    [3.6, 14.5, 18.0, 29.0, 38.1, 45.0, 65.0, 93.3, 115.0, 152.4]
     """
-    rows = toml_table("test_wheels")["rows"]
-    return tuple(
-        TestWheel(to_si(diameter, "mm"), to_si(imbalance, "g_mm"), float(force)) for diameter, imbalance, force in rows
-    )
+    table = toml_table("test_wheels")
+    rule, origin = table["rule"], (table["source"], table["status"])
+
+    def wheel(diameter: float, imbalance: float, force: float | None, source: str, status: str) -> TestWheel:
+        return TestWheel(to_si(diameter, "mm"), to_si(imbalance, "g_mm"), force, source, status)
+
+    wheels = [wheel(diameter, imbalance, float(force), *origin) for diameter, imbalance, force in table["rows"]]
+    wheels += [wheel(d, rule["factor"] * d**2, None, rule["source"], rule["status"]) for d in rule["diameters"]]
+    return tuple(sorted(wheels, key=lambda each: each.diameter))
 
 
 def test_wheel(diameter: float) -> TestWheel | None:
-    """The test wheel of a diameter [m]; None for a diameter that the table does not have.
+    """The test wheel of a diameter [m]; None for a diameter that neither table nor rule has.
 
     >>> test_wheel(0.150).feed_force, test_wheel(0.178)
     (30.0, None)
@@ -46,15 +55,6 @@ def test_wheel(diameter: float) -> TestWheel | None:
 
 
 test_wheel.__test__ = test_wheels.__test__ = False  # type: ignore[attr-defined]
-
-
-def test_wheel_source() -> tuple[str, str]:
-    """The source of the test wheels and of the factor, and its status."""
-    table = toml_table("test_wheels")
-    return table["source"], table["status"]
-
-
-test_wheel_source.__test__ = False  # type: ignore[attr-defined]
 
 
 def uncertainty_source() -> tuple[str, str]:

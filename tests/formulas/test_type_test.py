@@ -88,7 +88,9 @@ def test_break_even_without_friction() -> None:
 PRODUCTS = (2.77, 11.15, 13.85, 22.31, 34.62, 50.00, 88.46)
 
 
-@pytest.mark.parametrize(("wheel", "product"), list(zip(wheels(), PRODUCTS, strict=True)))
+@pytest.mark.parametrize(
+    ("wheel", "product"), list(zip((row for row in wheels() if row.status == "secondary"), PRODUCTS, strict=True))
+)
 def test_break_even_of_a_point_mass_for_every_test_wheel(wheel: TestWheel, product: float) -> None:
     """Δ₀·m_F [µm·kg] of the table, two decimals."""
     point = body(1.0, 0.0, 0.0, 0.0)

@@ -46,8 +46,10 @@ BANNED: Final = {
 }
 """Words and phrases that the glossary replaces, where they have no other meaning in these texts."""
 HEADLESS: Final = re.compile(r"(?:What|Of|Where|Who)\s")
-REPEATING: Final = ("Assumed:", "Cost:", "Range:", "Left out:", "Action: See the action of", "Another requirement")
-"""Beginnings of sentences that may repeat: computing times, ranges of formulas, effects left out of scenes."""
+REPEATING: Final = ("Assumed:", "Cost:", "Range:", "Left out:", "Action: See the action of", "Another requirement",
+                    "The rule alone asks for", "M7 reaches the required interference")  # fmt: skip
+"""Beginnings of sentences that may repeat: computing times, ranges of formulas, effects left out of scenes, and what
+holds of each bearing."""
 ALL_PASS: Final = re.compile(r"All \d+ start cases, .*, then pass\.$")
 """Sentence that stands at each action that makes all start cases pass."""
 SENTENCE: Final = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")

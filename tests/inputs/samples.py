@@ -85,6 +85,7 @@ FULL: dict[str, dict[str, str]] = {
         "runout_angle_deg": "0.0",
         "axial_runout_mm": "0.02",
         "usable_wear_mm": "10.0",
+        "life_with_autobalancer_min": "48.0",
         "life_min": "32.0",
         "measured_level_db": "[110.0, 111.0]",
         "measured_weighting": '"none"',

@@ -164,8 +164,8 @@ class SwingArmSupport(Support):
     def critical_damping(self, imbalance: float, balls: Balls) -> float | None:
         """Joint damping [N·s/m] that parametric resonance cannot overcome as long as nothing is balanced.
 
-        (m₀e/l)·ω₀·(1 + 17κ²/64), see `formulas.swing_arm.damping_limit`; ω₀ = l√(c/J_O) with the inertia of balls that
-        stand. None on an arm that does not stand, and beyond κ = 0.3. Source: Kovalenko 2010, (24).
+        (m₀e/l)·ω₀·(1 + 17κ²/64 + …), see `formulas.swing_arm.damping_limit`; ω₀ = l√(c/J_O) with the inertia of balls
+        that stand. None on an arm that does not stand, and beyond κ = 0.3. Source: Kovalenko 2010, (24).
         """
         if self.stiffness <= 0:
             return None

@@ -277,7 +277,7 @@ def size(
         warnings=merged(
             *tried.warnings,
             *machine.warnings,
-            *_types_taken(seats),
+            *_bearing_notes(seats),
             *design.warnings,
             *remarks,
             *_under_load(work, loads, bound),
@@ -355,12 +355,12 @@ def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
     return seat_bearings(tables.bearing)
 
 
-def _types_taken(seats: "tuple[BearingSeats, ...]") -> Iterator[str]:
-    """Sentences on bearings that were taken for sizes without a type."""
+def _bearing_notes(seats: "tuple[BearingSeats, ...]") -> Iterator[str]:
+    """Notes on the bearings."""
     if seats:
-        from abu_calc.features.seats.seats import types_taken
+        from abu_calc.features.seats.seats import bearing_notes
 
-        yield from types_taken(seats)
+        yield from bearing_notes(seats)
 
 
 def _with_lives(

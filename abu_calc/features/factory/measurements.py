@@ -1,6 +1,7 @@
 """Measured levels as rows: of the presets of a factory's machines, or of machine files that others wrote."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from abu_calc.features.factory.at_handles import HandleGeometry
@@ -22,6 +23,8 @@ class MeasuredMachine:
     machine: Machine
     measured: tuple[MeasuredOctave, ...]
     geometry: HandleGeometry | None
+    devices: tuple[tuple[int, float, str, float], ...] = ()
+    """Devices that were built: balls, their diameter [mm], the state for which they were enough, mass [%]."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,10 @@ class SoftRace:
 def factory_machines() -> tuple[MeasuredMachine, ...]:
     """The machines that Kladiev 1996 measured, in the order of the table."""
     return tuple(
-        _measured(row["preset"], row["short"], read(row["preset"]), HandleGeometry.of(row))
+        replace(
+            _measured(row["preset"], row["short"], read(row["preset"]), HandleGeometry.of(row)),
+            devices=tuple(row.get("devices", ())),
+        )
         for row in toml_table("factory_machines")["machine"]
     )
 

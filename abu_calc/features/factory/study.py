@@ -1,6 +1,6 @@
 """Measured levels of machines with autobalancers beside predicted ones, by one set of assumptions."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from statistics import fmean
 from typing import Annotated, ClassVar, Final
 
@@ -26,8 +26,11 @@ from abu_calc.inputs.measured import MeasuredOctave
 from abu_calc.inputs.read_machine import Machine, read
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
+from abu_calc.sizing import size as size_design
 from abu_calc.standards.vibration import octave
 
+SLIM: Final = {"autobalancer.bore_diameter_mm": 16.0, "autobalancer.min_wall_mm": 2.0}
+"""Slimmer construction of the devices, to show what their mass depends on (assumed)."""
 STILL_DB: Final = 60.0
 """An axis so far below the highest level [dB] has no motion but rounding."""
 
@@ -103,6 +106,18 @@ class SoftRaceLevel(Record):
 
 
 @record
+class DeviceNumber(Record):
+    """One number of a device that the factory built: published, and found with its balls pinned; null: none."""
+
+    short: Annotated[str, Quantity("name")]
+    balls: Annotated[str, Quantity("balls")]
+    state: Annotated[str, Quantity("state", "", 4, "for which the factory found it enough")]
+    quantity: Annotated[str, Quantity("quantity")]
+    published: Annotated[float | None, Quantity("published")]
+    found: Annotated[float | None, Quantity("by the program")]
+
+
+@record
 class FactoryResult(Result):
     """All of them in one table."""
 
@@ -111,6 +126,7 @@ class FactoryResult(Result):
     rows: tuple[FactoryLevel, ...]
     fitted: tuple[FittedValues, ...]
     soft_races: tuple[SoftRaceLevel, ...]
+    devices: tuple[DeviceNumber, ...]
     source: Annotated[str, Quantity("source")]
     background: Annotated[str, Quantity("background")]
 
@@ -146,7 +162,7 @@ def factory(machines: Sequence[Machine] = (), progress: Progress = silent) -> Fa
     """
     own = not machines
     measured = factory_machines() if own else machines_of(machines)
-    rows, sources = list[FactoryLevel](), list[FittedValues]()
+    rows, sources, devices = list[FactoryLevel](), list[FittedValues](), list[DeviceNumber]()
     for machine in measured:
         progress(machine.short)
         design = size(machine.machine, progress=within(progress, machine.short))
@@ -155,12 +171,38 @@ def factory(machines: Sequence[Machine] = (), progress: Progress = silent) -> Fa
         handles = machine.geometry and at_handles(machine.machine.whole(), design, machine.geometry)
         rows += [_row(machine, row, design, handles or None, degrees_of_freedom(origins), progress)
                  for row in machine.measured]  # fmt: skip
+        for device in machine.devices:
+            devices += _device(machine, *device, progress)
     source, background = factory_source() if own else ("; ".join(dict.fromkeys(row.source for row in rows)), "")
     return FactoryResult(
         title="Machines that a factory measured" if own else "Measured machines", provenance=Provenance.today(),
         rows=tuple(rows), fitted=tuple(sources), soft_races=_soft_races(soft_race(), progress) if own else (),
-        source=source, background=background,
+        devices=tuple(devices), source=source, background=background,
     )  # fmt: skip
+
+
+def _device(
+    machine: MeasuredMachine, count: int, diameter: float, state: str, mass: float, progress: Progress
+) -> Iterator[DeviceNumber]:  # fmt: skip
+    """Numbers of a device; its race is the least that goes round the bore of the file."""
+    balls = f"{count} × {diameter:g}"
+    pinned = machine.machine.changed({"autobalancer.ball_count": count, "autobalancer.ball_diameter_mm": diameter})
+    made = size(pinned, progress=within(progress, f"{machine.short}, {balls} mm"))
+    slim = size_design(pinned.changed(SLIM).whole("factory")).autobalancer
+    idle, many = made.imbalance_g_mm + made.model.eccentricity_part_g_mm, made.ensemble
+    own, loaded = made.autobalancer, made.vibration_loaded
+    starts = (None,) * 4 if many is None else (many.predicted_level_db, many.level_db.worst,
+                                               many.settling_time_s.typical, many.settling_time_s.worst)  # fmt: skip
+    required = idle if state == "idle" else made.required_capacity_g_mm
+    for quantity, published, found in (
+        ("mass, %", mass, 100 * own.mass_fraction), ("mass if slim, %", mass, 100 * slim.mass_fraction),
+        ("capacity, g·mm", None, own.capacity_g_mm), ("required, g·mm", None, required),
+        ("idle, median, dB", None, starts[0]), ("idle, loudest, dB", None, starts[1]),
+        ("grinding, dB", None, None if loaded is None else loaded.level_after_db),
+        ("settling, median, s", 1.0, starts[2]), ("settling, slowest, s", 1.0, starts[3]),
+    ):  # fmt: skip
+        yield DeviceNumber(short=machine.short, balls=balls, state=state, quantity=quantity, published=published,
+                           found=found)  # fmt: skip
 
 
 def _fitted(machine: MeasuredMachine, origins: Sequence[ValueSource]) -> FittedValues:

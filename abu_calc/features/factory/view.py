@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from abu_calc.features.factory.study import FactoryLevel, FactoryResult, FittedValues, SoftRaceLevel
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.features.factory.study import DeviceNumber, FactoryLevel, FactoryResult, FittedValues, SoftRaceLevel
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.parts import provenance_blocks
 from abu_calc.reporting.screen import many
 
@@ -12,7 +12,7 @@ Span = tuple[float, float]
 NOTE = (
     "Levels in dB re 5e-8 m/s with the autobalancer, in the octave; Δ: lowered by. Model: the plane model. Idle: "
     "the median of all start cases, hot and cold oil included. Loaded: pressed to the workpiece after the balls have "
-    "settled. Miss: outside the published range. –: no motion of the model in that octave."
+    "settled. Miss: outside the published range. –: no motion in the model. Spent: fitted values."
 )
 ALONG = "Sensors of {machines} measured along the spindle, where the plane model has no motion."
 ESTIMATED = (
@@ -49,9 +49,7 @@ def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
         Grid(heading, cells, frozenset(range(1, 8))),
         Paragraph(NOTE),
         *([Paragraph(" ".join(where))] if where else []),
-        Paragraph(""),
-        Paragraph(SPENT),
-        *(Paragraph(_fitted(values), hang=2) for values in result.fitted),
+        *_devices(result.devices),
         *_soft_races(result.soft_races),
         Paragraph(f"{result.background} More: --full, with a remark on each row.".strip()),
     )
@@ -67,6 +65,8 @@ def factory_blocks(result: FactoryResult) -> tuple[Block, ...]:
         Heading("Remarks"),
         *(Paragraph(f"{number} {_remark(row)}", hang=2) for number, row in enumerate(result.rows, 1)),
         Heading("Values fitted to published results"),
+        Paragraph(SPENT),
+        *(Paragraph(_fitted(values), hang=2) for values in result.fitted),
         *_fitted_grid(result.fitted),
         Paragraph(f"{result.background} Source: {result.source}.".strip()),
         *provenance_blocks(result.provenance),
@@ -175,6 +175,28 @@ def _soft_races(races: Sequence[SoftRaceLevel]) -> list[Block]:
         Grid(heading, cells, frozenset(range(1, 4))),
         Paragraph(f"Published: {races[0].published}. {why}"),
     ]
+
+
+DEVICES = (
+    "Balls as built, the rest as in the file; in brackets: published. The source gives no bore, wall or start. Slim: "
+    "bore Ø16, walls of 2 mm. Required: in the state named, without margin. Never: from a start case the balls do not "
+    "settle."
+)
+
+
+def _devices(numbers: Sequence[DeviceNumber]) -> list[Block]:
+    """Devices that the factory built, number by number."""
+    if not numbers:
+        return []
+    columns = {(row.short, row.balls, row.state): dict[str, str]() for row in numbers}
+    for row in numbers:
+        published = "" if row.published is None else f" ({'< ' if 'settling' in row.quantity else ''}{row.published:g})"
+        found = number(row.found, 3) if row.found is not None else "never" if "settling" in row.quantity else "–"
+        columns[row.short, row.balls, row.state][row.quantity] = found + published
+    rows = [("balls, Ø mm", *(key[1] for key in columns)), ("enough for", *(key[2] for key in columns))]
+    rows += [(name, *(cells[name] for cells in columns.values())) for name in next(iter(columns.values()))]
+    grid = Grid(("as the factory built", *(key[0] for key in columns)), tuple(rows), frozenset(range(1, len(rows))))
+    return [Paragraph(""), grid, Paragraph(DEVICES)]
 
 
 def _span(span: Span | None) -> str:

@@ -211,8 +211,6 @@ def needed_exponent(without: NDArray[np.float64], fitted: NDArray[np.float64], r
 
 USABLE = 0.2
 """Share of the wheel's radius taken as the depth that may be worn off, if the file gives none."""
-CLAIMED = 32.0, 48.0
-"""Minutes a wheel lasts without and with the autobalancer of the MSh-230, Kladiev 1996."""
 
 
 @record
@@ -272,10 +270,11 @@ class WearCourse(Record):
 
 @record
 class Claim(Record):
-    """The source's claim that a wheel lives 48 minutes with an autobalancer and 32 without, and what it would take."""
+    """Lives of a wheel without and with the autobalancer, as measured; the prediction, and what the rest would take."""
 
-    life_without_min: Annotated[float, Quantity("life without, as printed")]
-    life_with_min: Annotated[float, Quantity("life with, as printed")]
+    life_without_min: Annotated[float, Quantity("life without, as measured")]
+    life_with_min: Annotated[float, Quantity("life with, as measured")]
+    predicted_life_with_min: Annotated[float, Quantity("life with, predicted", "", 3, "from the life without")]
     ratio_by_archard: Annotated[float, Quantity("ratio of lives if wear goes with the force")]
     needed_exponent: Annotated[float | None, Quantity("power of the force that wear would go with")]
     needed_press_N: Annotated[float, Quantity("mean force that would do it, by the same law")]
@@ -319,10 +318,14 @@ def bouncing_course(design: Design, side: Side) -> WearCourse | None:
 
 
 def claim(work: Work) -> Claim | None:
-    """Conditions under which the wheel would last as much longer as the source claims."""
-    if not contact_presses(work.design.case):
+    """Prediction beside the measured lives; None if the file does not give both, or nothing grinds.
+
+    Archard's law: wear follows the mean force, which the operator sets, so that both lives are equal at any contact.
+    """
+    wheel, press = work.design.case.table.wheel, press_of(work.design)
+    before, after = wheel.life_min, wheel.life_with_autobalancer_min
+    if before is None or after is None or math.isinf(press):
         return None
-    press, (before, after) = press_of(work.design), CLAIMED
     forces = [
         side.run.force if side.parts and side.run is not None else harmonic_force(press, side.steady.pressure or 0j)
         for side in (work.without, work.fitted)
@@ -330,6 +333,7 @@ def claim(work: Work) -> Claim | None:
     return Claim(
         life_without_min=before,
         life_with_min=after,
+        predicted_life_with_min=before,
         ratio_by_archard=1.0,
         needed_exponent=needed_exponent(forces[0], forces[1], after / before),
         needed_press_N=press * before / after,

@@ -4,6 +4,7 @@ An error of one bearing names its table, and its key if known. Parts that few be
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice, rule_class
@@ -293,12 +294,28 @@ def seat_bearings(tables: "Sequence[BearingTable]") -> tuple[BearingSeats, ...]:
     return tuple(_seated(index, table) for index, table in enumerate(tables))
 
 
-def types_taken(judged: Sequence[BearingSeats]) -> Iterator[str]:
-    """Sentences on bearings taken for sizes without a type, each once, with its bearings if it is not of all."""
-    sentences = dict.fromkeys(each.bearing.taken_as for each in judged if each.bearing.taken_as)
-    for sentence in sentences:
-        names = [each.bearing.name for each in judged if each.bearing.taken_as == sentence]
-        yield sentence if len(names) == len(judged) else f"{'; '.join(names)}: {sentence}"
+def bearing_notes(judged: Sequence[BearingSeats]) -> Iterator[str]:
+    """Sentences on types that were taken and on loads that cannot be, each with its bearings if it is not of all."""
+    for sentence_of in (lambda each: each.bearing.taken_as, _rotating_twice):
+        sentences = [sentence_of(each) for each in judged]
+        for sentence in filter(None, dict.fromkeys(sentences)):
+            names = [each.bearing.name for each, own in zip(judged, sentences, strict=True) if own == sentence]
+            yield sentence if len(names) == len(judged) else f"{'; '.join(names)}: {sentence}"
+
+
+def _rotating_twice(judged: BearingSeats) -> str | None:
+    """Sentence on a load that is to rotate against both rings, with the classes for an indeterminate one."""
+    bearing = judged.bearing
+    if not bearing.inner.load == bearing.outer.load == "rotating":
+        return None
+    inner, outer = (replace(ring, load="indeterminate") for ring in (bearing.inner, bearing.outer))
+    other = judge(replace(bearing, inner=inner, outer=outer))
+    classes = ["/".join(seat.recommended_fit or "none" for seat in each.seats) for each in (judged, other)]
+    return (
+        "A load cannot rotate against both rings. If its direction changes against both, it is indeterminate. The file "
+        f'is judged as it stands: {classes[0]}. With inner_ring_load and outer_ring_load = "indeterminate": '
+        f"{classes[1]} (calculated)."
+    )
 
 
 def _seated(index: int, table: "BearingTable") -> BearingSeats:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any, ClassVar
 
 from abu_calc.features.seats.records import SeatResult, seat_results
-from abu_calc.features.seats.seats import BearingSeats, seat_bearings, types_taken
+from abu_calc.features.seats.seats import BearingSeats, bearing_notes, seat_bearings
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import record
 from abu_calc.inputs.read_machine import Machine
@@ -46,7 +46,7 @@ def check_fit(machine: Machine) -> CheckFitResult:
         checks=tuple(check for bearing in judged for check in bearing.checks),
         warnings=(
             *machine.warnings,
-            *types_taken(judged),
+            *bearing_notes(judged),
         ),
         # The other tables of a whole machine play no part here.
         provenance=replace(

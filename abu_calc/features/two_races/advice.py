@@ -12,6 +12,8 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.sizing.balls import CAPACITY, MASS
+from abu_calc.sizing.requirements import missed_by_race
 from abu_calc.standards.balls import stock_diameters
 
 FACTORS: Final = (2.0, 0.5, 3.0)
@@ -44,16 +46,16 @@ class Change(NamedTuple):
         return tuple(f"autobalancer.{race}.{key}={value:g}" for race in (0, 1) for key, value in self.entries.items())
 
 
-def failing(design: TwoRaceDesign) -> frozenset[tuple[str, int]]:
-    """Codes and races of the checks of capacity, mass and the races by themselves that do not pass."""
-    table, broken = design.case.table, set[tuple[str, int]]()
+def missed(design: TwoRaceDesign) -> frozenset[tuple[str, int]]:
+    """Names of the requirements on capacity, mass and the races by themselves that are missed, each with its race."""
+    table, names = design.case.table, set[tuple[str, int]]()
     for index, (race, room) in enumerate(zip(design.races, table.autobalancer, strict=True)):
-        if race.design.autobalancer.mass > room.max_mass_fraction * table.machine.mass_kg:
-            broken.add(("ABU203", index))
-        if race.design.autobalancer.capacity < race.need * room.capacity_margin * (1 - 1e-9):
-            broken.add(("ABU201", index))
-        broken |= {(check.code, index) for check in race.design.checks if check.status != "pass"}
-    return frozenset(broken)
+        made = race.design
+        heavy = made.autobalancer.mass > room.max_mass_fraction * table.machine.mass_kg
+        small = made.autobalancer.capacity < race.need * room.capacity_margin * (1 - 1e-9)
+        own = missed_by_race(made.case, made.autobalancer, made.track) - {MASS, CAPACITY}
+        names |= {(name, index) for name in (*own, *[MASS] * heavy, *[CAPACITY] * small)}
+    return frozenset(names)
 
 
 def changed(
@@ -61,7 +63,7 @@ def changed(
 ) -> Change | None:
     """The machine sized anew with these entries in both tables; None if it cannot be made, or then breaks a limit.
 
-    `allowed`: checks that may fail; None: those that fail without the change.
+    `allowed`: requirements that may be missed; None: those that are missed without the change.
     """
     tables = tuple(race.model_copy(update=entries) for race in design.bare.table.autobalancer)
     table = design.bare.table.model_copy(update={"autobalancer": tables})
@@ -76,7 +78,7 @@ def changed(
         sized = choose_both(case)
     except InputError:
         return None
-    if not failing(sized) <= (failing(design) if allowed is None else allowed):
+    if not missed(sized) <= (missed(design) if allowed is None else allowed):
         return None
     return Change(sized, entries)
 

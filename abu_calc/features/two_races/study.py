@@ -7,7 +7,7 @@ from typing import Final
 
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.records import Eccentricity, Section
-from abu_calc.features.two_races.advice import quieter_change, sturdier_change, tried_change
+from abu_calc.features.two_races.advice import missed, quieter_change, sturdier_change, tried_change
 from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, read_case
 from abu_calc.features.two_races.checks import (
     SpeedStability,
@@ -169,11 +169,7 @@ def _advice(
 
 def _made(design: TwoRaceDesign) -> Iterator[Check]:
     """Checks of what is made: capacity, the races by themselves, mass; a change is tried if one does not pass."""
-    checks = (*capacity_checks(design), *race_checks(design), *mass_checks(design))
-    if all(check.status == "pass" for check in checks) or patience.over():
-        yield from checks
-        return
-    action = sturdier_change(design)
+    action = sturdier_change(design) if missed(design) and not patience.over() else None
     yield from (*capacity_checks(design, action), *race_checks(design, action), *mass_checks(design, action))
 
 

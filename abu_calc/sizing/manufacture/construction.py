@@ -15,6 +15,7 @@ from abu_calc.sizing.manufacture.closure import (
     PROOF_SHARE,
     burst_check,
     burst_ratio,
+    contained,
     containment_check,
     filling_check,
     filling_gap_of,
@@ -23,9 +24,9 @@ from abu_calc.sizing.manufacture.closure import (
 )
 from abu_calc.sizing.manufacture.cover import Cover, choose_cover, cover_check
 from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
-from abu_calc.sizing.manufacture.fastening import torque_check
+from abu_calc.sizing.manufacture.fastening import slip_torque, torque_check
 from abu_calc.sizing.manufacture.race_quality import RaceQuality, race_quality
-from abu_calc.sizing.manufacture.ring_seat import RingSeat, ring_seat, seat_check
+from abu_calc.sizing.manufacture.ring_seat import RingSeat, bears_ring, ring_seat, seat_check
 from abu_calc.sizing.parts.demands import with_surfaces
 from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
 from abu_calc.sizing.trials import TriedRequirement
@@ -40,6 +41,8 @@ class Construction:
     cover: Cover
     seat: RingSeat | None
     checks: tuple[Check, ...]
+    requirements: tuple[tuple[str, bool], ...]
+    """Requirements of the search by name, and whether the construction meets them."""
 
 
 def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Construction:
@@ -47,6 +50,7 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
     parts, top = housing_parts(case, candidate), case.speed_range[1]
     force, quality = candidate.strength.ball_force, race_quality(case, candidate)
     closed, seat = choose_cover(case, parts, force, top), ring_seat(case, parts, force, top)
+    torque = slip_torque(case, parts, split.fit)
 
     def roomier() -> Action:
         required = TriedRequirement("the gap beside a ball", "mm", _gap_mm, lambda *_: from_si(LEAST_FILLING, "mm"),
@@ -54,20 +58,28 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
         return trials.remedy(case, candidate, trials.more_room(case), required)
 
     def stronger() -> Action:
-        ratio = TriedRequirement("the burst ratio", "", _burst, lambda *_: BURST_RATIO, _strong)
+        ratio = TriedRequirement("the burst ratio", "", _burst, lambda *_: BURST_RATIO, lambda other, made: _strong(
+            housing_parts(other, made), made.strength.ball_force, other.speed_range[1]))  # fmt: skip
         return trials.remedy(case, candidate, trials.stronger(case), ratio)
 
     checks = (
         filling_check(parts, roomier),
         overspeed_check(parts, force, top, stronger),
         cover_check(parts, closed, lambda: _other_closure(case, candidate, closed)),
-        *torque_check(case, parts, split.fit),
+        *torque_check(case, parts, split.fit, torque),
         burst_check(parts, force, top, stronger),
         *containment_check(case, parts, top),
         *seat_check(case, parts, seat),
         *ring_check(case, candidate.race_radius),
     )
-    return Construction(with_surfaces(parts, split, quality, closed, seat), quality, closed, seat, checks)
+    requirements = (
+        ("strength at overspeed", _strong(parts, force, top)),
+        ("hold of the cover", closed.holds),
+        ("slip torque", torque is None or torque.holds),
+        ("containment of a ball", contained(case, parts, top)),
+        ("strength of the ring's seat", bears_ring(parts, seat)),
+    )
+    return Construction(with_surfaces(parts, split, quality, closed, seat), quality, closed, seat, checks, requirements)
 
 
 def _gap_mm(case: Case, candidate: Candidate) -> float:
@@ -78,11 +90,10 @@ def _burst(case: Case, candidate: Candidate) -> float:
     return burst_ratio(housing_parts(case, candidate), candidate.strength.ball_force, case.speed_range[1])
 
 
-def _strong(case: Case, candidate: Candidate) -> bool:
+def _strong(parts: HousingParts, force: float, top: float) -> bool:
     """True if stress at overspeed and burst speed both hold."""
-    parts, force, top = housing_parts(case, candidate), candidate.strength.ball_force, case.speed_range[1]
     _, stress, material = overspeed_stress(parts, force, top)
-    return stress <= PROOF_SHARE * material.strength and _burst(case, candidate) >= BURST_RATIO
+    return stress <= PROOF_SHARE * material.strength and burst_ratio(parts, force, top) >= BURST_RATIO
 
 
 def _other_closure(case: Case, candidate: Candidate, hold: Cover) -> Action:

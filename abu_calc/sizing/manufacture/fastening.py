@@ -1,7 +1,7 @@
 """Fastening of the housing on the spindle: the torque that it carries before it slips, and the one it needs."""
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 from abu_calc.formulas.press_fit import (
     ASSEMBLY_TEMPERATURE,
@@ -111,26 +111,52 @@ def whole_inertia(parts: HousingParts) -> float:
     return sum(part.inertia for part in parts.turned) + balls.count * balls.mass * balls.pitch_radius**2
 
 
-def torque_check(case: Case, parts: HousingParts, fit: Fit | None) -> tuple[Check, ...]:
-    """Check of the slip torque; none without the force of the nut, or without the power that a flange must carry."""
+class SlipTorque(NamedTuple):
+    """Torque that the fastening holds and the one it needs [N m]; stress of the hub and the permitted one [Pa]."""
+
+    held: float
+    needed: float
+    stress: float
+    permitted: float
+
+    @property
+    def holds(self) -> bool:
+        """True if the torque is held and the hub bears it."""
+        return self.held >= self.needed and self.stress <= self.permitted
+
+
+def slip_torque(case: Case, parts: HousingParts, fit: Fit | None) -> SlipTorque | None:
+    """Slip torque of the fastening.
+
+    None without the force of the nut, without the power that a flange must carry, or without a fit that is shrunk.
+    """
+    size, own, force = parts.dimensions, case.autobalancer, case.autobalancer.clamp_force_N
     needed = SLIP_FACTOR * needed_torque(case, whole_inertia(parts))
-    size, fastening = parts.dimensions, case.autobalancer.fastening
+    if own.fastening == "shrunk" and fit is not None:
+        held, stress = shrunk_torque(case, size, fit), shrunk_stress(case, size, fit)
+    elif own.fastening == "shrunk" or force is None or (own.fastening, case.table.machine.power_W) == ("flange", None):
+        return None
+    else:
+        held = clamped_torque(force, size.bore_radius, size.hub_radius)
+        stress = force / (math.pi * (size.hub_radius**2 - size.bore_radius**2))
+    return SlipTorque(held, needed, stress, PROOF_SHARE * _hub(case, size).material.strength)
+
+
+def torque_check(case: Case, parts: HousingParts, fit: Fit | None, torque: SlipTorque | None) -> tuple[Check, ...]:
+    """Check of the slip torque; none without the force of the nut, or without the power that a flange must carry."""
+    fastening, force = case.autobalancer.fastening, case.autobalancer.clamp_force_N
     if fastening == "shrunk":
-        return (_shrunk_check(case, size, fit, needed),)
-    force = case.autobalancer.clamp_force_N
-    if force is None or (fastening == "flange" and case.table.machine.power_W is None):
+        return (_shrunk_check(fit, torque, SLIP_FACTOR * needed_torque(case, whole_inertia(parts))),)
+    if torque is None or force is None:
         return ()
     what = "flange" if fastening == "flange" else "housing"
-    held = clamped_torque(force, size.bore_radius, size.hub_radius)
-    pressure = force / (math.pi * (size.hub_radius**2 - size.bore_radius**2))
-    permitted = PROOF_SHARE * _hub(case, size).material.strength
     message = f"Slip torque of the clamped {what}, against twice the torque of the run-up"
-    if pressure > permitted:
-        message += (f". The nut crushes the hub: {from_si(pressure, 'MPa'):.3g} MPa, permitted "
-                    f"{from_si(permitted, 'MPa'):.3g} MPa")  # fmt: skip
-    passed = held >= needed and pressure <= permitted
-    action = None if passed else _other_force(held, needed, force, permitted / pressure)
-    return (coded("ABU308", verdict(passed), message, held, needed, "N·m", action, "least"),)
+    if torque.stress > torque.permitted:
+        message += (f". The nut crushes the hub: {from_si(torque.stress, 'MPa'):.3g} MPa, permitted "
+                    f"{from_si(torque.permitted, 'MPa'):.3g} MPa")  # fmt: skip
+    room = torque.permitted / torque.stress
+    action = None if torque.holds else _other_force(torque.held, torque.needed, force, room)
+    return (coded("ABU308", verdict(torque.holds), message, torque.held, torque.needed, "N·m", action, "least"),)
 
 
 def _other_force(held: float, needed: float, force: float, room: float) -> Action:
@@ -145,17 +171,14 @@ def _other_force(held: float, needed: float, force: float, room: float) -> Actio
                   (f"autobalancer.clamp_force_N={wanted:g}",))  # fmt: skip
 
 
-def _shrunk_check(case: Case, size: HousingDimensions, fit: Fit | None, needed: float) -> Check:
-    if fit is None:
+def _shrunk_check(fit: Fit | None, torque: SlipTorque | None, needed: float) -> Check:
+    if fit is None or torque is None:
         return coded("ABU308", "not-done", "No interference fit of ISO 286 is tabulated for this bore", None, needed,
                      "N·m", 'Specify autobalancer.fastening = "clamped".', "least")  # fmt: skip
-    held, stress = shrunk_torque(case, size, fit), shrunk_stress(case, size, fit)
-    permitted = PROOF_SHARE * _hub(case, size).material.strength
-    passed = held >= needed and stress <= permitted
     message = (
         f"Slip torque of the shrunk housing ({fit.named}), least over the temperatures at 1.2 × the highest speed, "
-        f"against twice the torque of the run-up. Hub: {from_si(stress, 'MPa'):.3g} MPa, permitted "
-        f"{from_si(permitted, 'MPa'):.3g} MPa"
+        f"against twice the torque of the run-up. Hub: {from_si(torque.stress, 'MPa'):.3g} MPa, "
+        f"permitted {from_si(torque.permitted, 'MPa'):.3g} MPa"
     )
-    return coded("ABU308", verdict(passed), message, held, needed, "N·m",
-                 None if passed else 'Specify autobalancer.fastening = "clamped".', "least")  # fmt: skip
+    return coded("ABU308", verdict(torque.holds), message, torque.held, needed, "N·m",
+                 None if torque.holds else 'Specify autobalancer.fastening = "clamped".', "least")  # fmt: skip

@@ -105,21 +105,25 @@ def _own_limits(radius: float, ring: DeviationLimits, needed: float) -> Deviatio
     return DeviationLimits(upper - grade_tolerance(7, 2 * radius), upper)
 
 
+def bears_ring(parts: HousingParts, seat: RingSeat | None) -> bool:
+    """True if the body bears the interference of its ring, or has none."""
+    return seat is None or seat.stress <= PROOF_SHARE * MATERIALS[parts.body.density].strength
+
+
 def seat_check(case: Case, parts: HousingParts, seat: RingSeat | None) -> tuple[Check, ...]:
     """Check that body and ring bear the interference that keeps the ring tight; nothing without a ring."""
     if seat is None:
         return ()
-    body = MATERIALS[parts.body.density]
     low, high = case.autobalancer.temperature_range_C
-    limit = PROOF_SHARE * body.strength
+    limit = PROOF_SHARE * MATERIALS[parts.body.density].strength
     limits = f"{seat.seat_class} " if seat.seat_class else ""
     upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
-    passed = seat.stress <= limit
     message = (
         f"Hoop stress of the body by the ring's interference and overspeed, largest over {low:g} … {high:g} °C. The "
         f"seat ({limits}{upper}/{lower} µm) keeps {from_si(seat.left, 'um'):.3g} µm at least. Join with the body at "
         f"{seat.joining:.0f} °C"
     )
+    passed = bears_ring(parts, seat)
     remedy = 'Narrow autobalancer.temperature_range_C, reduce the race, or specify design = "one-piece".'
     return (
         coded("ABU311", verdict(passed), message, from_si(seat.stress, "MPa"), from_si(limit, "MPa"), "MPa",

@@ -59,7 +59,7 @@ def test_balls_that_cannot_balance_end_with_one(tmp_path: Path) -> None:
 
 
 def test_a_wheel_without_a_test_wheel_ends_with_two(tmp_path: Path) -> None:
-    seen = abu("declare", written(tmp_path, S100), "--set", "wheel.diameter_mm=115")
+    seen = abu("declare", written(tmp_path, S100), "--set", "wheel.diameter_mm=60")
     assert seen.status == 2
     assert "test_wheel_imbalance_g_mm" in seen.err and "Traceback" not in seen.err
 

@@ -25,7 +25,7 @@ def level(**values: object) -> FactoryLevel:
 def table(*rows: FactoryLevel, **more: object) -> FactoryResult:
     return FactoryResult(**{
         "title": "Factory", "provenance": Provenance.today(), "rows": rows, "fitted": (), "soft_races": (),
-        "source": "A paper", "background": "None added.", **more,
+        "devices": (), "source": "A paper", "background": "None added.", **more,
     })  # type: ignore[arg-type]  # fmt: skip
 
 

@@ -29,7 +29,12 @@ GOLDEN = {
 """The machine of the golden numbers, hardly damped; its mass is that of the preset with the autobalancer."""
 
 
-HELPS = {"wheel.runout_mm": 0.02, "wheel.life_min": 32.0, "wheel.usable_wear_mm": 10.0}
+HELPS = {
+    "wheel.runout_mm": 0.02,
+    "wheel.life_min": 32.0,
+    "wheel.life_with_autobalancer_min": 48.0,
+    "wheel.usable_wear_mm": 10.0,
+}
 
 
 @cache
@@ -70,7 +75,7 @@ def test_the_command_prints_the_screen_and_the_whole() -> None:
     assert seen.out.splitlines()[2].strip().startswith("The autobalancer helps under load")
     assert len(seen.out.splitlines()) <= 48
     whole = as_text(grinding_blocks(worked(STRAIGHT, "helps")), 80)
-    for part in ("Over the speeds", "Force round the wheel", "Course of wear with it", "The source's claim"):
+    for part in ("Over the speeds", "Force round the wheel", "Course of wear with it", "Life of the wheel"):
         assert part in whole
 
 

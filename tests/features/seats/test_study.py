@@ -48,3 +48,29 @@ def test_a_machine_without_bearings_is_refused():
         check_fit(read_machine("avtovaz-707-222"))
     assert raised.value.place.file == "avtovaz-707-222" and raised.value.place.key == "bearing"
     assert raised.value.remedy == "Add a table [[bearing]]."
+
+
+@pytest.mark.parametrize(
+    ("inner", "outer", "told"),
+    [("rotating", "rotating", 1), ("rotating", "stationary", 0), ("indeterminate", "indeterminate", 0)],
+)
+def test_a_load_that_is_to_rotate_against_both_rings_is_told(inner: str, outer: str, told: int) -> None:
+    """With the classes for an indeterminate load, which are those of the file that says so."""
+    machine = read_machine(PRESET)
+    loads = {f"bearing[{k}].{ring}_ring_load": load for k in range(3) for ring, load in
+             (("inner", inner), ("outer", outer))}  # fmt: skip
+    notes = [text for text in check_fit(machine.changed(loads)).warnings if "both rings" in text]
+    assert len(notes) == told
+    other = {f"bearing[{k}].{ring}_ring_load": "indeterminate" for k in range(3) for ring in ("inner", "outer")}
+    shaft, housing, *_ = check_fit(machine.changed(other)).seats
+    assert all(f"{shaft.recommended_fit}/{housing.recommended_fit} (calculated)" in text for text in notes)
+
+
+def test_the_fleshing_machine_follows_its_source() -> None:
+    """Afanasiev 2015 rejects k6 and H7/K7, and takes m6/M7 for a load that he calls circulating on both rings."""
+    machine = read_machine(PRESET)
+    assert {each.outer_ring_load for each in machine.tables.bearing} == {"rotating"}
+    result = check_fit(machine)
+    assert [seat.recommended_fit for seat in result.seats] == ["m6", "M7"] * 3
+    failing = [check.name.rpartition("housing, ")[2] for check in result.checks if check.status == "fail"]
+    assert set(failing) == {"7516 as built", "7516 proposed, K7"}

@@ -1,0 +1,167 @@
+"""No check steers a design, nor a limit that is kept: the search has requirements of its own."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import abu_calc
+import abu_calc.sizing
+from abu_calc.features.two_races import advice
+from abu_calc.features.two_races.case import read_case
+from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.verify.study import compare, recompute
+from abu_calc.foundation.checks import Check
+from abu_calc.inputs.read_machine import read, read_machine
+from abu_calc.sizing import size
+from abu_calc.sizing.actions import pins, with_entries
+from abu_calc.sizing.advice import candidate_checks as own_checks
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.case import read_case as read_one_race
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.requirements import LEVEL, loudness, missed
+from abu_calc.sizing.track import Track
+from abu_calc.sizing.track import track_checks as race_checks
+
+PRESETS = (
+    "angle-grinder-125", "avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder",
+    "washing-machine",
+)  # fmt: skip
+TWO_RACES = "pedestal-grinder", "washing-machine-two-races"
+KEPT = {"limits.a_hv_m_per_s2": 1000.0, "limits.settling_time_s": 10.0}
+# 2.19 kg, no handles: the lightest balls exceed 109 dB in the worst friction case, and others do not.
+HAND_GRINDER = """
+[machine]
+name = "hand grinder"
+layout = "straight"
+mass_kg = 2.19
+speed_rpm = 7094
+spindle_axis = "vertical"
+length_mm = 329
+[suspension]
+model = "springs"
+natural_frequencies_hz = [4.3, 4.3]
+damping_ratios = [0.14, 0.14]
+[wheel]
+mass_kg = 0.215
+diameter_mm = 165
+imbalance_g_mm = 21.5
+[autobalancer]
+max_outer_diameter_mm = 89
+max_width_mm = 25
+bore_diameter_mm = 10
+max_mass_fraction = 0.08
+race_eccentricity_mm = 0.0080
+rolling_friction_mm = 0.0016
+[run_up]
+time_s = 2.0
+[limits]
+vibration_level_db = 109.0
+"""
+
+
+def made(design: Design) -> Design:
+    """The design without its checks, and without the file and what only a limit asks for."""
+    return replace(design, checks=(), totals=None, case=read_one_race(with_entries(design.case.table, {
+        "limits": {"vibration_level_db": design.case.table.limits.vibration_level_db}})))  # fmt: skip
+
+
+def told(case: Case, candidate: Candidate) -> tuple[Check, ...]:
+    """A check that only informs, in four grades by the number of balls."""
+    return (Check("ABU299", "told", ("pass", "warn", "fail", "not-done")[candidate.ball_count % 4], "…"),)
+
+
+@pytest.fixture
+def informing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The product with one check more of each design and of each race."""
+
+    def candidate_checks(case: Case, candidate: Candidate) -> tuple[Check, ...]:
+        return *own_checks(case, candidate), *told(case, candidate)
+
+    def track_checks(case: Case, candidate: Candidate, race: Track) -> tuple[Check, ...]:
+        return *race_checks(case, candidate, race), *told(case, candidate)
+
+    monkeypatch.setattr(abu_calc.sizing, "candidate_checks", candidate_checks)
+    monkeypatch.setattr(abu_calc.sizing, "track_checks", track_checks)
+
+
+def sized(preset: str) -> Design:
+    """The preset as it is sized without a further check."""
+    return size(read_machine(preset).whole("size"))
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_a_check_that_only_informs_and_kept_limits_change_no_design(
+    preset: str, request: pytest.FixtureRequest
+) -> None:
+    before = sized(preset)
+    request.getfixturevalue("informing")
+    after = size(with_entries(before.case.table, KEPT))
+    assert {check.code for check in after.checks} >= {"ABU299", "ABU404"}
+    assert made(after) == made(before)
+
+
+def test_a_limit_of_a_hv_that_is_kept_does_not_undo_the_quieter_choice(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(HAND_GRINDER, encoding="utf-8")
+    table = read_machine(str(file)).whole("size")
+    for limits in ({}, {"limits.a_hv_m_per_s2": 1000.0}, {"limits.a_hv_m_per_s2": 1.5}):
+        best = size(with_entries(table, limits)).autobalancer
+        assert best.ball_count == 4 and best.ball_diameter == pytest.approx(5.953e-3, abs=1e-6), limits
+
+
+def test_a_limit_that_is_not_kept_steers() -> None:
+    """Without the limit of 109 dB, 5 balls would do; they miss it in the worst friction case alone."""
+    chosen = sized("avtovaz-707-370")
+    lightest = size(with_entries(chosen.case.table, pins(chosen.choice.runners_up[0][0])))
+    assert missed(lightest) == {f"{LEVEL} in the worst friction case"} and loudness(lightest) == (0, 1)
+    assert not missed(chosen) and loudness(chosen) == (0, 0)
+    assert size(with_entries(chosen.case.table, {"limits.vibration_level_db": 120.0})).autobalancer.ball_count == 5
+
+
+@pytest.mark.parametrize(
+    ("entries", "name"),
+    [
+        ({"autobalancer.capacity_margin": 3.0}, "capacity"), ({"autobalancer.max_mass_fraction": 0.01},
+         "mass of the autobalancer"), ({"autobalancer.race_hardness_HRC": 45.0}, "hardness of the race"),
+        ({"autobalancer.clamp_force_N": 1.0}, "slip torque"), ({"autobalancer.guard_thickness_mm": 0.01},
+         "containment of a ball"), ({"machine.speed_range_rpm": [100.0, 5800.0]}, "speeds at which balls balance"),
+        ({"limits.a_hv_m_per_s2": 0.01}, "acceleration at the handles"),
+    ],
+)  # fmt: skip
+def test_requirements_that_are_missed_are_named(entries: dict[str, object], name: str) -> None:
+    table = read_machine("avtovaz-707-370").whole("size")
+    chosen = pins(sized("avtovaz-707-370").autobalancer)
+    assert name in missed(size(with_entries(table, {**chosen, **entries})))
+
+
+def both(preset: str) -> TwoRaceDesign:
+    tables = read_machine(preset).two_races
+    assert tables is not None
+    return choose_both(read_case(tables))
+
+
+@pytest.mark.parametrize("preset", TWO_RACES)
+def test_two_races_take_their_checks_by_the_same_rule(preset: str, request: pytest.FixtureRequest) -> None:
+    before = both(preset)
+    request.getfixturevalue("informing")
+    after = both(preset)
+    assert advice.missed(after) == advice.missed(before)
+    for one, other in zip(before.races, after.races, strict=True):
+        assert pins(one.design.autobalancer) == pins(other.design.autobalancer)
+        assert [check.code for check in other.design.checks] == [
+            *(check.code for check in one.design.checks), "ABU299"]  # fmt: skip
+    assert advice.changed(after, {"rolling_drag_per_s": 30.0}) is not None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("preset", [*PRESETS, *TWO_RACES])
+@pytest.mark.usefixtures("informing")
+def test_no_expected_value_of_a_preset_changes(preset: str) -> None:
+    machine = read(preset)
+    expected = {path: value for path, value in machine.tables.expected.items()
+                if path not in ("status", "tolerance")}  # fmt: skip
+    limits = KEPT if preset in PRESETS else {"limits.settling_time_s": 10.0}
+    found = recompute(machine.changed(limits))
+    assert not [value for value in compare(expected, {}, found) if not value.passed]
