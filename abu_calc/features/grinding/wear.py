@@ -191,8 +191,9 @@ def _bisected(law: Law, test: Callable[[WearState], bool], before: float, after:
 def needed_exponent(without: NDArray[np.float64], fitted: NDArray[np.float64], ratio: float) -> float | None:
     """The p for which wear in proportion to force^p is `ratio` times as large without as with the autobalancer.
 
-    Forces [N] at equal steps over whole turns, of the same mean. None up to p = 50.
+    Forces [N] at equal steps over whole turns, of the same mean; one that pulls wears nothing. None up to p = 50.
     """
+    without, fitted = np.maximum(without, 0.0), np.maximum(fitted, 0.0)
 
     def times(exponent: float) -> float:
         """Ratio of the means of force^p, without over with; forces over the largest, so that none overflows."""

@@ -137,3 +137,10 @@ def test_archard_needs_more_than_squares() -> None:
     turn = np.cos(POINTS)
     assert needed_exponent(1 + turn, np.ones(720), 1.5) == pytest.approx(2.0, abs=1e-6)
     assert needed_exponent(1 + 0.3 * turn, np.ones(720), 1.5) > 5  # type: ignore[operator]
+
+
+def test_a_force_that_would_pull_wears_nothing() -> None:
+    """A rigid contact that never parts pulls for a part of the turn: there wheel and work are apart."""
+    force = 1 + 2 * np.sin(np.arange(720) * (2 * math.pi / 720))
+    pushed = needed_exponent(np.maximum(force, 0.0), np.ones(720), 1.5)
+    assert needed_exponent(force, np.ones(720), 1.5) == pushed is not None
