@@ -24,6 +24,7 @@ from abu_calc.foundation.progress import Progress, silent
 
 if TYPE_CHECKING:
     from abu_calc.dynamics.integrators.compiled.kernels import Method
+    from abu_calc.dynamics.integrators.compiled.run import Loader
 
 LOOP: Final = ("compiled-dop853", "compiled-rk45", "plain-dop853", "plain-rk45")
 """Names of the loop, as trajectories give them."""
@@ -138,7 +139,7 @@ def quickest_loop(equations: Equations, tolerance: float, progress: Progress = s
         return _loop_of(equations, True, method)
     about = counts(equations, tolerance)
     if (about.loop + LOOP_EVENT * about.events) * (1 + len(equations.scene.ball_masses)) < SHORT:
-        return _loop_of(equations, False, method, "; a short run, over before compiled code would be loaded", True)
+        return _loop_of(equations, False, method, "; a short run, over before compiled code would be loaded", ready.load)
     progress(f"{equations.scene.name}: loading compiled code")
     if ready.load(equations, method):
         return _loop_of(equations, True, method)
@@ -146,25 +147,25 @@ def quickest_loop(equations: Equations, tolerance: float, progress: Progress = s
 
 
 def _loop_of(
-    equations: Equations, compiled: bool, method: "Method", more: str = "", short: bool = False
+    equations: Equations, compiled: bool, method: "Method", more: str = "", long: "Loader | None" = None
 ) -> IntegratorChoice:
-    """The loop, why it has this method, and whatever more there is to say; `short`: compiled once it proves long."""
+    """The loop, why it has this method, and whatever more there is to say; `long` compiles a run that proves long."""
     name = f"{'compiled' if compiled else 'plain'}-{method}"
     scene = "a tight tolerance" if method == "dop853" else "a scene that switches"
     order = f"order {5 if method == 'rk45' else 8} for {scene if watches(equations) else 'a smooth scene'}"
     why = f"the loop{'' if compiled else ' as plain Python'}, {order}{more}"
-    return IntegratorChoice(name, why, partial(_through, compiled=compiled, short=short), LOOP_WORK, LOOP_EVENT)
+    return IntegratorChoice(name, why, partial(_through, compiled=compiled, long=long), LOOP_WORK, LOOP_EVENT)
 
 
 def _through(
     equations: Equations, tolerance: float, sample_times: Times, most: int, *, compiled: bool,
-    method: "Method | None" = None, short: bool = False,
+    method: "Method | None" = None, long: "Loader | None" = None,
 ) -> Trajectory:  # fmt: skip
     """The motion by the loop, whose method follows the tolerance of each run where none is given."""
     from abu_calc.dynamics.integrators.compiled import run
 
     method = method or loop_method(equations, tolerance)
-    return run.integrate(equations, tolerance, sample_times, most, compiled=compiled, method=method, short=short)
+    return run.integrate(equations, tolerance, sample_times, most, compiled=compiled, method=method, long=long)
 
 
 @lru_cache(maxsize=8)

@@ -4,6 +4,7 @@
 the equations.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import Any
@@ -36,6 +37,8 @@ from abu_calc.dynamics.trajectory import Times, Trajectory
 
 Array = NDArray[np.float64]
 
+Loader = Callable[[Equations, Method], bool]
+"""Makes the code of a scene for a method; False where no compiled code runs."""
 
 LOOSE = 1e-3
 """Tolerance below which the longest step shrinks as the method's own steps do, as with SciPy."""
@@ -155,17 +158,17 @@ def integrate(
     most_evaluations: int = MOST_EVALUATIONS,
     compiled: bool = True,
     method: Method = "rk45",
-    short: bool = False,
+    long: Loader | None = None,
 ) -> Trajectory:
     """The motion from t = 0 to the last of `sample_times` [s], ascending; in plain Python if not `compiled`.
 
-    `short`: a run in plain Python that turns out to be long goes on in compiled code, if there is any. Raises as
-    SciPy's does, and CompilerError where there is no compiler that works.
+    `long` loads compiled code, in which a run in plain Python goes on that turns out to be long. Raises as SciPy's does,
+    and CompilerError where there is no compiler that works.
     """
     ordered, places = in_order(equations)
     given = np.argsort(places)
     run = _CompiledRun(
-        ordered, tolerance, sample_times, most_evaluations, given=given, compiled=compiled, method=method, short=short
+        ordered, tolerance, sample_times, most_evaluations, given=given, compiled=compiled, method=method, long=long
     )
     return run.trajectory()
 
@@ -180,7 +183,7 @@ class _CompiledRun(IntegrationRun):
     given: Places = field(kw_only=True)
     compiled: bool = field(kw_only=True)
     method: Method = field(kw_only=True)
-    short: bool = field(kw_only=True, default=False)
+    long: Loader | None = field(kw_only=True, default=None)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -260,7 +263,7 @@ class _CompiledRun(IntegrationRun):
 
     def _go_on(self) -> int:
         """Up to the next return from compiled code, with the samples that come until then."""
-        at_once = AT_ONCE_SHORT if self.short else AT_ONCE
+        at_once = AT_ONCE_SHORT if self.long else AT_ONCE
         far = float(self.clock[arrays.TIME]) + (at_once / self.per_step + 2) * self.longest
         times = self.samples[self.done : np.searchsorted(self.samples, far, side="right")]
         rows = np.empty((len(times), len(self.state)))
@@ -273,15 +276,13 @@ class _CompiledRun(IntegrationRun):
         self.fill(rows[: self.counts[arrays.DONE]].T[self.given])
         if how == arrays.PAUSED:
             self.heed_patience(float(self.clock[arrays.TIME]))
-            if self.short:
-                self._compile()
+            if self.long is not None:
+                self._compile(self.long)
         return int(how)
 
-    def _compile(self) -> None:
+    def _compile(self, load: Loader) -> None:
         """Go on in compiled code, where it runs: it has the same arrays."""
-        from abu_calc.dynamics.integrators.compiled.availability import load
-
-        self.short = False
+        self.long = None
         if load(self.equations, self.method):
             self.compiled, self.code = True, prepared(self.equations, self.method)[0]
 
