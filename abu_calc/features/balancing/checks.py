@@ -1,5 +1,6 @@
 """Checks and warnings on readings, rig, roll and correction, each with the number behind it."""
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
@@ -157,7 +158,7 @@ def _permitted(balancing: Found) -> Iterator[Check]:
             )
         elif few:
             remedy = (
-                "Correct in more planes: these leave vibration (ABU1013). It may be of imbalance elsewhere, which this "
+                "Correct in more planes: the vibration that remains (ABU1013) may be of imbalance elsewhere, which this "
                 "number leaves out."
             )
         yield coded(
@@ -192,7 +193,7 @@ def _trials(balancing: Found) -> Iterator[Check]:
     remedy = (
         None
         if value >= TELLS[0]
-        else f"Use trial masses {max(2, round(TELLS[0] / value)) if value else 2} times as heavy."
+        else f"Use trial masses {max(2, math.ceil(TELLS[0] / value)) if value else 2} times as heavy."
     )
     yield coded(
         "ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),

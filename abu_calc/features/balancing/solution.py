@@ -201,11 +201,12 @@ def _or_none(value: float | None, unit: str) -> float | None:
 
 
 def _hopeless(case: Balancing, method: Method, share: float) -> str:
-    masses = {"runs without phase": "", "trial masses": ", or heavier trial masses"}.get(method, ", or trial masses")
+    masses = {"runs without phase": [], "trial masses": ["heavier trial masses"]}.get(method, ["trial masses"])
+    *ways, last = ["Another speed", "smaller errors", *masses, *["planes farther apart"] * (case.planes == 2)]
     much = f"{100 * share:.0f}" if share < MUCH else f"over {100 * MUCH:.0f}"
     return (
         f"the errors given would leave {much} % of the vibration that the correction takes away: none can be trusted."
-        f"{said_of_resonance(case)}\n  Another speed, smaller errors{masses}. If little can be taken away, leave the "
+        f"{said_of_resonance(case)}\n  {', '.join(ways)} or {last}. If little can be taken away, leave the "
         "rotor as it is."
     )
 
