@@ -158,8 +158,8 @@ def _permitted(balancing: Found) -> Iterator[Check]:
             )
         elif few:
             remedy = (
-                "Correct in more planes: the vibration that remains (ABU1013) may be of imbalance elsewhere, which this "
-                "number leaves out."
+                "Correct in more planes: the vibration that remains (ABU1013) may be of imbalance elsewhere, which "
+                "this number leaves out."
             )
         yield coded(
             "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted and not few),
