@@ -4,12 +4,13 @@ Instrument readings are keys of [wheel] and of [measured_after] alike.
 """
 
 import re
-from typing import Annotated, Any, ClassVar, Final, Literal, Self
+from typing import Annotated, Any, ClassVar, Final, Literal, Self, get_args
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading.table import Name, Table, boxed, problem, usual, whole
+from abu_calc.standards.vibration import grade_named
 
 Weighting = Literal["none", "Wh"]
 
@@ -180,9 +181,14 @@ def displaced_quantities(key: str) -> tuple[str, ...]:
     return others if key == "measured_acceleration_m_per_s2" else (*others, "measured_weighting")
 
 
+_Grade = Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"]
+_WRITTEN: Final = rf"^[Gg]\s*({'|'.join(re.escape(grade[1:]) for grade in get_args(_Grade))})$"
 BalanceGrade = Annotated[
-    Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"],
-    BeforeValidator(lambda grade: re.sub(r"^g\s*", "G", grade, flags=re.I) if isinstance(grade, str) else grade),
+    _Grade,
+    BeforeValidator(
+        lambda grade: grade_named(grade) if isinstance(grade, str) else grade,
+        json_schema_input_type=_Grade | Annotated[str, Field(pattern=_WRITTEN)],
+    ),
 ]
 """The grades of ISO 21940-11:2016, table 1; people also write "G 6.3" and "g6.3"."""
 

@@ -4,6 +4,7 @@ The hand is a mechanical system, as data; `formulas.suspension` says how its ele
 """
 
 import math
+import re
 from functools import cache
 from typing import Any
 
@@ -205,6 +206,15 @@ _MASS = Range("rotor mass", 0.0, 1e6, "kg", open_low=True)
 _SPEED = Range("rotor speed", 0.0, 1e5, "rad/s", open_low=True)
 
 
+def grade_named(written: str) -> str:
+    """Name of a grade that people write so.
+
+    >>> grade_named("g 6.3")
+    'G6.3'
+    """
+    return re.sub(r"^g\s*", "G", written, flags=re.I)
+
+
 def balance_grades() -> dict[str, float]:
     """The grades by name, coarsest first, with e·Ω [m/s]. Source: ISO 21940-11:2016.
 
@@ -229,10 +239,10 @@ def permissible_imbalance(grade: str, mass: float, speed: float) -> float:
     >>> round(1e6 * permissible_imbalance("G6.3", 2.0, to_si(10000, "rpm")), 2)
     12.03
     """
-    grades = balance_grades()
-    if grade not in grades:
+    grades, name = balance_grades(), grade_named(grade)
+    if name not in grades:
         raise unknown("balance grade", grade, grades)
-    return grades[grade] * _MASS.check(mass) / _SPEED.check(speed)
+    return grades[name] * _MASS.check(mass) / _SPEED.check(speed)
 
 
 _Four = tuple[float, float, float, float]

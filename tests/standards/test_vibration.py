@@ -44,10 +44,15 @@ def test_the_permitted_eccentricity_turns_at_the_grade(grade, mass, speed):
     assert 1e3 * eccentricity * speed == pytest.approx(float(grade[1:]), rel=1e-12)
 
 
-@pytest.mark.parametrize("grade", ["G6", "6.3", "g6.3", "G6.30", ""])
+@pytest.mark.parametrize("grade", ["G6", "6.3", "GG6.3", "G6.30", ""])
 def test_unknown_grades_are_refused(grade):
     with pytest.raises(InputError, match=r"G4000, .*G6\.3"):
         permissible_imbalance(grade, 1.0, 100.0)
+
+
+@pytest.mark.parametrize("grade", ["g6.3", "G 6.3", "g  6.3"])
+def test_grades_are_read_as_people_write_them(grade):
+    assert permissible_imbalance(grade, 2.0, 100.0) == pytest.approx(0.0063 * 2.0 / 100.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(("mass", "speed"), [(0, 1), (1, 0), (-1, 1), (math.nan, 1), (1, math.nan), (1, math.inf)])

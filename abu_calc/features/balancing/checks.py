@@ -1,5 +1,6 @@
 """Checks and warnings on readings, rig, roll and correction, each with the number behind it."""
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
@@ -121,14 +122,14 @@ def _sure(balancing: Found) -> Iterator[Check]:
     remedy = None
     if share >= 1:
         remedy = LIGHTER
-    elif share > SURE[0]:
+    elif share > SURE[0] and balancing.rest_share < 1:
         remedy = (
             "Measure and correct once more after this correction: the vibration that errors leave falls from "
-            f"{100 * share:.1f} to {100 * share**2:.1f} % (calculated with the same errors)."
+            f"{100 * share:.1f} to {100 * share * balancing.rest_share:.1f} % (calculated with the same errors)."
         )
     yield coded(
         "ABU1004", verdict(share <= SURE[1], share <= SURE[0]),
-        "vibration that errors of readings, rig and correction leave, rms, of that now", 100 * share,
+        "vibration that errors of readings, rig and correction leave, rms, of that taken away", 100 * share,
         100 * SURE[0], "%", remedy,
     )  # fmt: skip
 
@@ -137,7 +138,7 @@ def _permitted(balancing: Found) -> Iterator[Check]:
     tolerance = balancing.tolerance
     if tolerance is None:
         return
-    kind = tolerance.planes.removesuffix("s")
+    kind, few = tolerance.planes.removesuffix("s"), (balancing.planes_share or 0) > FEW_PLANES
     for name, rest, permitted in zip(
         balancing.planes, balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True
     ):
@@ -150,13 +151,18 @@ def _permitted(balancing: Found) -> Iterator[Check]:
         elif 2 * rest > permitted and balancing.error_share >= 1:
             remedy = LIGHTER
         elif 2 * rest > permitted:
-            after = from_si(rest * balancing.error_share, "g_mm")
+            after = from_si(rest * min(balancing.rest_share, 1.0), "g_mm")
             remedy = (
                 "Measure and correct once more after this correction: the imbalance falls from "
                 f"{from_si(rest, 'g_mm'):.3g} to {after:.3g} g·mm (calculated with the same errors)."
             )
+        elif few:
+            remedy = (
+                "Correct in more planes: the vibration that remains (ABU1013) may be of imbalance elsewhere, which "
+                "this number leaves out."
+            )
         yield coded(
-            "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted),
+            "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted and not few),
             f"imbalance of the {kind} expected after the correction; PASS asks that twice that is permitted, too",
             from_si(rest, "g_mm"), from_si(permitted, "g_mm"), "g·mm", remedy,
             of=f"{name} plane" if name != "single" else "",
@@ -187,7 +193,7 @@ def _trials(balancing: Found) -> Iterator[Check]:
     remedy = (
         None
         if value >= TELLS[0]
-        else f"Use trial masses {max(2, round(TELLS[0] / value)) if value else 2} times as heavy."
+        else f"Use trial masses {max(2, math.ceil(TELLS[0] / value)) if value else 2} times as heavy."
     )
     yield coded(
         "ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),
@@ -272,14 +278,15 @@ def _convention(taken: Sequence[Taken]) -> Iterator[Check]:
 def _few_planes(balancing: Found) -> Iterator[Check]:
     """Check of the vibration that more planes would take away."""
     share = balancing.planes_share
-    if share is None or balancing.below:
+    if share is None:
         return
     planes = "one plane" if balancing.case.planes == 1 else "two planes"
-    best = f"This is the best that {planes} can do: no other correction there leaves less vibration in all."
+    best = f"This is the best that {planes} can do: no other correction there leaves less vibration in all. "
     yield coded(
         "ABU1013", verdict(True, share <= FEW_PLANES), f"vibration that {planes} cannot take away, rms, of that now",
         100 * share, 100 * FEW_PLANES, "%",
-        f"{best} To reduce it further, correct in more planes." if share > FEW_PLANES else None,
+        f"{'' if any(balancing.leftover) else best}To reduce it further, correct in more planes."
+        if share > FEW_PLANES else None,
     )  # fmt: skip
 
 
@@ -372,7 +379,7 @@ def _directions(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator
 
 def _within_grade(balancing: Found) -> Iterator[str]:
     tolerance = balancing.tolerance
-    if tolerance is None:
+    if tolerance is None or (balancing.planes_share or 0) > FEW_PLANES:
         return
     now = tolerance.transformed(balancing.solution.imbalance)
     if all(abs(value) <= limit for value, limit in zip(now, tolerance.permitted, strict=True)):

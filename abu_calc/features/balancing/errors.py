@@ -224,8 +224,8 @@ def size(deltas: Iterable[complex]) -> float:
 @dataclass(frozen=True)
 class Remainder:
     """Motions of the sensors at a speed [m]: `now` as read without trial masses; after the correction the part that
-    the planes cannot take away, the part that limits and stock leave, and the rms that errors leave. `scale`: the
-    quantity that is compared over the displacement.
+    the planes cannot take away, the part that limits and stock leave, the rms by which it may differ from these, and
+    the rms that errors of the masses leave. `scale`: the quantity that is compared over the displacement.
     """
 
     speed: float
@@ -234,6 +234,7 @@ class Remainder:
     planes: Array
     leftover: Array
     errors: Floats
+    unsure: Floats
 
     @property
     def after(self) -> Array:
@@ -267,13 +268,14 @@ def remainders(
             return np.asarray(np.mean([misfits[index] for index in bare], axis=0))
 
         planes, made_now = misfit(solution.misfits), matrix @ solution.imbalance
-        room = ROUNDING * np.abs(made_now).max()
+        room = ROUNDING * case.least(group[0])
         planes, now = (np.where(np.abs(each) > room, each, 0.0) for each in (planes, made_now + planes))
-        moved = [matrix @ change.imbalance + misfit(change.misfits) for change in by]
-        moved += [matrix @ each for each in placed]
-        speed, errors = case.runs[bare[0]].speed, np.linalg.norm(moved, axis=0)
+        wrong = np.array([matrix @ each for each in (*(change.imbalance for change in by), *placed)])
+        moved = [*(misfit(change.misfits) for change in by), *(np.zeros_like(now) for _ in placed)]
+        errors, unsure = np.linalg.norm(wrong + moved, axis=0), np.linalg.norm(wrong, axis=0)
+        speed = case.runs[bare[0]].speed
         scale = abs(reading_factor(case.quantity, speed))
-        made.append(Remainder(speed, scale, now, planes, matrix @ leftover, errors))
+        made.append(Remainder(speed, scale, now, planes, matrix @ leftover, errors, unsure))
     return tuple(made)
 
 

@@ -164,10 +164,10 @@ def _by_trials(case: Balancing) -> Solution:
         motions = np.array([run.motion for run in runs])
         scale = np.abs(trials).max(axis=0)
         coefficients = np.linalg.lstsq(trials / scale, motions, rcond=None)[0] / scale[:, None]
-        matrix = coefficients[:-1].T
-        _refuse_unseen(matrix, scale[:-1], float(np.abs(motions).max()), case)
+        matrix, bare, largest = coefficients[:-1].T, coefficients[-1], float(np.abs(motions).max())
+        _refuse_unseen(matrix, scale[:-1], largest, case)
         matrices.update(dict.fromkeys(group, matrix))
-        equations.append((runs[0].speed, matrix, coefficients[-1]))
+        equations.append((runs[0].speed, matrix, np.where(np.abs(bare) > TINY * largest, bare, 0.0)))
     influences = tuple(_matrix(matrices[index]) for index in range(len(case.runs)))
     return _solution(case, "trial masses", influences, equations)
 
@@ -269,11 +269,12 @@ def _solution(
 ) -> Solution:  # fmt: skip
     """`motions`: those of the runs, if their readings do not give them."""
     values, condition = _least_squares(case, equations)
-    Q = tuple(complex(value) for value in values)
-    misfits = []
-    for run, matrix, own in zip(case.runs, influences, motions or [run.motion for run in case.runs], strict=True):
-        made = motion_of(matrix, tuple(np.add(Q, run.placed).tolist()))
-        misfits.append(tuple(np.subtract(own, made).tolist()))
+    Q = tuple(complex(value) + 0.0 for value in values)
+    misfits, shown = [], motions or [run.motion for run in case.runs]
+    room = TINY * np.abs(shown).max()
+    for run, matrix, own in zip(case.runs, influences, shown, strict=True):
+        misfit = np.subtract(own, motion_of(matrix, tuple(np.add(Q, run.placed).tolist())))
+        misfits.append(tuple(np.where(np.abs(misfit) > room, misfit, 0.0).tolist()))
     return Solution(method, Q, tuple(influences), tuple(misfits), condition)
 
 

@@ -23,7 +23,7 @@ from abu_calc.features.balancing.errors import (
     size,
 )
 from abu_calc.features.balancing.formulas import Signed, Vector, influence, natural_frequencies, published_answer
-from abu_calc.features.balancing.methods import Method, Solution, method_of, motion_of, said_of_resonance, solved
+from abu_calc.features.balancing.methods import Array, Method, Solution, method_of, motion_of, said_of_resonance, solved
 from abu_calc.features.balancing.runs import SEEN, Balancing, Coefficients, TrialMass, imbalance_of
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.features.balancing.tolerance import TolerancePlanes, tolerance_of
@@ -39,7 +39,9 @@ HOPELESS: Final = 1.0
 BEYOND_ERRORS: Final = 3.0
 """Misfit in standard deviations beyond which errors do not explain it."""
 FINE: Final = 0.1
-"""Error of an imbalance over the trial mass up to which the imbalance is measured well."""
+"""Error of an imbalance over the trial mass, or of what it moves over the vibration now, up to which the imbalance is
+measured well.
+"""
 MUCH: Final = 10.0
 """Such a part whose size is of no interest."""
 Spread = Sequence[Vector]
@@ -68,7 +70,7 @@ class Found:
     rest_share: float
     """Vibration left, rms over the errors, of that before."""
     error_share: float
-    """Vibration that the errors alone leave, of that before."""
+    """Vibration that errors of the correction leave, of that which it takes away."""
     planes_share: float | None
     """Vibration that the planes alone leave, of that before; None with as many planes as sensors."""
     disagreement: float | None
@@ -122,8 +124,8 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         target=answer.target,
         leftover=leftover,
         remainders=left,
-        rest_share=_worst_share(left, [each.expected for each in left]),
-        error_share=_worst_share(left, [each.errors for each in left]),
+        rest_share=_worst_share(left, [each.expected for each in left], [each.now for each in left]),
+        error_share=_error_share(left),
         planes_share=planes_share,
         disagreement=disagreement,
         tolerance=tolerance_of(file, service),
@@ -168,11 +170,12 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
         by = [*changes(case, method, sigma), *_of_fitted(case, replaced, sigma)]
         placed = placing([(Q,) for Q in target], sigma)
         left = remainders(case, solution, by, placed, (0j,) * case.planes)
-        share = _worst_share(left, [each.errors for each in left])
-        if share > HOPELESS and not replaced and _finely_measured(case, method, by):
+        share = _error_share(left)
+        little = _worst_share(left, [each.unsure for each in left], [each.now for each in left]) <= FINE
+        if share > HOPELESS and not replaced and (little or _finely_measured(case, method, by)):
             return _Answer(solution, target, by, below=True)
         if share > HOPELESS:
-            raise NotTrustworthyError(_hopeless(case, share))
+            raise NotTrustworthyError(_hopeless(case, method, share))
     except NotTrustworthyError:
         if method != "trial masses" or case.roll is None:
             raise
@@ -197,23 +200,29 @@ def _or_none(value: float | None, unit: str) -> float | None:
     return None if value is None else to_si(value, unit)
 
 
-def _hopeless(case: Balancing, share: float) -> str:
-    remedy = "smaller errors" if not case.runs[0].phases else "smaller errors, or trial masses"
+def _hopeless(case: Balancing, method: Method, share: float) -> str:
+    masses = {"runs without phase": [], "trial masses": ["heavier trial masses"]}.get(method, ["trial masses"])
+    *ways, last = ["Another speed", "smaller errors", *masses, *["planes farther apart"] * (case.planes == 2)]
     much = f"{100 * share:.0f}" if share < MUCH else f"over {100 * MUCH:.0f}"
     return (
-        f"the errors given would leave {much} % of the vibration after the correction: none can be trusted."
-        f"{said_of_resonance(case)}\n  Another speed, {remedy}. If the vibration is small, leave the rotor as it is."
+        f"the errors given would leave {much} % of the vibration that the correction takes away: none can be trusted."
+        f"{said_of_resonance(case)}\n  {', '.join(ways)} or {last}. If little can be taken away, leave the "
+        "rotor as it is."
     )
 
 
-def _worst_share(left: Sequence[Remainder], parts: Sequence[Floats]) -> float:
-    """Parts of the vibration over that before, at the worst speed; 0 where nothing moves before.
+def _error_share(left: Sequence[Remainder]) -> float:
+    """Vibration that errors of the correction leave, of that which it takes away, at the worst speed."""
+    return _worst_share(left, [each.unsure for each in left], [each.now - each.planes for each in left])
+
+
+def _worst_share(left: Sequence[Remainder], parts: Sequence[Floats], of: Sequence[Array]) -> float:
+    """Parts of the vibration over others, at the worst speed; 0 where nothing moves before.
 
     A speed of little vibration counts from a tenth of the largest on.
     """
-    before = [each.scale * size(each.now) for each in left]
+    before, after = ([each.scale * size(own) for each, own in zip(left, all_, strict=True)] for all_ in (of, parts))
     least = SEEN * max(before)
-    after = [each.scale * size(part) for each, part in zip(left, parts, strict=True)]
     return max(rest / (max(now, least) or math.inf) for rest, now in zip(after, before, strict=True))
 
 
@@ -249,7 +258,7 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
     there = replace(case, runs=(run,))
     placed = placing([(Q,) for Q in solution.imbalance], sigma)
     left = remainders(there, solved(there, "rig data"), changes(there, "rig data", sigma), placed, (0j, 0j))
-    return speed, _worst_share(left, [each.errors for each in left])
+    return speed, _error_share(left)
 
 
 def _service_speed(file: ReadingsFile, case: Balancing) -> float:

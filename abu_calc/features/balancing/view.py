@@ -280,7 +280,7 @@ def _misfit(result: BalanceResult) -> str:
         text += "," if check.planes_share is None else ". Beyond what the planes leave, runs differ by"
         text += f" {number(check.disagreement, 2)} standard deviations"
     text += f". Vibration expected after the correction: {number(100 * check.rest_share, 2)} % of that now."
-    if check.minimised is not None:
+    if check.minimised is not None and not any(plane.leftover_g_mm for _, plane in result.planes):
         text += f" No other correction in these planes makes the sum of its squares smaller ({check.minimised})."
     return text
 
