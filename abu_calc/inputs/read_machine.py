@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 OTHERS: Final = (
-    "`abu size`, `abu simulate`, `abu stability`, `abu sweep`, `abu compare`, `abu declare` and `abu grinding` take it."
+    "`abu size`, `abu simulate`, `abu stability`, `abu sweep`, `abu compare` and `abu grinding` take it."
 )
 
 
