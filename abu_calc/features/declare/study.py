@@ -135,9 +135,11 @@ def declare(machine: Machine, starts: int = STARTS, progress: Progress = silent)
         if machine.two_races is not None:
             raise InputError(
                 "the declared value is that of a hand-held machine, which has one wheel",
-                place=Place(key="autobalancer"), found="two [[autobalancer]]", allowed="one [wheel], one [autobalancer]",
+                place=Place(key="autobalancer"),
+                found="two [[autobalancer]]",
+                allowed="one [wheel], one [autobalancer]",
                 remedy="`abu size FILE` and `abu grinding FILE` judge machines with two races.",
-            )  # fmt: skip
+            )
         tables = machine.whole("declare")
         wheel = _wheel(tables)
         design = size_design(tables)
