@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from abu_calc.features.declare.measured import MeasuredDeclareResult, declare_recordings
     from abu_calc.features.declare.read import Recordings, read_recordings
     from abu_calc.features.declare.study import DeclareResult, declare
-    from abu_calc.features.declare.two_race_records import TwoRaceDeclareResult
     from abu_calc.features.design.study import SizeResult, size
     from abu_calc.features.effects.study import EffectsResult, effects
     from abu_calc.features.factory.study import FactoryResult, factory
@@ -84,7 +83,6 @@ _ROOMS: Final = {
         "DeclareResult",
         "declare",
     ),
-    "features.declare.two_race_records": ("TwoRaceDeclareResult",),
     "features.design.study": (
         "SizeResult",
         "size",
@@ -185,7 +183,6 @@ __all__ = [
     "SizeResult",
     "StabilityResult",
     "SweepResult",
-    "TwoRaceDeclareResult",
     "TwoRaceGrindingResult",
     "TwoRaceSizeResult",
     "VerifyResult",

@@ -224,11 +224,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "declare",
         "declare.command",
-        (
-            "declare.study:DeclareResult",
-            "declare.two_race_records:TwoRaceDeclareResult",
-            "declare.measured:MeasuredDeclareResult",
-        ),
+        ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
         "declare.pages:declare_extras",
         figures=(
             Known("values", "a type test was simulated"),

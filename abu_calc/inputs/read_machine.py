@@ -28,9 +28,7 @@ if TYPE_CHECKING:
     from abu_calc.inputs.two_races import TwoRaceFile
 
 
-OTHERS: Final = (
-    "`abu size`, `abu simulate`, `abu stability`, `abu sweep`, `abu compare`, `abu declare` and `abu grinding` take it."
-)
+OTHERS: Final = "`abu size`, `abu simulate`, `abu stability`, `abu sweep`, `abu compare` and `abu grinding` take it."
 
 
 def read_file(source: str, overrides: Sequence[str] = ()) -> FileReading:

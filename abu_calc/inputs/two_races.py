@@ -14,7 +14,6 @@ from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Speed
 from abu_calc.inputs.duty import Grinding, RunUp
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
-from abu_calc.inputs.type_test import TypeTest
 from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import QUANTITIES, Wheel
 
@@ -242,7 +241,6 @@ class TwoRaceFile(Table):
     )
     grinding: Grinding | None = None
     run_up: RunUp | None = None
-    type_test: TypeTest | None = None
     bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
         default=(), description="Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
     )

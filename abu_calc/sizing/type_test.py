@@ -29,7 +29,6 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.inputs.type_test import TypeTest
 from abu_calc.sizing.actions import CALCULATED, followed, set_action
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
@@ -59,13 +58,9 @@ class ChosenWheel:
 
 def chosen_wheel(table: MachineFile) -> ChosenWheel | None:
     """The test wheel that the file gives, else the built-in one of its diameter; None if there is none."""
-    return chosen_wheel_of(table.type_test, table.wheel.diameter_mm)
-
-
-def chosen_wheel_of(test: TypeTest | None, wheel_diameter_mm: float) -> ChosenWheel | None:
-    """The test wheel that takes the place of a wheel of this diameter; None if there is none."""
+    test = table.type_test
     given = None if test is None else test.test_wheel_diameter_mm
-    known = test_wheel(to_si(wheel_diameter_mm if given is None else given, "mm"))
+    known = test_wheel(to_si(table.wheel.diameter_mm if given is None else given, "mm"))
     if test is not None and test.test_wheel_imbalance_g_mm is not None:
         diameter = None if given is None else to_si(given, "mm")
         return ChosenWheel(diameter, to_si(test.test_wheel_imbalance_g_mm, "g_mm"), None, IN_FILE, "given")

@@ -118,7 +118,7 @@ def test_hints_of_tables_that_stand_wrongly(change, words: str) -> None:
 
 @pytest.mark.parametrize(
     ("command", "words"),
-    [("levels", "abu declare"), ("size", "abu sweep")],
+    [("levels", "abu grinding"), ("size", "abu sweep")],
 )
 def test_commands_that_take_one_race_say_why_and_what_to_do(command: str, words: str) -> None:
     with pytest.raises(InputError, match=words):

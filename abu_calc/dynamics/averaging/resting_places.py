@@ -4,8 +4,7 @@
     c = T − g m R_p Σ e^{iθ_k},    b = k_r R_p/r
 
 c is the displacement of the race's centre that the balls feel, T the displacement without balls (imbalance and race
-eccentricity), g the forward displacement per imbalance at the race. Several races of one rotor feel the balls of each
-other: c_i = T_i − Σ_k g_ik m_k R_k Σ e^{iθ}. Friction is set-valued: a ball at rest stays at
+eccentricity), g the forward displacement per imbalance at the race. Friction is set-valued: a ball at rest stays at
 rest while |Im(c e^{−iθ})| ≤ b. Balls are points: equal balls that collide elastically exchange their places.
 
 The step is that of Moreau (1988): places at half a step, then speeds with the friction that stops a ball or opposes it.
@@ -16,7 +15,6 @@ Source: derived by averaging; Kladiev 1996, (4)–(7), generalised.
 """
 
 import math
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -75,15 +73,6 @@ class RestingPlaces:
     angles: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class RestingPlacesOfRaces:
-    """Displacement c [m] of each race's centre that friction leaves in each run, races × runs; runs without an end."""
-
-    displacements: Complex
-    moving: int
-    angles: NDArray[np.float64]
-
-
 def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> RestingPlaces:
     """The end of a run for each displacement T [m], from balls at rest in the race at random places.
 
@@ -94,85 +83,35 @@ def resting_places(balls: SlowBalls, undisturbed: Complex, seed: int = SEED) -> 
     >>> ends.moving, bool(np.sqrt((abs(ends.displacements) ** 2).mean()) < 3 * balls.band)
     (0, True)
     """
-    ends = resting_places_of_races([balls], [[balls.receptance]], np.asarray(undisturbed, dtype=complex)[None, :], seed)
-    return RestingPlaces(ends.displacements[0], ends.moving, ends.angles)
-
-
-def resting_places_of_races(
-    races: Sequence[SlowBalls], receptances: Sequence[Sequence[complex]], undisturbed: Complex, seed: int = SEED
-) -> RestingPlacesOfRaces:
-    """The ends of runs in which the balls of several races of one rotor settle together.
-
-    `receptances`: g_ik, displacement of race i per imbalance at race k [m/(kg m)]; `undisturbed`: T_i of each run [m],
-    races × runs. Balls of all races start at rest in their race at random places.
-    """
-    for balls in races:
-        _BAND.check(balls.band)
-    runs = undisturbed.shape[1]
+    band, runs = _BAND.check(balls.band), len(undisturbed)
     random = np.random.default_rng(seed)
-    counts = [balls.count for balls in races]
-    of = [slice(sum(counts[:k]), sum(counts[: k + 1])) for k in range(len(races))]
-    angles = random.uniform(-math.pi, math.pi, (sum(counts), runs))
-    speeds, places = np.zeros_like(angles), np.zeros_like(angles)
-    ends = np.zeros((len(races), runs), dtype=complex)
+    angles = random.uniform(-math.pi, math.pi, (balls.count, runs))
+    speeds, ends, places = np.zeros_like(angles), np.zeros(runs, dtype=complex), np.zeros_like(angles)
     open_runs, target = np.arange(runs), np.asarray(undisturbed, dtype=complex)
-    step, rate = _step(races)
-    pull = [step * balls.speed**2 / (balls.pitch_radius * balls.inertia_factor) for balls in races]
-    kept = [1 / (1 + step * balls.drag / balls.inertia_factor) for balls in races]
-    weights = [[complex(receptances[i][k] * races[k].moment) for k in range(len(races))] for i in range(len(races))]
+    rate = balls.fastest_rate
+    step = STEP * max(1 / rate, balls.drag / (balls.inertia_factor * rate**2))  # heavily damped balls creep
+    pull = step * balls.speed**2 / (balls.pitch_radius * balls.inertia_factor)
+    kept = 1 / (1 + step * balls.drag / balls.inertia_factor)
+    weight = complex(balls.receptance * balls.moment)
     for number in range(1, MOST_STEPS + 1):
         angles += step / 2 * speeds
         cosines, sines = np.cos(angles), np.sin(angles)
-        felt = _felt(target, weights, [cosines[own].sum(axis=0) for own in of], [sines[own].sum(axis=0) for own in of])
-        now = np.empty_like(speeds)
-        for race, own in enumerate(of):
-            real, imaginary = felt[race]
-            limit = pull[race] * races[race].band
-            pushed = speeds[own] + pull[race] * (imaginary * cosines[own] - real * sines[own])
-            now[own] = kept[race] * (pushed - np.clip(pushed, -limit, limit))
+        real = target.real - weight.real * cosines.sum(axis=0) + weight.imag * sines.sum(axis=0)
+        imaginary = target.imag - weight.real * sines.sum(axis=0) - weight.imag * cosines.sum(axis=0)
+        pushed = speeds + pull * (imaginary * cosines - real * sines)
+        now = kept * (pushed - np.clip(pushed, -pull * band, pull * band))
         stopped = None
         if number % LOOK == 0:
             stopped = np.maximum(np.abs(now), np.abs(speeds)).max(axis=0) < STILL * rate
         speeds = now
         angles += step / 2 * speeds
         if stopped is not None and stopped.any():
-            for race, (real, imaginary) in enumerate(felt):
-                ends[race, open_runs[stopped]] = real[stopped] + 1j * imaginary[stopped]
+            ends[open_runs[stopped]] = real[stopped] + 1j * imaginary[stopped]
             places[:, open_runs[stopped]] = angles[:, stopped]
             going = ~stopped
-            open_runs, target = open_runs[going], target[:, going]
+            open_runs, target = open_runs[going], target[going]
             angles, speeds = angles[:, going], speeds[:, going]
             if not len(open_runs):
                 break
-    turned = np.exp(1j * angles)
-    for race in range(len(races)):
-        balls_at = [weights[race][k] * turned[own].sum(axis=0) for k, own in enumerate(of)]
-        ends[race, open_runs] = target[race] - sum(balls_at[1:], balls_at[0])
-    places[:, open_runs] = angles
-    return RestingPlacesOfRaces(ends, len(open_runs), places)
-
-
-def _step(races: Sequence[SlowBalls]) -> tuple[float, float]:
-    """Step of time [s] that resolves the fastest race, and the rate [rad/s] against which balls have stopped."""
-    rates = [balls.fastest_rate for balls in races]
-    # Heavily damped balls creep. Races that feel each other are at most √N times as fast as the fastest alone.
-    step = min(
-        STEP * max(1 / rate, balls.drag / (balls.inertia_factor * rate**2))
-        for balls, rate in zip(races, rates, strict=True)
-    )
-    return step / math.sqrt(len(races)), min(rates)
-
-
-def _felt(
-    target: Complex, weights: Sequence[Sequence[complex]], cosines: Sequence[NDArray[np.float64]],
-    sines: Sequence[NDArray[np.float64]],
-) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:  # fmt: skip
-    """Real and imaginary part of the displacement c of each race."""
-    felt = []
-    for race, row in enumerate(weights):
-        real, imaginary = target[race].real, target[race].imag
-        for weight, cosine, sine in zip(row, cosines, sines, strict=True):
-            real = real - weight.real * cosine + weight.imag * sine
-            imaginary = imaginary - weight.real * sine - weight.imag * cosine
-        felt.append((real, imaginary))
-    return felt
+    ends[open_runs], places[:, open_runs] = target - weight * np.exp(1j * angles).sum(axis=0), angles
+    return RestingPlaces(ends, len(open_runs), places)

@@ -13,7 +13,6 @@ from abu_calc.reporting.outcome import Outcome
 if TYPE_CHECKING:
     from abu_calc.features.declare.measured import MeasuredDeclareResult
     from abu_calc.features.declare.study import DeclareResult
-    from abu_calc.features.declare.two_race_records import TwoRaceDeclareResult
 
 MEASURED: Final = "Measured runs"
 """Panel of the options about recordings."""
@@ -90,18 +89,14 @@ def _measured(how: Delivery, recordings: list[str], sensitivity: list[str], auto
     return outcome_of(result)
 
 
-def outcome_of(result: "DeclareResult | TwoRaceDeclareResult | MeasuredDeclareResult") -> Outcome:
+def outcome_of(result: "DeclareResult | MeasuredDeclareResult") -> Outcome:
     """Outcome of a result: how it is shown and written."""
     from abu_calc.features.declare.measured import MeasuredDeclareResult
     from abu_calc.features.declare.measured_view import measured_blocks, measured_screen
-    from abu_calc.features.declare.two_race_records import TwoRaceDeclareResult
-    from abu_calc.features.declare.two_race_view import two_race_declare_blocks, two_race_declare_screen
     from abu_calc.features.declare.view import declare_blocks, declare_screen
 
     if isinstance(result, MeasuredDeclareResult):
         return Outcome.of(result, lambda: measured_blocks(result), lambda: measured_screen(result))
-    if isinstance(result, TwoRaceDeclareResult):
-        return Outcome.of(result, lambda: two_race_declare_blocks(result), lambda: two_race_declare_screen(result))
     return Outcome.of(result, lambda: declare_blocks(result), lambda: declare_screen(result))
 
 

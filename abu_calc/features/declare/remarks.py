@@ -43,9 +43,8 @@ def remarks(
             f"friction leaves {left}. With the spindle vertical friction holds them: {upright:.3g} m/s², declared "
             f"{with_.factor * upright:.3g} m/s²."
         )
-    yield from background_remarks(spindle.background, spindle.factor, imbalance_alone)
-    yield from _layout(design, wheel)
-    yield source_remark(wheel)
+    yield from _background(spindle, imbalance_alone)
+    yield from _sources(design, wheel)
     if test is not None and test.ends.moving > DOUBTFUL * len(test.turns):
         yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
     if test is not None and test.spindle.balls.band:
@@ -68,33 +67,29 @@ def beyond_capacity(design: Design, wheel: ChosenWheel, even: float | None) -> I
         )
 
 
-def background_remarks(background: float, factor: float, imbalance_alone: float) -> Iterator[str]:
-    """Remark on a background [m/s²] that no autobalancer beats, or on one that the file does not give."""
-    limit = imbalance_alone / math.sqrt(factor**2 - 1)
-    if background > limit:
+def _background(spindle: Spindle, imbalance_alone: float) -> Iterator[str]:
+    limit = imbalance_alone / math.sqrt(spindle.factor**2 - 1)
+    if spindle.background > limit:
         yield (
-            f"The background of {background:.3g} m/s² exceeds {limit:.3g} m/s²: no autobalancer, however "
+            f"The background of {spindle.background:.3g} m/s² exceeds {limit:.3g} m/s²: no autobalancer, however "
             "perfect, lowers this declared value. Compare the values without the factor."
         )
-    elif not background:
+    elif not spindle.background:
         yield (
             f"The background of motor and gear is left out. Above {limit:.3g} m/s² of it no autobalancer lowers the "
             "declared value. Measure it with a balanced wheel: type_test.background_a_hv_m_per_s2."
         )
 
 
-def _layout(design: Design, wheel: ChosenWheel) -> Iterator[str]:
+def _sources(design: Design, wheel: ChosenWheel) -> Iterator[str]:
     layout = design.case.table.machine.layout
     if layout != STRAIGHT and wheel.status == "secondary":
         yield (
             f'The layout is "{layout}", and ISO 28927-4 is for straight grinders. Angle and vertical grinders have '
             "their own test wheels (ISO 28927-1), which are not built in: set type_test.test_wheel_imbalance_g_mm."
         )
-
-
-def source_remark(wheel: ChosenWheel) -> str:
-    """Sources of the test wheel, the factor and K."""
     source, status = uncertainty_source()
     if wheel.status == "secondary":
-        return f"Test wheels and the factor are from {wheel.source}. K is by {source}: {status}."
-    return f"K is by {source}: {status}."
+        yield f"Test wheels and the factor are from {wheel.source}. K is by {source}: {status}."
+    else:
+        yield f"K is by {source}: {status}."

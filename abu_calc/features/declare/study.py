@@ -26,7 +26,6 @@ from abu_calc.features.declare.type_test_simulation import (
     causes,
     search_break_even,
     simulated_test,
-    with_autobalancer,
 )
 from abu_calc.formulas.type_test import MANY, evenly, mean_over_orientations
 from abu_calc.foundation.checks import Check, coded, verdict
@@ -38,7 +37,6 @@ from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.sizing import size as size_design
@@ -59,6 +57,8 @@ from abu_calc.sizing.type_test import (
 from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels
 
 NUMBER: Final = Range("number of starts", 100, 1_000_000, key="starts")
+NORMAL_95: Final = 1.6449
+"""Standard deviations that 5 % of a normal distribution lie beyond."""
 
 
 @record
@@ -127,18 +127,20 @@ class _Tested:
 def declare(machine: Machine, starts: int = STARTS, progress: Progress = silent) -> DeclareResult:
     """Simulate the type test of a machine without and with its autobalancer.
 
-    `starts`: how many starts are simulated; the seed is fixed. A machine with two races gets a `TwoRaceDeclareResult`,
-    with `starts` for each place of the test wheel. Raises InputError with file, line, key and action for
-    what is wrong in the file, among it a wheel diameter without a built-in test wheel.
+    `starts`: how many starts are simulated; the seed is fixed. Raises InputError with file, line, key and action for
+    what is wrong in the file, among it two races or a wheel diameter without a built-in test wheel.
     """
     NUMBER.check(starts)
-    if machine.two_races is not None:
-        two: DeclareResult = imported("declare.two_races:declare_two_races")(
-            machine, machine.two_races, starts, progress
-        )
-        return two
-    tables = machine.whole("declare")
     with machine.located():
+        if machine.two_races is not None:
+            raise InputError(
+                "the declared value is that of a hand-held machine, which has one wheel",
+                place=Place(key="autobalancer"),
+                found="two [[autobalancer]]",
+                allowed="one [wheel], one [autobalancer]",
+                remedy="`abu size FILE` and `abu grinding FILE` judge machines with two races.",
+            )
+        tables = machine.whole("declare")
         wheel = _wheel(tables)
         design = size_design(tables)
         if not weighted_speed(design.case.speed):
@@ -294,20 +296,33 @@ def _band(shares: tuple[float, float], value: float) -> tuple[float, float]:
 
 
 def _with(design: Design, tested: _Tested, band: tuple[float, float] | None) -> WithAutobalancer:
-    test = tested.test
-    spindle = test.spindle
+    """The type test at its highest handle; `band`: that of an estimated inertia, over the declared value."""
+    test, plan, upright = tested.test, design.case.table.type_test, tested.upright
+    spindle, name = test.spindle, test.highest
+    factor, series = spindle.factor, test.deviation_of_series(name)
+    runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
+    low, middle, high = (float(value) for value in np.quantile(test.values[name], (0.05, 0.5, 0.95)))
+    away = NORMAL_95 * factor * series / math.sqrt(runs * operators)
     ideal = max(
         mean_over_orientations(gain, test.imbalance, test.eccentricity, evenly(MANY), spindle.background / spindle.gain)
         for gain in spindle.body.gains
     )
-    return with_autobalancer(
-        test,
-        design.case.table.type_test,
-        (test.deviation_of_series(test.highest), 0.0),
-        spindle.gain * ideal,
-        tested.upright,
-        shaken_free=tested.upright is not None and not spindle.balls.band,
-        band=None if band is None else _band(band, test.declared),
+    return WithAutobalancer(
+        handle=name,
+        a_hv_m_per_s2=test.means[name],
+        standard_error_m_per_s2=test.standard_error(name),
+        p05=low,
+        p50=middle,
+        p95=high,
+        factor=factor,
+        declared_m_per_s2=test.declared,
+        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series / math.sqrt(runs))),
+        declared_low_m_per_s2=max(test.declared - away, 0.0),
+        declared_high_m_per_s2=test.declared + away,
+        no_friction_m_per_s2=spindle.gain * ideal,
+        shaken_free=upright is not None and not spindle.balls.band,
+        upright_m_per_s2=None if upright is None else upright.means[upright.highest],
+        declared_band_m_per_s2=None if band is None else _band(band, test.declared),
     )
 
 

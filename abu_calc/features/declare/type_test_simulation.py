@@ -7,13 +7,12 @@ another displacement at each start, and both move the handles: a_hv = W_h Ω²·
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.averaging.resting_places import SEED, RestingPlaces, SlowBalls, resting_places
-from abu_calc.features.declare.records import WithAutobalancer
 from abu_calc.formulas.type_test import (
     MANY,
     HandleGain,
@@ -27,11 +26,10 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, Stage
 from abu_calc.foundation.roots import root
 from abu_calc.foundation.units import to_si
-from abu_calc.inputs.type_test import TypeTest
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.type_test import background, band, type_test_body, upright_band
-from abu_calc.standards.type_test import balancing_factor, declared_uncertainty, reproducibility, usual_orientations
+from abu_calc.standards.type_test import balancing_factor, usual_orientations
 
 STARTS: Final = 10_000
 """Starts that are simulated; means are then known to about 1 %."""
@@ -46,90 +44,6 @@ GOLDEN: Final = (math.sqrt(5) - 1) / 2
 """Share of a turn between the race eccentricities of two series: they spread evenly, however many there are."""
 
 Array = NDArray[np.float64]
-
-
-class _WithFactor(Protocol):
-    @property
-    def factor(self) -> float: ...
-
-
-class HandleMeans:
-    """Means over the runs of a type test, and the declared value; of runs with `values` and a `spindle`."""
-
-    spindle: _WithFactor
-
-    @cached_property
-    def values(self) -> dict[str, Array]:
-        """a_hv of each handle in each run [m/s²]."""
-        raise NotImplementedError
-
-    @cached_property
-    def means(self) -> dict[str, float]:
-        """Mean a_hv of each handle [m/s²]."""
-        return {name: float(values.mean()) for name, values in self.values.items()}
-
-    @property
-    def highest(self) -> str:
-        """The handle with the highest mean."""
-        return max(self.means, key=self.means.__getitem__)
-
-    @property
-    def declared(self) -> float:
-        """The declared value [m/s²]: the mean at the highest handle, times the factor."""
-        return self.spindle.factor * self.means[self.highest]
-
-    def standard_error(self, name: str) -> float:
-        """Standard error of the mean at a handle [m/s²]."""
-        raise NotImplementedError
-
-
-NORMAL_95: Final = 1.6449
-"""Standard deviations that 5 % of a normal distribution lie beyond."""
-
-
-def with_autobalancer(
-    test: HandleMeans,
-    plan: TypeTest | None,
-    spread: tuple[float, float],
-    no_friction: float,
-    upright: HandleMeans | None,
-    *,
-    shaken_free: bool,
-    band: tuple[float, float] | None = None,
-) -> WithAutobalancer:
-    """The type test at its highest handle.
-
-    `spread`: standard deviations [m/s²] of series with one run at each orientation, and of the machines; `no_friction`:
-    a_hv without friction [m/s²]; `upright`: the test with the spindle vertical; `band` [m/s²]: of the declared value.
-    """
-    name, factor, (series, machines) = test.highest, test.spindle.factor, spread
-    runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
-    low, middle, high = (float(value) for value in np.quantile(test.values[name], (0.05, 0.5, 0.95)))
-    away = NORMAL_95 * factor * math.hypot(machines, series / math.sqrt(runs * operators))
-    return WithAutobalancer(
-        handle=name,
-        a_hv_m_per_s2=test.means[name],
-        standard_error_m_per_s2=test.standard_error(name),
-        p05=low,
-        p50=middle,
-        p95=high,
-        factor=factor,
-        declared_m_per_s2=test.declared,
-        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series / math.sqrt(runs))),
-        declared_low_m_per_s2=max(test.declared - away, 0.0),
-        declared_high_m_per_s2=test.declared + away,
-        no_friction_m_per_s2=no_friction,
-        shaken_free=shaken_free,
-        upright_m_per_s2=None if upright is None else upright.means[upright.highest],
-        declared_band_m_per_s2=band,
-    )
-
-
-def orientations_of(plan: TypeTest | None) -> tuple[float, ...]:
-    """Orientations of the test wheel [rad]: those of the file, or as many as the standard has, evenly spread."""
-    usual = usual_orientations()
-    given = None if plan is None else plan.orientations
-    return tuple(to_si(angle, "deg") for angle in given or (360.0 * k / usual for k in range(usual)))
 
 
 @dataclass(frozen=True)
@@ -155,8 +69,11 @@ class Spindle:
             candidate.ball_count, candidate.ball_mass * candidate.pitch_radius, candidate.pitch_radius, case.drag,
             case.inertia_factor, (upright_band if upright else band)(case, candidate), body.race_by_race, case.speed,
         )  # fmt: skip
+        plan, usual = case.table.type_test, usual_orientations()
+        given = None if plan is None else plan.orientations
+        angles = given or (360.0 * k / usual for k in range(usual))
         return cls(
-            type_test_body(case), body, balls, orientations_of(case.table.type_test),
+            type_test_body(case), body, balls, tuple(to_si(angle, "deg") for angle in angles),
             acceleration_per_displacement(case.speed), background(case.table), balancing_factor(),
         )  # fmt: skip
 
@@ -166,7 +83,7 @@ class Spindle:
 
 
 @dataclass(frozen=True, eq=False)
-class SimulatedTest(HandleMeans):
+class SimulatedTest:
     """Runs of a type test: an imbalance [kg m] on a spindle with a race eccentricity [m], one orientation a run."""
 
     spindle: Spindle
@@ -180,6 +97,21 @@ class SimulatedTest(HandleMeans):
     def values(self) -> dict[str, Array]:
         """a_hv of each handle in each run [m/s²]."""
         return {gain.name: self._of(gain) for gain in self.spindle.body.gains}
+
+    @cached_property
+    def means(self) -> dict[str, float]:
+        """Mean a_hv of each handle [m/s²]."""
+        return {name: float(values.mean()) for name, values in self.values.items()}
+
+    @property
+    def highest(self) -> str:
+        """The handle with the highest mean."""
+        return max(self.means, key=self.means.__getitem__)
+
+    @property
+    def declared(self) -> float:
+        """The declared value [m/s²]: the mean at the highest handle, times the factor."""
+        return self.spindle.factor * self.means[self.highest]
 
     def _of(self, gain: HandleGain) -> Array:
         kept = self.eccentricity - self.ends.displacements

@@ -1,9 +1,8 @@
 """The report of `abu declare MACHINE`, and its figures."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Final
 
-from abu_calc.features.declare.records import HandleValue, WithAutobalancer
 from abu_calc.features.declare.study import DeclareResult
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
@@ -48,7 +47,7 @@ def _head(result: DeclareResult) -> tuple[Block, ...]:
     rows = (
         ("Test wheel", f"{of}{number(wheel.imbalance_g_mm, 3)} g·mm{force} ({_status(result)})"),
         ("Type test", f"{series}; {plan.starts} starts simulated" if plan.starts else series),
-        ("Machine", f"{result.body}; highest value at: {place_text(result.handle)}"),
+        ("Machine", f"{result.body}; highest value at: {_place(result.handle)}"),
     )
     title = Heading(f"{result.title}: declared vibration value")
     return (title, verdict_line(result), Paragraph(""), Grid(("", ""), rows))
@@ -59,8 +58,7 @@ def _status(result: DeclareResult) -> str:
     return "from the file" if given else "ISO 28927-4, secondary source"
 
 
-def place_text(name: str) -> str:
-    """A handle in words."""
+def _place(name: str) -> str:
     return name if name == "wheel plane" else f'handle "{name}"'
 
 
@@ -69,27 +67,27 @@ def _values(result: DeclareResult) -> list[Block]:
     factor = 1.3 if with_ is None else with_.factor
     header = ("a_hv, m/s²", "without", "with", f"with × {factor:g}")
     rows = [
-        (place_text(row.name), short(row.without_m_per_s2), short(row.with_m_per_s2), short(row.with_m_per_s2, factor))
+        (_place(row.name), _short(row.without_m_per_s2), _short(row.with_m_per_s2), _short(row.with_m_per_s2, factor))
         for row in result.handles
     ]
     if with_ is not None and result.model.friction_band_m:
         rows.append(
-            ("no rolling friction", "", short(with_.no_friction_m_per_s2), short(with_.no_friction_m_per_s2, factor))
+            ("no rolling friction", "", _short(with_.no_friction_m_per_s2), _short(with_.no_friction_m_per_s2, factor))
         )
     if with_ is not None and with_.upright_m_per_s2 is not None:
         held = with_.upright_m_per_s2
-        rows.append(("spindle vertical, friction holds", "", short(held), short(held, factor)))
+        rows.append(("spindle vertical, friction holds", "", _short(held), _short(held, factor)))
     used = result.wheel_in_use
     rows.append(
         (
             f"wheel in use, {number(used.imbalance_g_mm, 3)} g·mm",
-            short(used.without_m_per_s2),
-            short(used.with_m_per_s2),
+            _short(used.without_m_per_s2),
+            _short(used.with_m_per_s2),
             "",
         )
     )
-    declared = "not known" if with_ is None else declared_text(with_.declared_m_per_s2, with_.K_m_per_s2)
-    facts = [("declared without", declared_text(without.a_hv_m_per_s2, without.K_m_per_s2))]
+    declared = "not known" if with_ is None else _declared(with_.declared_m_per_s2, with_.K_m_per_s2)
+    facts = [("declared without", _declared(without.a_hv_m_per_s2, without.K_m_per_s2))]
     facts += _estimated(without.band_m_per_s2)
     facts.append((f"declared with, × {factor:g}", declared))
     facts += [] if with_ is None else _estimated(with_.declared_band_m_per_s2)
@@ -98,10 +96,10 @@ def _values(result: DeclareResult) -> list[Block]:
     elif with_ is not None:
         low, high = with_.declared_low_m_per_s2, with_.declared_high_m_per_s2
         facts += [
-            ("  90 % of type tests", f"{short(low)} … {short(high)} m/s²"),
+            ("  90 % of type tests", f"{_short(low)} … {_short(high)} m/s²"),
             (
                 "  90 % of single runs, × 1",
-                f"{short(with_.p05)} … {short(with_.p95)}, median {short(with_.p50)} m/s²",
+                f"{_short(with_.p05)} … {_short(with_.p95)}, median {_short(with_.p50)} m/s²",
             ),
             ("  standard error, × 1", f"{number(with_.standard_error_m_per_s2, 2)} m/s²"),
         ]
@@ -111,31 +109,28 @@ def _values(result: DeclareResult) -> list[Block]:
 
 def _estimated(band: tuple[float, float] | None) -> list[tuple[str, str]]:
     """Band of an estimated inertia."""
-    return [] if band is None else [("  95 % of such machines", f"{short(band[0])} … {short(band[1])} m/s²")]
+    return [] if band is None else [("  95 % of such machines", f"{_short(band[0])} … {_short(band[1])} m/s²")]
 
 
-def declared_text(value: float, uncertainty: float) -> str:
-    """A declared value with its K."""
+def _declared(value: float, uncertainty: float) -> str:
     return f"{number(value, 3)} m/s², K {number(uncertainty, 2)} m/s²"
 
 
-def short(value: float | None, factor: float = 1.0) -> str:
-    """A value in three digits; a dash if it is not known."""
+def _short(value: float | None, factor: float = 1.0) -> str:
     return "–" if value is None else number(factor * value, 3)
 
 
 def _break_even(result: DeclareResult) -> str:
-    own = f"this race: {micrometres(1e3 * result.model.race_eccentricity_m)}"
+    own = f"this race: {_um(1e3 * result.model.race_eccentricity_m)}"
     if result.break_even_eccentricity_mm is None:
         return f"none; {own}. {result.break_even_reason}"
     ideal = ""
     if result.break_even_frictionless_mm is not None and result.friction_rms_mm:
-        ideal = f"; without friction {micrometres(result.break_even_frictionless_mm)}"
-    return f"{micrometres(result.break_even_eccentricity_mm)} ({own}{ideal})"
+        ideal = f"; without friction {_um(result.break_even_frictionless_mm)}"
+    return f"{_um(result.break_even_eccentricity_mm)} ({own}{ideal})"
 
 
-def micrometres(millimetres: float) -> str:
-    """A length in µm."""
+def _um(millimetres: float) -> str:
     return with_unit(1e3 * millimetres, "µm", 3)
 
 
@@ -144,14 +139,14 @@ def _causes(result: DeclareResult) -> list[Block]:
     listed = [cause for cause in result.causes if cause.share >= SHARE]
     if not listed:
         return []
-    rows = tuple((cause.name, short(cause.a_hv_m_per_s2), f"{100 * cause.share:.0f} %") for cause in listed)
+    rows = tuple((cause.name, _short(cause.a_hv_m_per_s2), f"{100 * cause.share:.0f} %") for cause in listed)
     blocks: list[Block] = [
-        Heading(f"Causes with the autobalancer, {place_text(result.handle)}", "causes"),
+        Heading(f"Causes with the autobalancer, {_place(result.handle)}", "causes"),
         Grid(("", "alone, m/s²", "share of the mean square"), rows, frozenset({1, 2})),
     ]
     if result.friction_rms_mm:
         blocks.append(
-            Paragraph(f"Friction leaves the race {micrometres(result.friction_rms_mm)} off its place, rms over starts.")
+            Paragraph(f"Friction leaves the race {_um(result.friction_rms_mm)} off its place, rms over starts.")
         )
     return blocks
 
@@ -171,30 +166,22 @@ def _conventions(result: DeclareResult) -> list[Block]:
 def simulated_extras(result: DeclareResult) -> Extras:
     """Figures and formulas of the page."""
     note = step_blocks(STEPS["declare"])
-    without = result.without.a_hv_m_per_s2
-    figures = (
-        *value_bars(result.handles, result.with_, without),
-        *single_runs(result.distribution_m_per_s2, result.with_, without),
-        *_over_eccentricity(result),
-    )
-    return Extras(figures, tuple(note))
+    return Extras((*_bars(result), *_distribution(result), *_over_eccentricity(result)), tuple(note))
 
 
-def value_bars(
-    handles: Sequence[HandleValue], with_: WithAutobalancer | None, without: float
-) -> Iterator[Figure]:  # fmt: skip
+def _bars(result: DeclareResult) -> Iterator[Figure]:
     """Values of each handle, without and with, and the declared value with the factor."""
     rows = []
-    for handle in handles:
-        rows.append(Bar(f"{handle.name}, without", handle.without_m_per_s2, acceleration(handle.without_m_per_s2), 2))
+    for handle in result.handles:
+        rows.append(Bar(f"{handle.name}, without", handle.without_m_per_s2, _told(handle.without_m_per_s2), 2))
         if handle.with_m_per_s2 is not None:
-            rows.append(Bar(f"{handle.name}, with", handle.with_m_per_s2, acceleration(handle.with_m_per_s2), 1))
-    if with_ is not None:
-        declared = with_
+            rows.append(Bar(f"{handle.name}, with", handle.with_m_per_s2, _told(handle.with_m_per_s2), 1))
+    if result.with_ is not None:
+        declared = result.with_
         span = declared.declared_low_m_per_s2, declared.declared_high_m_per_s2
         value = declared.declared_m_per_s2
-        rows.append(Bar(f"declared with, × {declared.factor:g}", value, acceleration(value), 3, span=span))
-    limit = without, f"declared without: {acceleration(without)}"
+        rows.append(Bar(f"declared with, × {declared.factor:g}", value, _told(value), 3, span=span))
+    limit = result.without.a_hv_m_per_s2, f"declared without: {_told(result.without.a_hv_m_per_s2)}"
     highest = [*(bar.value for bar in rows), *(bar.span[1] for bar in rows if bar.span)]
     axis = Axis.around("weighted acceleration a_hv [m/s²]", highest, zero=True)
     text = "; ".join(f"{bar.name} {bar.text}" for bar in rows)
@@ -205,26 +192,24 @@ def value_bars(
     yield Figure("values", "values", Bars("Declared value", text, axis, rows, limit), caption)
 
 
-def acceleration(value: float) -> str:
-    """A value with its unit."""
+def _told(value: float) -> str:
     return f"{number(value, 3)} m/s²"
 
 
-def single_runs(
-    values: tuple[float, ...], with_: WithAutobalancer | None, without: float
-) -> Iterator[Figure]:  # fmt: skip
+def _distribution(result: DeclareResult) -> Iterator[Figure]:
     """Share of single runs below each value."""
-    if with_ is None or values[-1] - values[0] < 1e-9 * values[-1]:
+    values = result.distribution_m_per_s2
+    if result.with_ is None or values[-1] - values[0] < 1e-9 * values[-1]:
         return
     last = len(values) - 1
     curve = Curve([(value, 100.0 * k / last) for k, value in enumerate(values[:-1])])  # the last one is a rare outlier
-    across = Axis.around("a_hv of one run [m/s²]", [*values[:-1], without], zero=True)
+    across = Axis.around("a_hv of one run [m/s²]", [*values[:-1], result.without.a_hv_m_per_s2], zero=True)
     points = [
-        MarkedPoint(with_.a_hv_m_per_s2, _share_below(values, with_.a_hv_m_per_s2), "mean"),
-        MarkedPoint(without, 100.0, "without", 2),
+        MarkedPoint(result.with_.a_hv_m_per_s2, _share_below(values, result.with_.a_hv_m_per_s2), "mean"),
+        MarkedPoint(result.without.a_hv_m_per_s2, 100.0, "without", 2),
     ]
-    marks = ((5, with_.p05), (50, with_.p50), (95, with_.p95))
-    text = ", ".join(f"{percent} % below {acceleration(value)}" for percent, value in marks)
+    marks = ((5, result.with_.p05), (50, result.with_.p50), (95, result.with_.p95))
+    text = ", ".join(f"{percent} % below {_told(value)}" for percent, value in marks)
     caption = (
         "Share of single runs with the autobalancer below a value, at the highest handle, the factor not included."
     )
@@ -241,21 +226,18 @@ def _over_eccentricity(result: DeclareResult) -> Iterator[Figure]:
     points = [(1e3 * at.race_eccentricity_mm, at.declared_m_per_s2) for at in result.by_eccentricity]
     if len(points) < 3:
         return
-    yield eccentricity_figure(points, 1e6 * result.model.race_eccentricity_m, result.without.a_hv_m_per_s2)
-
-
-def eccentricity_figure(points: Sequence[tuple[float, float]], own: float, without: float) -> Figure:
-    """Declared value [m/s²] against race eccentricity [µm]; `own`: that of the file."""
+    own = 1e6 * result.model.race_eccentricity_m
     marked = [MarkedPoint(x, y, "this race" if abs(x - own) < 1e-9 else "") for x, y in points]
+    without = result.without.a_hv_m_per_s2
     across = Axis.around("race eccentricity [µm]", (x for x, _ in points), zero=True)
     up = Axis.around("declared value [m/s²]", [*(y for _, y in points), without], zero=True)
-    text = "; ".join(f"{number(x, 3)} µm: {acceleration(y)}" for x, y in points)
-    limit = without, f"without: {acceleration(without)}"
+    text = "; ".join(f"{number(x, 3)} µm: {_told(y)}" for x, y in points)
+    limit = without, f"without: {_told(without)}"
     caption = (
         "Declared value with the autobalancer, the factor included, against race eccentricity. Below the dashed line "
         "it is lower."
     )
-    return Figure(
+    yield Figure(
         "eccentricity",
         "values",
         Plot("Break-even eccentricity", text, across, up, (Curve(points),), marked, limit),

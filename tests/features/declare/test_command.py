@@ -58,6 +58,23 @@ def test_balls_that_cannot_balance_end_with_one(tmp_path: Path) -> None:
     assert seen.document["result"]["with"] is None
 
 
+@pytest.mark.parametrize("preset", ["pedestal-grinder", "washing-machine-two-races"])
+def test_a_machine_with_two_races_declares_no_value(preset: str) -> None:
+    """The type test of ISO 28927-4 is one of hand-held machines with one wheel."""
+    seen = abu("declare", preset)
+    assert seen.status == 2 and not seen.out
+    words = (
+        f"{preset}:",
+        "hand-held",
+        "found two [[autobalancer]]",
+        "one [wheel]",
+        "`abu size FILE`",
+        "`abu grinding FILE`",
+    )
+    assert all(word in seen.err for word in words), seen.err
+    assert len(seen.err.splitlines()) == 2
+
+
 def test_a_wheel_without_a_test_wheel_ends_with_two(tmp_path: Path) -> None:
     seen = abu("declare", written(tmp_path, S100), "--set", "wheel.diameter_mm=60")
     assert seen.status == 2
