@@ -139,7 +139,8 @@ def quickest_loop(equations: Equations, tolerance: float, progress: Progress = s
         return _loop_of(equations, True, method)
     about = counts(equations, tolerance)
     if (about.loop + LOOP_EVENT * about.events) * (1 + len(equations.scene.ball_masses)) < SHORT:
-        return _loop_of(equations, False, method, "; a short run, over before compiled code would be loaded", ready.load)
+        why = "; a short run, over before compiled code would be loaded"
+        return _loop_of(equations, False, method, why, ready.load)
     progress(f"{equations.scene.name}: loading compiled code")
     if ready.load(equations, method):
         return _loop_of(equations, True, method)

@@ -162,8 +162,8 @@ def integrate(
 ) -> Trajectory:
     """The motion from t = 0 to the last of `sample_times` [s], ascending; in plain Python if not `compiled`.
 
-    `long` loads compiled code, in which a run in plain Python goes on that turns out to be long. Raises as SciPy's does,
-    and CompilerError where there is no compiler that works.
+    `long` loads compiled code, in which a run in plain Python goes on that turns out to be long. Raises as SciPy's
+    does, and CompilerError where there is no compiler that works.
     """
     ordered, places = in_order(equations)
     given = np.argsort(places)
