@@ -97,8 +97,8 @@ class Predicted(Record):
 
     sensor: Annotated[str, Quantity("sensor")]
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    measured: Annotated[float, Quantity("measured", "|A|", 4, "without trial masses")]
-    after: Annotated[float, Quantity("predicted after the correction", "|A + α·W|", 3, "without errors")]
+    measured: Annotated[float, Quantity("measured", "|X_s|", 4, "without trial masses")]
+    after: Annotated[float, Quantity("predicted after the correction", "", 3, "without errors")]
     unit: Annotated[str, Quantity("unit of amplitudes")]
 
 
