@@ -110,7 +110,7 @@ def test_output_formats(tmp_path: Path, suffix: str) -> None:
 def test_check_fit_of_the_source() -> None:
     seen = abu("check-fit", "mmg-3200k-knife-shaft", "--json")
     shaft, housing, proposed, *others = seen.document["result"]
-    assert seen.status == 0
+    assert seen.status == 1  # under the load that the source assumes H7 and K7 let the outer ring creep
     assert shaft["interference_um"] == [2, 36] and housing["interference_um"] == [-58, 0]
     assert shaft["recommended_fit"] == "m6" == proposed["fit"]
     assert [seat["fit"] for seat in others] == ["K7", "m6", "M7"]

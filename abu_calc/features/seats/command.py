@@ -149,7 +149,14 @@ OPTIONS: Final = (
 SELDOM: Final = (
     *(LIFE, PARTS, THERMAL),
     *("--chamfer", "--bearing-class", "--series", "--dynamic-load-rating", "--static-load-rating", "--name"),
-    *("--starting-torque", "--shaft-limits", "--housing-limits", "--asked-interference", "--seat-friction"),
+    *(
+        "--load-kind",
+        "--starting-torque",
+        "--shaft-limits",
+        "--housing-limits",
+        "--asked-interference",
+        "--seat-friction",
+    ),
     *("--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet", "--no-color"),
 )
 """Panels and options that `--help` lists by name, so that it fits on a screen."""
