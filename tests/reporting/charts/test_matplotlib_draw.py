@@ -48,6 +48,6 @@ def test_missing_matplotlib_is_named_with_what_installs_it(monkeypatch: pytest.M
     seen = abu(*asked, f"interference-1={tmp_path / 'a.svg'}")
     assert seen.status == 2
     assert "matplotlib" in seen.err and 'pip install "abu-calc[report]"' in seen.err
-    assert abu(*asked, f"seats-1={tmp_path / 'b.svg'}").status == 0
+    assert abu(*asked, f"seats-1={tmp_path / 'b.svg'}").status == 1
     with pytest.raises(OutputError, match="matplotlib"):
         sized().figure("levels")

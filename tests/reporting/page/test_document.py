@@ -297,7 +297,7 @@ HOSTILE = "</title></pre><script>alert(1)</script>&\"'<b>\x1b[31m\u202e"
 def test_nothing_in_a_name_acts(tmp_path: Path) -> None:
     target = tmp_path / "fit.html"
     seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", f"machine.name={json.dumps(HOSTILE)}", "-o", str(target))
-    assert seen.status == 0, seen.err
+    assert seen.status == 1, seen.err
     text = target.read_text(encoding="utf-8")
     page = read(text)
     assert page.faults == []
