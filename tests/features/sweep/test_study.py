@@ -112,7 +112,7 @@ def test_a_store_goes_on_to_the_same_members(
     database.execute("UPDATE study SET value = '\"0.0.9\"' WHERE key = 'accuracy'")
     database.commit()
     database.close()
-    with pytest.raises(abu_calc.InputError, match=r"accuracy is "0\.0\.9" there"):
+    with pytest.raises(abu_calc.InputError, match=r"accuracy is .0\.0\.9. there"):
         abu_calc.sweep(machine, vary, 12, store=whole, resume=True)
 
 
