@@ -145,7 +145,11 @@ def price_list(
     reference = _reference(full, quantity, accuracy, budget)
     points: list[PricePoint] = []
     skipped: list[str] = []
-    waiting = groups(full, with_parted_balls(ledger.scene)[0])
+    # Of the loop's own reference no error is known.
+    by_loop = all(name in choice.LOOP for name in reference.integrators)
+    itself = (reference.integrators[1], reference.tolerances[1]) if by_loop else None
+    kinds = groups(full, with_parted_balls(ledger.scene)[0])
+    waiting = [[method for method in kind if (method.integrator, method.tolerance) != itself] for kind in kinds]
     methods = [method for group in waiting for method in group]
 
     def told(method: Method) -> None:
