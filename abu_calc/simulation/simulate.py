@@ -108,8 +108,8 @@ def without_size(scene: Scene) -> tuple[str, ...]:
 ACCURACY = motion.ACCURACY
 
 WORK, WORK_FAST = 10_000_000, 2_000_000
-"""Work that a simulation may take, each unit five evaluations of the loop or a quarter of one of SciPy's: a minute of
-SciPy's methods, half of that in compiled code. A preset takes some ten thousand, the swing arm two hundred thousand,
+"""Work that a simulation may take, each unit five evaluations of the loop or one of SciPy's: some minutes of
+SciPy's methods, half a minute in compiled code. A preset takes some ten thousand, the swing arm two hundred thousand,
 over a million for its levels. The second, where something oscillates far faster than the rotor turns: mostly a
 stiffness in another unit, worth some seconds."""
 

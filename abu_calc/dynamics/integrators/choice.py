@@ -39,13 +39,10 @@ TIGHT: Final = 3e-6
 events and 1e-6 for those with many."""
 
 LOOP_WORK: Final = 1 / 5
-SCIPY_WORK: Final = 4.0
-"""Work of an evaluation in the loop, and of one of SciPy's: about as they take time, a unit being some microseconds.
+"""Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
+on it either: compiled it takes a twentieth of SciPy's time, in plain Python some times as long."""
 
-That of the loop is the same compiled or not, so that what is refused does not hang on a compiler.
-"""
-
-COMPILED_TIME: Final = LOOP_WORK / SCIPY_WORK
+COMPILED_TIME: Final = 1 / 20
 """Time of a compiled evaluation in units of one of SciPy's."""
 
 TRIAL: Final = 3
@@ -64,7 +61,7 @@ class IntegratorChoice:
     why: str
     integrate: Callable[..., Trajectory]
     """(equations, tolerance, sample times, most evaluations)"""
-    share: float = SCIPY_WORK
+    share: float = 1.0
     """Work of one of its evaluations."""
     event: int = EVENT
     """Evaluations that an event is worth."""
