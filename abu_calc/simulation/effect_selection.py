@@ -17,6 +17,7 @@ from abu_calc.dynamics.effect import EffectInfluence
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Array
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -103,6 +104,9 @@ def simulate_chosen(
     """
     if not ledger.spared:
         return ledger, simulate(ledger.scene, accuracy, sample_times, most_evaluations, integrator, progress)
+    if watches(assemble(ledger.scene)):  # events take the most work, and are as many without the light effects
+        run = simulate(ledger.whole, accuracy, sample_times, most_evaluations, integrator, progress)
+        return _whole(ledger, "light, but leaving it out would save no work"), run
     most, changed = most_evaluations or usual_work(ledger.whole, integrator), math.inf
     began, spent = time.perf_counter(), 0
     with suppress(NotTrustworthyError):  # of no matter to the scene with all effects
@@ -120,12 +124,17 @@ def simulate_chosen(
     run = simulate(ledger.whole, accuracy, sample_times, max(most - spent, 1), integrator, progress)
     changes = f"changes {changed:.2g} of it" if changed < math.inf else "leads the balls another way"
     why = f"light at steady state, but in this motion leaving it out {changes}"
+    return _whole(ledger, why), run
+
+
+def _whole(ledger: Ledger, why: str) -> Ledger:
+    """The same with the light effects, and why."""
     names = {effect.name for effect in ledger.whole.effects}
     entries = tuple(
         replace(entry, included=True, why=why) if entry.name in names and not entry.included else entry
         for entry in ledger.entries
     )
-    return Ledger(ledger.whole, entries, ledger.whole), run
+    return Ledger(ledger.whole, entries, ledger.whole)
 
 
 def _once(scene: Scene, tolerance: float, most: int, integrator: str) -> tuple[Response, int, int]:
