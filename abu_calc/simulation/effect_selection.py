@@ -104,7 +104,9 @@ def simulate_chosen(
     """
     if not ledger.spared:
         return ledger, simulate(ledger.scene, accuracy, sample_times, most_evaluations, integrator, progress)
-    if watches(assemble(ledger.scene)):  # events take the most work, and are as many without the light effects
+    left_out = [effect for effect in ledger.whole.effects if effect not in ledger.scene.effects]
+    if watches(assemble(ledger.scene)) and not any(effect.switching(ledger.whole) for effect in left_out):
+        # Events take the most work, and are as many without the light effects.
         run = simulate(ledger.whole, accuracy, sample_times, most_evaluations, integrator, progress)
         return _whole(ledger, "light, but leaving it out would save no work"), run
     most, changed = most_evaluations or usual_work(ledger.whole, integrator), math.inf
