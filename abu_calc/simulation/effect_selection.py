@@ -17,7 +17,6 @@ from abu_calc.dynamics.effect import EffectInfluence
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Array
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -72,15 +71,19 @@ def chosen(
     """The scene with the effects it calls for, out of one that has all there is data for.
 
     The lightest are left out as long as they weigh no more together than half the accuracy; an effect of unknown weight
-    is in. `wanted` and `unwanted` are asked for by name.
+    is in. Events take the most work: where as many remain without the light effects, only those are left out that act
+    on nothing. `wanted` and `unwanted` are asked for by name.
     """
     weights = {effect.name: effect.weight(full) for effect in full.effects}
-    out = _light(weights, accuracy)
+    light = _light(weights, accuracy)
+    idle = frozenset(name for name in light if not weights[name].value)
+    switching = {effect.name for effect in full.effects if effect.switching(full)}.difference(unwanted, idle)
+    out = light if switching <= light or not light.isdisjoint(switching) else idle
     entries = tuple(
         Entry(name, name in wanted or (name not in out and name not in unwanted), weight.value,
               f"asked for; {weight.why}" if name in wanted
               else f"left out by request; {weight.why}" if name in unwanted
-              else _why(weight, name in out))
+              else _why(weight, name in light, name in out))
         for name, weight in weights.items()
     )  # fmt: skip
     scene = _without(full, {entry.name for entry in entries if not entry.included})
@@ -104,11 +107,6 @@ def simulate_chosen(
     """
     if not ledger.spared:
         return ledger, simulate(ledger.scene, accuracy, sample_times, most_evaluations, integrator, progress)
-    left_out = [effect for effect in ledger.whole.effects if effect not in ledger.scene.effects]
-    if watches(assemble(ledger.scene)) and not any(effect.switching(ledger.whole) for effect in left_out):
-        # Events take the most work, and are as many without the light effects.
-        run = simulate(ledger.whole, accuracy, sample_times, most_evaluations, integrator, progress)
-        return _whole(ledger, "light, but leaving it out would save no work"), run
     most, changed = most_evaluations or usual_work(ledger.whole, integrator), math.inf
     began, spent = time.perf_counter(), 0
     with suppress(NotTrustworthyError):  # of no matter to the scene with all effects
@@ -124,19 +122,13 @@ def simulate_chosen(
                            wall_s=time.perf_counter() - began)  # fmt: skip
             return replace(ledger, spared=max(changed, ledger.spared)), replace(run, cost=cost)
     run = simulate(ledger.whole, accuracy, sample_times, max(most - spent, 1), integrator, progress)
-    changes = f"changes {changed:.2g} of it" if changed < math.inf else "leads the balls another way"
-    why = f"light at steady state, but in this motion leaving it out {changes}"
-    return _whole(ledger, why), run
-
-
-def _whole(ledger: Ledger, why: str) -> Ledger:
-    """The same with the light effects, and why."""
-    names = {effect.name for effect in ledger.whole.effects}
+    seen = f"changed the results of this run by {changed:.2g}" if changed < math.inf else "led the balls another way"
+    why, names = f"light at steady state, but leaving it out {seen}", {effect.name for effect in ledger.whole.effects}
     entries = tuple(
         replace(entry, included=True, why=why) if entry.name in names and not entry.included else entry
         for entry in ledger.entries
     )
-    return Ledger(ledger.whole, entries, ledger.whole)
+    return Ledger(ledger.whole, entries, ledger.whole), run
 
 
 def _once(scene: Scene, tolerance: float, most: int, integrator: str) -> tuple[Response, int, int]:
@@ -162,10 +154,11 @@ def _light(weights: dict[str, EffectInfluence], accuracy: float) -> frozenset[st
     return frozenset(out)
 
 
-def _why(weight: EffectInfluence, light: bool) -> str:
+def _why(weight: EffectInfluence, light: bool, out: bool) -> str:
     if weight.value is None:
         return f"not estimated, so simulated: {weight.why}"
-    return f"{'within' if light else 'beyond'} the accuracy: {weight.why}"
+    kept = "" if light == out else ", but leaving it out would save no work"
+    return f"{'within' if light else 'beyond'} the accuracy{kept}: {weight.why}"
 
 
 @dataclass(frozen=True)

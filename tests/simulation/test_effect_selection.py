@@ -87,6 +87,17 @@ def test_what_is_left_out_for_being_light_takes_its_part_of_the_accuracy() -> No
     assert ledger.spared == 1e-3 and ledger.promise == pytest.approx(5.0011)
 
 
+def test_where_as_many_events_remain_nothing_light_is_left_out() -> None:
+    """Friction that decides switches all the same; balls that hardly cross their race stay out, with their events."""
+    eccentric, friction = RaceEccentricityEffect(1e-10, 0.5), DryRollingFrictionEffect(2e-6, 0.003)
+    kept = chosen(scene(eccentric, friction), 0.01)
+    assert kept.scene.effects == (eccentric, friction) and "save no work" in kept.entries[0].why
+    across = TransverseMotionEffect(0.024, 0.003, 1e-9)
+    assert chosen(scene(eccentric, across, friction), 0.01).scene.effects == (friction,)
+    resting = TransverseMotionEffect(0.024, 0.003)
+    assert chosen(scene(eccentric, resting, friction), 0.01).scene.effects == (eccentric, friction)
+
+
 # whether weights are honest
 @pytest.mark.parametrize("speed", [300.0, *(pytest.param(one, marks=pytest.mark.slow) for one in (600.0, 1500.0))])
 def test_gravity_weighs_what_it_changes(speed: float) -> None:

@@ -1,10 +1,10 @@
 """Choice of the integrator: one loop of steps for nearly all scenes, SciPy's methods for stiff ones.
 
 A stiff scene that switches is tried in the loop for some turns, and goes to SciPy only if that takes more work. SciPy's
-methods are also used on request. The loop runs as compiled code. It runs as plain Python if
-there is no compiler, or if a run is over before compiled code is loaded; the numbers are the same. Its
-method depends on the scene and the tolerance alone: order 8 (DOP853) for smooth scenes and for tight
-tolerances, order 5 (RK45) for looser ones if events cut the steps short anyway.
+methods are also used on request. The loop runs as compiled code. It runs as plain Python if there is no compiler, or
+as long as a run seems to be over before compiled code is loaded; the numbers are the same. Its method depends on the
+scene and the tolerance alone: order 8 (DOP853) for smooth scenes and for tight tolerances, order 5 (RK45) for looser
+ones if events cut the steps short anyway.
 """
 
 import math

@@ -315,7 +315,7 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
     message = "two runs, a decade of tolerance apart, agree in amplitude, settling time and ball angles"
     if run.rung == "envelope":
         message = "averages of two orders, and what both leave out, agree in amplitude, settling time and ball angles"
-    message += f"; the effects left out change at most {spared:.2g} of it" if spared else ""
+    message += f"; the effects left out change these by at most {spared:.2g}" if spared else ""
     error = run.error_estimate + spared
     if error <= accuracy:
         return Check("ABU801", "accuracy reached", "pass", message, error, accuracy, None, None)
