@@ -62,7 +62,7 @@ def _list(result: EffectsResult) -> list[Block]:
     if left_out:
         together = (
             f"Left out: {many(len(left_out), 'effect')}, estimated influence together {number(result.promise, 2)} "
-            f"(accuracy {result.accuracy:g})."
+            f"(accuracy {result.accuracy:g}). `abu simulate` checks that by one run with all effects."
         )
     return [
         effects_grid(result.effects),
