@@ -58,7 +58,7 @@ class Solution:
     misfits: tuple[Vector, ...]
     condition: float
     """Condition number of the equations for the imbalance."""
-    told: Vector = ()
+    sensor_imbalances: Vector = ()
     """Imbalance that each sensor tells alone at each speed, without phase [kg m]."""
 
 
@@ -152,7 +152,7 @@ def solved(case: Balancing, method: Method, near: Solution | None = None) -> Sol
     Raises NotTrustworthyError where the planes can hardly be told apart.
     """
     if method == "runs without phase":
-        return _by_amplitudes(case, () if near is None else near.told)
+        return _by_amplitudes(case, () if near is None else near.sensor_imbalances)
     return _by_trials(case) if method == "trial masses" else _by_known_influence(case, method)
 
 
@@ -175,14 +175,15 @@ def _by_trials(case: Balancing) -> Solution:
 def _by_amplitudes(case: Balancing, near: Sequence[complex]) -> Solution:
     """Solution without phase: the imbalance that each sensor tells makes up for the phases."""
     sets, equations = amplitude_sets(case), []
-    told = solved_without_phase(sets, near)
+    imbalances = solved_without_phase(sets, near)
     gains, motions = (np.zeros((len(case.runs), len(case.runs[0].amplitudes)), kind) for kind in (float, complex))
-    for each, Q in zip(sets, told, strict=True):
+    for each, Q in zip(sets, imbalances, strict=True):
         runs, gain = list(each.runs), each.gain(Q)
         gains[runs, each.sensor], motions[runs, each.sensor] = gain, each.motions(Q)
         equations.append((each.speed, np.array([[gain]]), np.array([gain * Q])))
     influences = tuple(_matrix(row[:, None] + 0j) for row in gains)
-    return replace(_solution(case, "runs without phase", influences, equations, motions.tolist()), told=told)
+    solution = _solution(case, "runs without phase", influences, equations, motions.tolist())
+    return replace(solution, sensor_imbalances=imbalances)
 
 
 def _by_known_influence(case: Balancing, method: Method) -> Solution:

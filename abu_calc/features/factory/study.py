@@ -107,14 +107,14 @@ class SoftRaceLevel(Record):
 
 @record
 class DeviceNumber(Record):
-    """One number of a device that the factory built: published, and found with its balls pinned; null: none."""
+    """One number of a device that the factory built: published, and predicted with its balls pinned; null: none."""
 
     short: Annotated[str, Quantity("name")]
     balls: Annotated[str, Quantity("balls")]
     state: Annotated[str, Quantity("state", "", 4, "for which the factory found it enough")]
     quantity: Annotated[str, Quantity("quantity")]
     published: Annotated[float | None, Quantity("published")]
-    found: Annotated[float | None, Quantity("by the program")]
+    predicted: Annotated[float | None, Quantity("predicted")]
 
 
 @record
@@ -194,7 +194,7 @@ def _device(
     starts = (None,) * 4 if many is None else (many.predicted_level_db, many.level_db.worst,
                                                many.settling_time_s.typical, many.settling_time_s.worst)  # fmt: skip
     required = idle if state == "idle" else made.required_capacity_g_mm
-    for quantity, published, found in (
+    for quantity, published, predicted in (
         ("mass, %", mass, 100 * own.mass_fraction), ("mass if slim, %", mass, 100 * slim.mass_fraction),
         ("capacity, g·mm", None, own.capacity_g_mm), ("required, g·mm", None, required),
         ("idle, median, dB", None, starts[0]), ("idle, loudest, dB", None, starts[1]),
@@ -202,7 +202,7 @@ def _device(
         ("settling, median, s", 1.0, starts[2]), ("settling, slowest, s", 1.0, starts[3]),
     ):  # fmt: skip
         yield DeviceNumber(short=machine.short, balls=balls, state=state, quantity=quantity, published=published,
-                           found=found)  # fmt: skip
+                           predicted=predicted)  # fmt: skip
 
 
 def _fitted(machine: MeasuredMachine, origins: Sequence[ValueSource]) -> FittedValues:

@@ -191,8 +191,9 @@ def _devices(numbers: Sequence[DeviceNumber]) -> list[Block]:
     columns = {(row.short, row.balls, row.state): dict[str, str]() for row in numbers}
     for row in numbers:
         published = "" if row.published is None else f" ({'< ' if 'settling' in row.quantity else ''}{row.published:g})"
-        found = number(row.found, 3) if row.found is not None else "never" if "settling" in row.quantity else "–"
-        columns[row.short, row.balls, row.state][row.quantity] = found + published
+        missing = "never" if "settling" in row.quantity else "–"
+        predicted = missing if row.predicted is None else number(row.predicted, 3)
+        columns[row.short, row.balls, row.state][row.quantity] = predicted + published
     rows = [("balls, Ø mm", *(key[1] for key in columns)), ("enough for", *(key[2] for key in columns))]
     rows += [(name, *(cells[name] for cells in columns.values())) for name in next(iter(columns.values()))]
     grid = Grid(("as the factory built", *(key[0] for key in columns)), tuple(rows), frozenset(range(1, len(rows))))

@@ -192,16 +192,18 @@ def test_the_devices_that_the_factory_built_are_judged_as_they_were() -> None:
     """Masses by `abu size` with their balls pinned; the published ones by Kladiev 1996."""
     rows = once("factory", "--json").document["result"]["devices"]
     masses = {
-        (row["balls"], row["state"]): (row["published"], row["found"]) for row in rows if row["quantity"] == "mass, %"
+        (row["balls"], row["state"]): (row["published"], row["predicted"])
+        for row in rows
+        if row["quantity"] == "mass, %"
     }
     assert masses.keys() == {("2 × 16", "idle"), ("4 × 16", "loaded"), ("3 × 16", "loaded"), ("3 × 19.84", "loaded")}
     assert [published for published, _ in masses.values()] == [4.0, 4.0, 4.7, 4.9]
-    capacity = {(row["balls"], row["quantity"].partition(",")[0]): row["found"] for row in rows}
+    capacity = {(row["balls"], row["quantity"].partition(",")[0]): row["predicted"] for row in rows}
     for balls in ("2 × 16", "4 × 16", "3 × 16", "3 × 19.84"):
         assert capacity[balls, "capacity"] > capacity[balls, "required"]
     pinned = sized("avtovaz-707-370", **{"autobalancer.ball_count": 3, "autobalancer.ball_diameter_mm": 16.0})
     assert masses["3 × 16", "loaded"][1] == pytest.approx(100 * pinned.mass_fraction)
-    assert [row["found"] for row in rows if row["quantity"] == "settling, slowest, s"][2] is None
+    assert [row["predicted"] for row in rows if row["quantity"] == "settling, slowest, s"][2] is None
 
 
 def sized(preset: str, **changes: float) -> Candidate:
