@@ -5,7 +5,7 @@ import importlib
 import os
 import re
 import shlex
-from dataclasses import replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -46,7 +46,8 @@ class Provenance:
     overrides: tuple[tuple[str, object], ...]
     defaults: tuple[tuple[str, object], ...]
     version: str
-    date: str
+    date: str = field(compare=False)
+    """The day of the run: the same machine gives an equal result on the next."""
     converted: tuple[tuple[str, str, object], ...] = ()
 
     @classmethod

@@ -28,8 +28,8 @@ def csv_rows(name: str) -> tuple[tuple[str, ...], ...]:
 def unknown(what: str, name: str, known: Iterable[str], remedy: str | None = None) -> InputError:
     """The refusal of a name that a table does not have, with the nearest that it has.
 
-    >>> print(unknown("balance grade", "G6", ["G16", "G6.3"]))
-    unknown balance grade (found G6; allowed: G16, G6.3)
+    >>> print(unknown("balance grade", "6,3", ["G16", "G6.3"]))
+    unknown balance grade (found 6,3; allowed: G16, G6.3)
       The nearest known one is G6.3.
     """
     names = list(known)

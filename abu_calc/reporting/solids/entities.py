@@ -92,10 +92,10 @@ def _real(value: float) -> str:
 
 
 def written_string(text: str) -> str:
-    """A text by the format's alphabet: apostrophe and backslash doubled, all beyond ASCII by code, no control signs.
+    """A text by the format's alphabet: apostrophe and all beyond ASCII by code, backslash doubled, no control signs.
 
-    >>> written_string("d'Ø\\n")
-    "d''\\\\X2\\\\00D8\\\\X0\\\\ "
+    >>> print(written_string("d'Ø\\n") + "|")
+    d\\X\\27\\X2\\00D8\\X0\\ |
     """
     pieces, codes = list[str](), ""
 
