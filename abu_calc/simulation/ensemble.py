@@ -52,7 +52,8 @@ And how many starts at the drag given may be without an answer until no others a
 
 MORE, MOST_MORE = 10, 24_000_000
 """Times the work that a start may take in a second run, where that of the first did not suffice, and the work of all
-second runs together: about half a minute of compiled code. A run-up takes long, so its first run may take as much."""
+runs together up to which there are second ones: about half a minute of compiled code. A run-up takes long, so its first
+run may take as much."""
 
 STARTS = 30
 """About how many starts and closer runs a machine has."""
@@ -86,11 +87,13 @@ def simulate_members(
         doubtful = hanging_bounds(design).largest or 0.0
     starts, tolerance = list(members(design, doubtful, shares)), first_tolerance(design)
     results = _found(design, starts, accuracy, tolerance, progress, workers)
+    spent = sum(result.work for result in results)
     while undecided := deciding(results, design.case.drag):
         again = [(results[k].member, early_end) for k, early_end in undecided.items()]
         closer = within(progress, "closer")
         runs = list(every_start(design, again, accuracy, TIGHTER * tolerance, closer, workers, run_up_work=MORE * WORK))
-        runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers)
+        runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers, spent)
+        spent += sum(run.work for run in runs)
         for k, rerun in zip(undecided, runs, strict=True):
             results[k] = worse(results[k], rerun)
     outcomes = tuple(result for result in results if isinstance(result, StartOutcome))
@@ -250,24 +253,30 @@ def _found(
     both, most = [*first, *others], MORE * WORK
     with closing(every_start(design, both, accuracy, tolerance, progress, workers, run_up_work=most)) as runs:
         results = list(islice(runs, len(first)))
-        results = _with_more(design, results, first, accuracy, tolerance, progress, workers)
+        results = _with_more(design, results, first, accuracy, tolerance, progress, workers, 0)
         if sum(isinstance(result, Lost) for result in results) >= MOST_LOST:
             return [*results, *(Lost(start, "not tried, since others gave no answer", 0) for start, _ in others)]
         rest = list(runs)
-    return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers)]
+    spent = sum(result.work for result in results)
+    return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers, spent)]
 
 
 def _with_more(
     design: Design, results: list[StartOutcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
-    tolerance: float, progress: Progress, workers: int,
+    tolerance: float, progress: Progress, workers: int, spent: int,
 ) -> list[StartOutcome | Lost]:  # fmt: skip
-    """Outcomes of the start cases; those that ran out of allowed work are tried once more with more of it."""
+    """Outcomes of the start cases; those that ran out of allowed work are tried once more.
+
+    `spent`: work of the runs before these.
+    """
     lost = [k for k, outcome in enumerate(results) if isinstance(outcome, Lost) and outcome.short]
     short = [k for k in lost if results[k].work < MORE * WORK]
     if not short:
         return results
     long = sum(outcome.work > WORK for outcome in results if isinstance(outcome, StartOutcome))
-    work = min(MORE * WORK, MOST_MORE // (len(lost) + long))
+    work = min(MORE * WORK, (MOST_MORE - spent) // (len(lost) + long))
+    if work <= WORK:
+        return results
     runs = every_start(
         design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work
     )

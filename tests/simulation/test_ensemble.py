@@ -17,6 +17,7 @@ from abu_calc.dynamics.scene import with_parted_balls
 from abu_calc.features.design import verification
 from abu_calc.features.design.verification import MachineChange, changes, other_drags, passes, proven
 from abu_calc.foundation.checks import Check, Grade, coded
+from abu_calc.foundation.progress import silent
 from abu_calc.inputs.duty import Motor
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation import ensemble
@@ -246,6 +247,15 @@ def test_a_run_up_gets_its_work_at_once(monkeypatch: pytest.MonkeyPatch) -> None
     assert run_ups and others and not found.outcomes
     assert all(len(work) == 1 and work[0] > WORK for work in run_ups)
     assert all(len(work) == 2 and work[0] == WORK < work[1] for work in others)
+
+
+@pytest.mark.parametrize("spent", [0, ensemble.MOST_MORE])
+def test_second_runs_end_where_the_first_have_spent_the_work(monkeypatch: pytest.MonkeyPatch, spent: int) -> None:
+    found, start = design("msh-230"), Member("spread", 10.0)
+    lost, tried = Lost(start, "more work than allowed", WORK, short=True), list[int]()
+    monkeypatch.setattr(ensemble, "start_once", lambda *given: tried.append(given[4]) or lost)
+    assert ensemble._with_more(found, [lost], [(start, True)], 0.01, 1e-4, silent, 1, spent) == [lost]
+    assert tried == ([] if spent else [10 * WORK])
 
 
 def test_balls_that_carry_too_little_are_not_done() -> None:
