@@ -108,10 +108,10 @@ def without_size(scene: Scene) -> tuple[str, ...]:
 ACCURACY = motion.ACCURACY
 
 WORK, WORK_FAST = 10_000_000, 2_000_000
-"""Work that a simulation may take, each unit five evaluations of the loop or one of SciPy's: some minutes of
-SciPy's methods, half a minute in compiled code. A preset takes some ten thousand, the swing arm two hundred thousand,
-over a million for its levels. The second, where something oscillates far faster than the rotor turns: mostly a
-stiffness in another unit, worth some seconds."""
+"""Work that a simulation may take, each unit five evaluations of the loop (up to six balls) or one of SciPy's: some
+minutes of SciPy's methods, half a minute in compiled code. A preset takes some ten thousand, the swing arm two hundred
+thousand, over a million for its levels. The second, where something oscillates far faster than the rotor turns: mostly
+a stiffness in another unit, worth some seconds."""
 
 WORK_PLAIN = 700_000
 """The same for plain code that was asked for, at some 25 µs for each evaluation of its own: a minute or two."""

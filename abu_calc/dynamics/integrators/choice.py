@@ -42,6 +42,10 @@ LOOP_WORK: Final = 1 / 5
 """Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
 on it either: compiled it takes a twentieth of SciPy's time, in plain Python some times as long."""
 
+FEW: Final = 6
+"""Balls up to which an evaluation in the loop is worth this; with more it takes the longer the more there are. One of
+SciPy's hardly does."""
+
 COMPILED_TIME: Final = 1 / 20
 """Time of a compiled evaluation in units of one of SciPy's."""
 
@@ -152,7 +156,8 @@ def _loop_of(
     scene = "a tight tolerance" if method == "dop853" else "a scene that switches"
     order = f"order {5 if method == 'rk45' else 8} for {scene if watches(equations) else 'a smooth scene'}"
     why = f"the loop{'' if compiled else ' as plain Python'}, {order}{more}"
-    return IntegratorChoice(name, why, partial(_through, compiled=compiled, long=long), LOOP_WORK, LOOP_EVENT)
+    share = LOOP_WORK * max(1.0, (1 + len(equations.scene.ball_masses)) / (1 + FEW))
+    return IntegratorChoice(name, why, partial(_through, compiled=compiled, long=long), share, LOOP_EVENT)
 
 
 def _through(

@@ -6,11 +6,10 @@ from typing import Final, NamedTuple
 
 from abu_calc.features.two_races.checks import slowest
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.start_cases import StartCase, TwoRaceRun, run_of, start_cases
+from abu_calc.features.two_races.start_cases import MOST_ONE, StartCase, TwoRaceRun, run_of, runs_of
 from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import InputError
-from abu_calc.foundation.parallel import side_by_side
-from abu_calc.foundation.progress import Progress, counted
+from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.balls import CAPACITY, MASS
 from abu_calc.sizing.requirements import missed_by_race
@@ -143,9 +142,15 @@ def _rounded(value: float) -> float:
 
 
 def tried_change(
-    design: TwoRaceDesign, late: StartCase, before: float | None, accuracy: float, progress: Progress, workers: int
+    design: TwoRaceDesign,
+    late: StartCase,
+    before: float | None,
+    accuracy: float,
+    progress: Progress,
+    workers: int,
+    work: int,
 ) -> Action | None:
-    """The first change at which every start case balances in time; None if none of those tried does.
+    """The first change at which every start case balances in time; None if none of those tried by this work does.
 
     `late`: the slowest start case, which is tried first, `before`: its settling time [s] if it settles.
     """
@@ -155,7 +160,7 @@ def tried_change(
         """True if the run balances within the limit."""
         return run.balances and run.settling_time is not None and run.settling_time <= limit
 
-    mended = _mended(_quicker(design), late, in_time, accuracy, progress, workers)
+    mended = _mended(_quicker(design), late, in_time, accuracy, progress, workers, work)
     if mended is None or (slow := slowest(mended[1])) is None:
         return None
     change, runs = mended
@@ -168,16 +173,16 @@ def tried_change(
 
 
 def quieter_change(
-    design: TwoRaceDesign, loud: TwoRaceRun, accuracy: float, progress: Progress, workers: int
+    design: TwoRaceDesign, loud: TwoRaceRun, accuracy: float, progress: Progress, workers: int, work: int
 ) -> Action | None:
-    """The first change at which every start case balances below the level limit; None if none of those tried does."""
+    """The first change at which every start case balances below the level limit; None as for `tried_change`."""
     limits = design.case.table.limits
 
     def quiet(run: TwoRaceRun) -> bool:
         """True if the run balances below the limit."""
         return run.balances and run.level <= limits.vibration_level_db
 
-    mended = _mended(_quieter(design), loud.case, quiet, accuracy, progress, workers)
+    mended = _mended(_quieter(design), loud.case, quiet, accuracy, progress, workers, work)
     if mended is None:
         return None
     change, runs = mended
@@ -202,16 +207,18 @@ def sturdier_change(design: TwoRaceDesign) -> Action | None:
 
 def _mended(
     changes: Iterable[Change], first: StartCase, passes: Callable[[TwoRaceRun], bool], accuracy: float,
-    progress: Progress, workers: int,
+    progress: Progress, workers: int, work: int,
 ) -> tuple[Change, list[TwoRaceRun]] | None:  # fmt: skip
     """The first change at which every start case passes, with its runs; the start case `first` is tried before all."""
     for change in changes:
-        run = run_of(change.design, first, accuracy)
+        if work <= 0:
+            break
+        run = run_of(change.design, first, accuracy, min(MOST_ONE, work))
+        work -= run.work
         if not isinstance(run, TwoRaceRun) or not passes(run):
             continue
-        tasks = [(change.design, start, accuracy) for start in start_cases(change.design)]
-        counting = counted(progress, f"{change.text}: {{}} of {{}} starts", len(tasks))
-        runs = list(side_by_side(run_of, tasks, workers, counting))
+        runs = list(runs_of(change.design, accuracy, within(progress, change.text), workers, work))
+        work -= sum(run.work for run in runs)
         known = [run for run in runs if isinstance(run, TwoRaceRun) and passes(run)]
         if len(known) == len(runs):
             return change, known

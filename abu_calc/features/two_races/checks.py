@@ -181,11 +181,15 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
     """How many start cases gave no answer and why, and what to do about each reason."""
     chaotic = [run for run in lost if "chaotic" in run.reason]
     hurried = [run for run in lost if "--patience" in run.reason]
-    others = [run for run in lost if run not in chaotic and run not in hurried]
+    laborious = [run for run in lost if run.short and run not in hurried]
+    others = [run for run in lost if not (run in chaotic or run in hurried or run.short)]
     reasons, actions = [], []
     if hurried:
         reasons.append(f"{len(hurried)} ran out of time")
         actions.append("Allow more time: --patience.")
+    if laborious:
+        reasons.append(f"{len(laborious)} would take more work than allowed")
+        actions.append("Allow some minutes: --patience 600.")
     if chaotic:
         number = "1 is" if len(chaotic) == 1 else f"{len(chaotic)} are"
         reasons.append(f"{number} chaotic, so that no two runs agree: {chaotic[0].case.name}")

@@ -14,6 +14,7 @@ from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEff
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
+from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
 from abu_calc.dynamics.supports.tilting import tilting
@@ -23,8 +24,11 @@ from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.motion import HARDLY, SETTLED
 from abu_calc.formulas.two_races import PlacedImbalance
+from abu_calc.foundation import patience
 from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.parallel import side_by_side
+from abu_calc.foundation.progress import Progress, counted
 from abu_calc.foundation.units import from_si, level_from_velocity
 from abu_calc.simulation.response import amplitude_window
 from abu_calc.simulation.scene_of_file import in_order
@@ -51,6 +55,9 @@ PER_TURN: Final = 16
 """Samples of a revolution."""
 ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
+MOST_WORK, MOST_ONE, AT_ONCE = 8_000_000, 2_000_000, 4
+"""Work of all start cases together, most work of one, and how many begin before the rest is counted. The first is most
+of a minute of compiled code."""
 DOUBTFUL: Final = 0.2
 """Largest difference of runs of a chaotic start case that counts all the same, all of which end balanced."""
 
@@ -99,6 +106,7 @@ class TwoRaceRun:
     speed: float
     residuals: tuple[float, float] = (0.0, 0.0)
     """Residual imbalance [kg m] of each race at the end."""
+    work: int = 0
 
     @property
     def stalls(self) -> bool:
@@ -113,10 +121,12 @@ class TwoRaceRun:
 
 @dataclass(frozen=True)
 class LostRun:
-    """A start case without an answer, and why."""
+    """A start case without an answer, why, and the work that it may have taken; `short`: more work would give one."""
 
     case: StartCase
     reason: str
+    work: int = 0
+    short: bool = False
 
 
 def start_cases(design: TwoRaceDesign) -> Iterator[StartCase]:
@@ -249,20 +259,45 @@ def _race(design: TwoRaceDesign, race: int, start: StartCase, imbalance: complex
     )
 
 
-def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float) -> TwoRaceRun | LostRun:
-    """One start case simulated to an accuracy, and what came of both races."""
+def run_of(design: TwoRaceDesign, start: StartCase, accuracy: float, work: int | None = None) -> TwoRaceRun | LostRun:
+    """One start case to an accuracy, and what came of both races; `work`: its most, None: that of a simulation."""
     design, scene = at_speed(design, start.speed), scene_of(design, start)
     try:
-        return _observed(design, start, scene, accuracy)
+        return _observed(design, start, scene, accuracy, work)
     except NotTrustworthyError as error:
-        return LostRun(start, str(error).splitlines()[0])
+        return LostRun(start, str(error).splitlines()[0], work or 0, isinstance(error, TooMuchWorkError))
 
 
-def _observed(design: TwoRaceDesign, start: StartCase, scene: Scene, accuracy: float) -> TwoRaceRun:
+def all_work() -> int:
+    """Work that all start cases together may take; no bound with --patience."""
+    return patience.UNBOUNDED if patience.given() else MOST_WORK
+
+
+def runs_of(
+    design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int, work: int
+) -> Iterator[TwoRaceRun | LostRun]:
+    """All start cases, by about this work together; those for which none is left are lost.
+
+    What is left is counted after each few starts, so that the answer does not depend on how many run side by side.
+    """
+    starts = list(start_cases(design))
+    counting = counted(progress, "{} of {} starts", len(starts))
+    for first in range(0, len(starts), AT_ONCE):
+        few = starts[first : first + AT_ONCE]
+        if work <= 0:
+            yield from (LostRun(start, "not tried", short=True) for start in few)
+            continue
+        tasks = [(design, start, accuracy, min(MOST_ONE, work)) for start in few]
+        for run in side_by_side(run_of, tasks, workers, counting):
+            work -= run.work
+            yield LostRun(run.case, "the time of --patience was over") if patience.over() else run
+
+
+def _observed(design: TwoRaceDesign, start: StartCase, scene: Scene, accuracy: float, work: int | None) -> TwoRaceRun:
     """A run and what came of both races."""
     times, doubt = revolution_times(scene), 0.0
     try:
-        run = simulate(scene, accuracy, times)
+        run = simulate(scene, accuracy, times, work)
     except ChaoticError as error:
         # All runs end with balls at rest that balance: what the numbers are in doubt by is added to them.
         if error.ended is None or not error.ended.error_estimate <= DOUBTFUL:
@@ -289,6 +324,7 @@ def _observed(design: TwoRaceDesign, start: StartCase, scene: Scene, accuracy: f
         settling_time=settled,
         slip=slip,
         speed=case.speed,
+        work=run.cost.work,
         residuals=(_end(left[0]), _end(left[1])),
         balances=slip <= STILL and all(
             end <= max(without / 2, allowed_displacement(design, k))
@@ -349,12 +385,6 @@ def residual_imbalances(scene: Scene, states: Array, needs: tuple[complex, compl
 def _end(residual: Array) -> float:
     """Mean over the last twentieth."""
     return float(residual[-max(1, len(residual) // 20) :].mean())
-
-
-def every_run(design: TwoRaceDesign, accuracy: float) -> Iterator[TwoRaceRun | LostRun]:
-    """All start cases, one after another."""
-    for start in start_cases(design):
-        yield run_of(design, start, accuracy)
 
 
 def stability_scene(design: TwoRaceDesign, phases: tuple[float, ...]) -> Scene:

@@ -40,10 +40,10 @@ from abu_calc.features.two_races.start_cases import (
     PHASES,
     LostRun,
     TwoRaceRun,
+    all_work,
     level_of,
-    run_of,
+    runs_of,
     stability_scene,
-    start_cases,
 )
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.two_races import (
@@ -56,8 +56,8 @@ from abu_calc.formulas.two_races import (
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
-from abu_calc.foundation.parallel import processors, side_by_side
-from abu_calc.foundation.progress import Progress, counted, silent
+from abu_calc.foundation.parallel import processors
+from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.result import Provenance
@@ -89,7 +89,8 @@ def size_two_races(
     above = all(two_races_balance(design.case.rotor, speed) for speed in speeds)
     judged = tuple(_stability(design, speed) for speed in speeds) if above else ()
     accuracy, threads = max(accuracy, ACCURACY), processors() if workers is None else workers
-    runs = tuple(_runs(design, accuracy, progress, threads)) if above else ()
+    runs = tuple(runs_of(design, accuracy, progress, threads, all_work())) if above else ()
+    left = (all_work() - sum(run.work for run in runs)) // 2
     one = _one_race(design)
     known = [run for run in runs if isinstance(run, TwoRaceRun)]
     vibration = _vibration(design.case, known)
@@ -99,8 +100,8 @@ def size_two_races(
             region_check(design, one),
             *stability_check(design, judged),
             *_made(design),
-            *level_checks(design, vibration, known, _quieter(design, known, accuracy, progress, threads)),
-            *start_checks(design, runs, _advice(design, known, accuracy, progress, threads)),
+            *level_checks(design, vibration, known, _quieter(design, known, accuracy, progress, threads, left)),
+            *start_checks(design, runs, _advice(design, known, accuracy, progress, threads, left)),
         ),
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
@@ -155,7 +156,7 @@ def _off(case: TwoRaceCase) -> float:
 
 
 def _advice(
-    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int
+    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int, work: int
 ) -> Action | None:
     """A drag rate that was tried, if a start case is late or does not balance."""
     limit = design.case.table.limits.settling_time_s
@@ -164,7 +165,7 @@ def _advice(
         return None
     slow = slowest(runs)
     first = slow[1] if slow is not None else next((run for run in late if run.settling_time is None), late[0])
-    return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers)
+    return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers, work)
 
 
 def _made(design: TwoRaceDesign) -> Iterator[Check]:
@@ -174,19 +175,13 @@ def _made(design: TwoRaceDesign) -> Iterator[Check]:
 
 
 def _quieter(
-    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int
+    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int, work: int
 ) -> Action | None:
     """A truer or cleaner race that was tried, if a start case is too loud."""
     loud = max(runs, key=lambda run: run.level, default=None)
     if loud is None or loud.level <= design.case.table.limits.vibration_level_db or patience.over():
         return None
-    return quieter_change(design, loud, accuracy, progress, workers)
-
-
-def _runs(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int) -> Iterator[TwoRaceRun | LostRun]:
-    tasks = [(design, start, accuracy) for start in start_cases(design)]
-    for index, run in enumerate(side_by_side(run_of, tasks, workers, counted(progress, "{} of {} starts", len(tasks)))):
-        yield LostRun(tasks[index][1], "the time of --patience was over") if patience.over() else run
+    return quieter_change(design, loud, accuracy, progress, workers, work)
 
 
 def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:

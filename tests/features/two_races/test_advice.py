@@ -11,7 +11,7 @@ from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.checks import capacity_checks, level_checks, mass_checks, race_checks
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.records import TwoRaceSizeResult
-from abu_calc.features.two_races.start_cases import StartCase, TwoRaceRun, run_of, speed_ends, start_cases
+from abu_calc.features.two_races.start_cases import StartCase, TwoRaceRun, all_work, run_of, speed_ends, start_cases
 from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import read_machine
 
@@ -51,7 +51,7 @@ def test_the_quieter_change_holds_when_followed() -> None:
     table = design.case.table
     table = table.model_copy(update={"limits": table.limits.model_copy(update={"vibration_level_db": limit})})
     strict = replace(design, case=replace(design.case, table=table))
-    action = advice.quieter_change(strict, loud, 0.05, silent, 1)
+    action = advice.quieter_change(strict, loud, 0.05, silent, 1, all_work())
     assert action is not None
     assert "race_eccentricity_mm" in action.text and "(simulated" in action.text
     followed = design_of(*action.overrides)

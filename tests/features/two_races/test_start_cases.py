@@ -14,17 +14,23 @@ from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.checks import _lost_in_words
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.start_cases import (
+    MOST_ONE,
+    MOST_WORK,
     LostRun,
     StartCase,
     TwoRaceRun,
+    all_work,
     revolution_times,
     run_of,
+    runs_of,
     scene_of,
     settling_time,
     start_cases,
     wheels_share,
 )
+from abu_calc.foundation import patience
 from abu_calc.foundation.errors import ChaoticError
+from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.simulate import Simulation, simulate
 
@@ -159,7 +165,7 @@ def test_chaotic_runs_that_all_end_balanced_count_with_their_doubt(
     calm = run_of(design, case, 0.05)
     assert isinstance(calm, TwoRaceRun)
 
-    def chaotic(scene: Scene, accuracy: float, times: Any) -> Simulation:
+    def chaotic(scene: Scene, accuracy: float, times: Any, _work: int | None) -> Simulation:
         failure = ChaoticError("idle: the motion is chaotic")
         failure.ended = replace(simulate(scene, accuracy, times), error_estimate=doubt)
         raise failure
@@ -181,3 +187,26 @@ def test_reasons_of_lost_start_cases_are_told_apart() -> None:
     assert text.startswith("2 of 80 start cases gave no answer. 1 ran out of time; 1 is chaotic")
     assert "spread, phase 0°, 1500 rpm" in text
     assert "--patience" in action and "--accuracy" not in action and "not tried" in action
+
+
+def test_start_cases_end_where_all_together_have_taken_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is left is counted after each four, so that workers change nothing; the rest is lost, and says so."""
+    design, given = design_of(), list[int]()
+    starts = list(start_cases(design))
+
+    def dear(_: TwoRaceDesign, start: StartCase, _accuracy: float, work: int) -> LostRun:
+        given.append(work)
+        return LostRun(start, "more work than allowed", work, short=True)
+
+    monkeypatch.setattr(start_cases_module, "run_of", dear)
+    runs = list(runs_of(design, 0.05, silent, 1, 2 * MOST_ONE + 1))
+    assert [run.case for run in runs] == starts and given == [MOST_ONE] * 4
+    assert list(runs_of(design, 0.05, silent, 3, 2 * MOST_ONE + 1)) == runs
+    text, action = _lost_in_words([run for run in runs if isinstance(run, LostRun)], len(runs))
+    assert f"{len(starts)} would take more work than allowed" in text and "--patience 600" in action
+
+
+def test_patience_lifts_the_bound_of_work() -> None:
+    assert all_work() == MOST_WORK
+    with patience.limited(60.0):
+        assert all_work() > 1000 * MOST_WORK
