@@ -49,6 +49,9 @@ SciPy's hardly does."""
 COMPILED_TIME: Final = 1 / 20
 """Time of a compiled evaluation in units of one of SciPy's."""
 
+IMPLICIT_EVENT: Final = 4 * EVENT
+"""Evaluations that an event is worth in an implicit method of SciPy's, whose first steps after it are small."""
+
 TRIAL: Final = 3
 """Revolutions for which a stiff scene that switches is tried in the loop."""
 
@@ -176,18 +179,20 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
     """True if the loop takes a stiff scene through its first turns sooner than an implicit method would.
 
     That method begins anew at each event. The loop is tried, since the decay at the start tells little of the motion
-    to come: friction holds a ball that has hardly begun to move ten thousand times as fast as one that rolls.
+    to come: friction holds a ball that has hardly begun to move ten thousand times as fast as one that rolls. If there
+    are more events than expected, so that the trial ends early, these would cost the implicit method as much.
     """
     scene = equations.scene
     if not watches(equations) or untraceable(equations):
         return False
     about, until = counts(equations, tolerance), min(TRIAL * scene.revolution, scene.duration)
-    implicit = (about.scipy + EVENT * about.events) / RUNS * until / scene.duration
+    implicit = (about.scipy + IMPLICIT_EVENT * about.events) / RUNS * until / scene.duration
     choice = quickest_loop(equations, tolerance)
     try:
         choice.integrate(equations, tolerance, [until], math.ceil(implicit / COMPILED_TIME))
-    except TooMuchWorkError:
-        return False
+    except TooMuchWorkError as error:
+        same = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * error.events
+        return same > implicit
     except NotTrustworthyError:  # the whole run tells what is wrong
         return True
     return True

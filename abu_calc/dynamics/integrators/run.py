@@ -230,18 +230,18 @@ def work(run: Trajectory, event: int = EVENT) -> int:
 
 class TooMuchWorkError(NotTrustworthyError):
     """A run needs more evaluations, or seconds, than it may take; it was given up at the time `reached` [s] by so many
-    evaluations, 0 where it was not begun.
+    evaluations, 0 where it was not begun, and after so many events.
     """
 
-    def __init__(self, message: str, reached: float = 0.0, evaluations: int = 0) -> None:
+    def __init__(self, message: str, reached: float = 0.0, evaluations: int = 0, events: int = 0) -> None:
         super().__init__(message)
-        self.reached, self.evaluations = reached, evaluations
+        self.reached, self.evaluations, self.events = reached, evaluations, events
 
 
 def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
     """The error of a run that was given up at its bound."""
     did = f"{evaluations} evaluations" + (f" and {events} events" if events else "")
-    return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"), t, evaluations)
+    return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"), t, evaluations, events)
 
 
 def too_much(evaluations: str, most: int, remedy: str = "") -> TooMuchWorkError:
