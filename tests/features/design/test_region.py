@@ -1,6 +1,7 @@
 """Stability over the whole speed range of a machine, and the bounds on hanging balls, as `abu size` has them."""
 
 import math
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -50,6 +51,12 @@ def written(tmp_path: Path, text: str = RANGE) -> str:
 
 def design_of(file: str, *changes: str) -> Design:
     return size(read_machine(file, changes).whole("size"))
+
+
+@cache
+def region_of(file: str, *changes: str) -> SpeedRange:
+    """Of a file that stays as it is."""
+    return true_region(design_of(file, *changes))
 
 
 def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
@@ -112,10 +119,12 @@ def test_modes_of_a_machine_in_hands_with_the_damped_one() -> None:
     assert max(design.frequency.natural_frequencies) < 2 * math.pi * 3
 
 
+FLUTTERING = ('suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1")
+
+
 def test_hands_that_let_the_balls_flutter_fail() -> None:
     """Not stable and a pass cannot stand together."""
-    hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
-    region = true_region(design_of("msh-230", *hands))
+    region = region_of("msh-230", *FLUTTERING)
     assert region.stable is False and region.check.status == "fail"
 
 
@@ -124,8 +133,7 @@ HANDS = str(Path(__file__).parents[2] / "machines" / "angle-grinder-hands.toml")
 
 def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
     """An angle grinder in hands at 11 000 rpm: 167 rpm is no action; another drag is, and the command agrees."""
-    design = design_of(HANDS)
-    region = true_region(design)
+    region = region_of(HANDS)
     check = region.check
     assert region.stable is False and region.boundaries is not None
     first, last = region.boundaries
@@ -144,7 +152,7 @@ def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
 
 
 def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
-    held = true_region(design_of(HANDS)).check
+    held = region_of(HANDS).check
     assert (
         held.status == "warn"
         and "Dry friction holds all balls at rest in 12 of 12 simulated start cases" in held.message
@@ -154,8 +162,7 @@ def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
 
 
 def test_friction_that_does_not_hold_every_start_fails() -> None:
-    hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
-    check = true_region(design_of("msh-230", *hands)).check
+    check = region_of("msh-230", *FLUTTERING).check
     assert check.status == "fail" and " simulated start cases" in check.message
 
 

@@ -31,7 +31,7 @@ FAILING: dict[str, tuple[str, dict[str, Any], dict[str, str], str]] = {
 RUNS = 60
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @pytest.mark.parametrize(("preset", "changes", "vary", "limit"), FAILING.values(), ids=FAILING.keys())
 def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str) -> None:
     machine = abu_calc.read(preset).changed(changes)

@@ -11,7 +11,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.two_races.case import capacity_needs, read_case
-from abu_calc.features.two_races.checks import region_check, start_checks
+from abu_calc.features.two_races.checks import capacity_checks, region_check, start_checks
 from abu_calc.features.two_races.choice import choose_both
 from abu_calc.features.two_races.drawing import both_solids
 from abu_calc.features.two_races.figures import two_race_extras
@@ -172,13 +172,22 @@ def test_what_cannot_be_made_is_refused(overrides: tuple[str, ...], words: str) 
 
 
 def test_an_imbalance_that_no_ball_carries_fails() -> None:
+    tables = read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]).two_races
+    assert tables is not None
+    design = choose_both(read_case(tables))
+    assert "fail" in [check.status for check in capacity_checks(design)]
+    assert region_check(design, None).status == "fail"
+
+
+@pytest.mark.slow
+def test_an_imbalance_that_no_ball_carries_fails_as_a_whole() -> None:
     result = abu_calc.size(read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]))
     failed = {check.code for check in result.checks if check.status == "fail"}
     assert {"ABU101", "ABU201"} <= failed
 
 
 def test_both_autobalancers_stand_at_their_planes_as_solids() -> None:
-    found = sized()
+    found = sized(*BETWEEN)
     assembly = both_solids(found)
     for number, own in enumerate(found.autobalancers, 1):
         balls = [item for item in assembly.items if item.name.startswith(f"race {number} {own.corrector} ")]
