@@ -59,11 +59,17 @@ def test_no_advice_where_nothing_fails() -> None:
 def test_the_value_that_decides_the_failed_limit_is_named() -> None:
     """The level fails by the eccentricity alone here: it decides the margin, and failures lie at its high values."""
     machine = abu_calc.read("avtovaz-707-222").changed(FAILING["level"][1])
-    sweep = abu_calc.sweep(machine, None, 60, tolerances=True, seed=3)
+    sweep = abu_calc.sweep(machine, None, 24, tolerances=True, seed=3, accuracy=0.1)
     (failed,) = [each for each in sweep.failed_limits if each.limit == "meets_level"]
     assert (failed.decides[0].key, failed.decides[0].fails_at) == ("autobalancer.race_eccentricity_mm", "high values")
     assert failed.decides[0].total > 0.7
     assert failed.failed == sum(sweep.members["meets_level"] == 0)
+    best = sweep.advice[0]
+    assert best.before == sweep.meets_limits.share < best.after
+    followed = abu_calc.sweep(
+        machine.changed(best.set_ or {}), best.vary, 24, tolerances=True, seed=3, accuracy=0.1
+    )  # fmt: skip
+    assert followed.meets_limits.share == pytest.approx(best.after, abs=1e-12)
 
 
 @pytest.mark.parametrize(
