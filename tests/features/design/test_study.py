@@ -1,7 +1,12 @@
 """Scenes of a sized machine: which are simulated, and what is said of those that cannot be."""
 
+import pytest
+
 import abu_calc
 from abu_calc.features.design.study import merged
+from abu_calc.simulation.design_scenes import simulated
+from abu_calc.simulation.ensemble_checks import not_simulated
+from abu_calc.sizing import size as size_design
 from tests.cli.runner import once
 
 
@@ -17,6 +22,16 @@ def test_all_scenes_a_file_calls_for_are_simulated() -> None:
     assert model["swing-arm-idle"]["states"][:2] == ["arm_angle", "arm_angle'"]
 
 
+def test_a_scene_that_cannot_be_simulated_leaves_the_others() -> None:
+    """An arm that does not stand at the work."""
+    machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.contact_angle_deg": 5.0})
+    runs, (fault,) = simulated(size_design(machine.whole("size")), 0.01)
+    assert [run.ledger.scene.name for run in runs] == ["idle", "swing-arm-idle"]
+    check = not_simulated(fault.scene, fault.reason, answered=True)
+    assert (check.code, check.status) == ("ABU703", "not-done") and "swing-arm-cutting" in check.name
+
+
+@pytest.mark.slow
 def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
     """An arm that does not stand at the work: the design stands, its other scenes too."""
     machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.contact_angle_deg": 5.0})
@@ -30,7 +45,8 @@ def test_wheel_and_work_that_part_are_a_warning() -> None:
     """c_n E (2MΩ² − …)/… of 90 µm at 0.49 MN/m is 49 N, more than the press of 45; a true wheel does not bounce."""
     warnings = once("size", "avtovaz-707-222", "--json").document["warnings"]
     assert [warning for warning in warnings if warning.startswith("grinding: wheel and workpiece lose contact")]
-    warnings = abu_calc.size(abu_calc.read("avtovaz-707-222").changed({"wheel.runout_mm": 0.01}), starts="none").warnings
+    true = abu_calc.read("avtovaz-707-222").changed({"wheel.runout_mm": 0.01})
+    warnings = abu_calc.size(true, starts="none").warnings
     assert not [warning for warning in warnings if "lose contact" in warning]
 
 

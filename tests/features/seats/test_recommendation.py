@@ -83,7 +83,8 @@ def test_a_recommendation_never_fails_when_it_is_written_into_the_file(seed: int
         if {"shaft_fit", "housing_fit"} <= set(fits):
             whole += 1
             assert "ABU621" not in failed, (row.designation, given, fits)
-    assert judged > 0.93 * count and whole > 0.73 * count  # few are without a class: overloaded, hollow to the skin, split
+    # Few are without a class: overloaded, hollow to the skin, split.
+    assert judged > 0.93 * count and whole > 0.73 * count
 
 
 def test_no_class_is_recommended_if_no_group_keeps_clearance() -> None:

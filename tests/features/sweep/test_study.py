@@ -12,7 +12,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep.samples import SweepStudy
-from tests.remembered import recalled
+from tests.remembered import recalled, remembered
 
 ECCENTRICITY = "autobalancer.race_eccentricity_mm"
 QUIET = {
@@ -157,7 +157,8 @@ def test_no_member_with_a_number_is_no_answer(machine: abu_calc.Machine, monkeyp
 
 def test_designs_are_sized_anew() -> None:
     machine = abu_calc.read("avtovaz-707-222")
-    members = abu_calc.sweep(machine, {"wheel.imbalance_g_mm": [100.0, 300.0]}, what="design", workers=1).members
+    with remembered():
+        members = abu_calc.sweep(machine, {"wheel.imbalance_g_mm": [100.0, 300.0]}, what="design", workers=1).members
     light = recalled("size", machine.changed({"wheel.imbalance_g_mm": 100.0}))
     assert members["mass_g"][0] == pytest.approx(light.autobalancer.mass_g)
     assert members["mass_g"][1] > 1.1 * members["mass_g"][0]
