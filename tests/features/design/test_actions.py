@@ -23,7 +23,7 @@ MACHINES = [
     for file in sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))
     if "[machine]" in file.read_text(encoding="utf-8")
 ]
-RANDOM = range(40)
+RANDOM = [pytest.param(seed, marks=pytest.mark.slow if seed < 8 else pytest.mark.hard) for seed in range(40)]
 
 TOLD = re.compile(
     r"(?P<what>[a-z][^:;.]*?) (?:falls|rises) from (?P<before>\S+) to (?P<after>[-\d.]+)(?P<unit> \S+)? \("
@@ -122,7 +122,6 @@ def test_every_action_of_the_hard_machines_comes_true(file: Path) -> None:
     assert list(faults(file.stem, machine, recalled("size", machine))) == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", RANDOM)
 def test_every_action_of_random_machines_comes_true(seed: int, tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"

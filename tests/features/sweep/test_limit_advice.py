@@ -33,8 +33,13 @@ FAILING: dict[str, tuple[str, dict[str, Any], dict[str, str], str]] = {
 RUNS = 60
 
 
-@pytest.mark.hard
-@pytest.mark.parametrize(("preset", "changes", "vary", "limit"), FAILING.values(), ids=FAILING.keys())
+@pytest.mark.parametrize(
+    ("preset", "changes", "vary", "limit"),
+    [
+        pytest.param(*case, id=name, marks=pytest.mark.slow if name == "settling" else pytest.mark.hard)
+        for name, case in FAILING.items()
+    ],
+)
 def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str) -> None:
     machine = abu_calc.read(preset).changed(changes)
     sweep = abu_calc.sweep(machine, vary, RUNS, tolerances=True, seed=3)

@@ -20,7 +20,8 @@ from abu_calc.features.two_races.start_cases import LostRun, StartCase
 from abu_calc.formulas.two_races import resultant_quantile
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
-from tests.cli.runner import abu
+from tests.cli.runner import again
+from tests.remembered import recalled
 
 BALL = 7800 * 4 / 3 * math.pi
 """Mass of a steel ball per cube of its radius [kg/m³]."""
@@ -37,7 +38,7 @@ BETWEEN = (
 
 @cache
 def sized(*overrides: str) -> TwoRaceSizeResult:
-    result = abu_calc.size(read_machine("pedestal-grinder", overrides))
+    result = recalled("size", read_machine("pedestal-grinder", overrides))
     assert isinstance(result, TwoRaceSizeResult)
     return result
 
@@ -137,13 +138,13 @@ def test_the_response_peaks_at_the_critical_speeds() -> None:
 @pytest.mark.slow
 def test_screen_page_and_json_tell_of_both_races(tmp_path: Path) -> None:
     page = tmp_path / "page.html"
-    seen = abu("size", "pedestal-grinder", "--output", str(page))
+    seen = again("size", "pedestal-grinder", "--output", str(page))
     assert "race 1" in seen.out
     assert "race 2" in seen.out
     text = page.read_text(encoding="utf-8")
     assert "Displacement against speed" in text
     assert "Race 2" in text
-    entries = json.loads(abu("size", "pedestal-grinder", "--json").out)["result"]
+    entries = json.loads(again("size", "pedestal-grinder", "--json").out)["result"]
     assert [race["plane_mm"] for race in entries["autobalancers"]] == [300.0, -300.0]
 
 
