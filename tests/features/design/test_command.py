@@ -46,6 +46,7 @@ def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
     assert missing == {"ABU401", "ABU402"}
     assert document["result"]["frequency"]["region"] == "subcritical"
     assert not document["result"]["frequency"]["balancing_possible"]
+    assert document["result"]["data_gaps"] == []
 
 
 def test_a_machine_in_hands_is_simulated_with_them() -> None:

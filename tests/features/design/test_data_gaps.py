@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.design.data_gaps import RANGES, DataGap, assumed_values
+from abu_calc.features.design.data_gaps import RANGES, DataGap, assumed_values, data_gaps
 from abu_calc.features.design.screen import gap_table
 from abu_calc.features.design.study import SizeResult, size
 from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.read_machine import Machine, read_machine
 from abu_calc.reporting.blocks import Grid
+from abu_calc.sizing import size as size_design
 from tests.remembered import recalled
 
 
@@ -98,6 +99,10 @@ def test_what_a_file_leaves_out_counts_as_assumed(machine: Machine) -> None:
     assert set(listed) - set(dict(assumed_values(plain))) == {
         "autobalancer.rolling_drag_per_s", "autobalancer.rolling_friction_mm"
     }  # fmt: skip
+
+
+def test_there_are_no_gaps_without_start_cases(machine: Machine) -> None:
+    assert data_gaps(size_design(machine.whole("size")), None, 0.01) == ()
 
 
 @pytest.mark.slow
