@@ -4,6 +4,7 @@ import importlib
 import inspect
 import os
 import pickle
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -42,8 +43,10 @@ def remembered() -> Iterator[None]:
     """A study of the same file, entries and arguments is not made anew; for tests that patch nothing of it."""
     with pytest.MonkeyPatch.context() as patch:
         for name in STUDIES:
-            module = importlib.import_module(f"abu_calc.features.{STUDIES[name]}.study")
-            patch.setattr(module, name, partial(_recalled, getattr(module, name)))
+            study = getattr(importlib.import_module(f"abu_calc.features.{STUDIES[name]}.study"), name)
+            for own, module in list(sys.modules.items()):  # others may have imported it by its name
+                if own.startswith("abu_calc.features.") and vars(module).get(name) is study:
+                    patch.setattr(module, name, partial(_recalled, study))
         yield
 
 

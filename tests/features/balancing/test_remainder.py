@@ -211,7 +211,8 @@ def test_a_wrong_angle_at_one_speed_is_found_where_the_planes_suffice() -> None:
     assert grades(wrong)["ABU1006"] in ("warn", "fail") and grades(wrong)["ABU1013"] == "pass"
 
 
-def test_what_remains_is_at_most_what_was_told() -> None:
+@pytest.mark.parametrize("count", [30, pytest.param(100, marks=pytest.mark.slow)])
+def test_what_remains_is_at_most_what_was_told(count: int) -> None:
     """Three sensors, one plane, every number off by its error: each bound may be exceeded once in twenty."""
     rng, beyond, squares = np.random.default_rng(8), 0, []
     factor = 50 * math.pi * SHOWN["mm/s rms"]
@@ -223,7 +224,7 @@ def test_what_remains_is_at_most_what_was_told() -> None:
     def placed(imbalance: complex) -> complex:
         return imbalance * (1 + 0.01 * rng.standard_normal() + 1j * math.radians(1) * rng.standard_normal())
 
-    for seed in range(100):
+    for seed in range(count):
         W, X = random_machine(100 + seed, 3, 1)
         X[1] *= 0.01
         moved = run(spoilt(X + W[:, 0] * placed(1e-3 * 8.0 * RADIUS)), (0, 8.0, 0.0), planes=1)
@@ -232,7 +233,7 @@ def test_what_remains_is_at_most_what_was_told() -> None:
         (verification,) = result.residual_check.verification
         beyond += sum(own > sensor.at_most for own, sensor in zip(rest, verification.sensors, strict=True))
         squares += [(own / sensor.expected) ** 2 for own, sensor in zip(rest, verification.sensors, strict=True)]
-    assert beyond <= 15 and 0.8 < math.sqrt(np.mean(squares)) < 1.2
+    assert beyond <= 0.15 * count and 0.8 < math.sqrt(np.mean(squares)) < 1.2
 
 
 def little_left(share: float) -> tuple[np.ndarray, np.ndarray]:

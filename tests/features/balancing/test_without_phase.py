@@ -22,7 +22,7 @@ def quiet(**values: object) -> Fan:
 
 
 @pytest.mark.parametrize("angle", [0.0, 77.0, 180.0, 301.0])
-@pytest.mark.parametrize("mass", [3.0, 30.0, 100.0])
+@pytest.mark.parametrize("mass", [3.0, 100.0])
 def test_four_runs_give_mass_and_angle(tmp_path: Path, mass: float, angle: float) -> None:
     """Light and heavy trial masses, the one as large as the imbalance among them."""
     fan = quiet(imbalance=(mass, angle), sensors_deg=(20.0,))
@@ -33,18 +33,19 @@ def test_four_runs_give_mass_and_angle(tmp_path: Path, mass: float, angle: float
         assert plane.mass_g == pytest.approx(mass, rel=1e-6) and abs(turned(plane.angle_deg, angle)) < 1e-4
 
 
-def test_the_answer_is_within_its_uncertainty_on_100_seeds(tmp_path: Path) -> None:
+@pytest.mark.parametrize("count", [12, pytest.param(100, marks=pytest.mark.slow)])
+def test_the_answer_is_within_its_uncertainty(tmp_path: Path, count: int) -> None:
     """Fans of all sizes; trial masses off by a percent, readings too: at least 95 corrections leave what was told."""
     inside = 0
-    for seed in range(100):
+    for seed in range(count):
         fan = any_fan(seed)
         text = four(fan, fan.imbalance[0] * fan.rng.uniform(0.4, 1.5), fan.rng.uniform(0, 360))
         plane = abu_calc.balance(written(tmp_path, fan.plane, *text)).single_plane
         inside += fan.left_by(plane.mass_g, plane.add_at_deg) <= plane.rest_at_most_g_mm
-    assert inside >= 95
+    assert inside >= 0.95 * count
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 6))])
 def test_more_sensors_speeds_and_runs_are_all_used(tmp_path: Path, seed: int) -> None:
     """Two sensors, two speeds, five states: the answer is surer than that of four runs, and as good as told."""
     fan = any_fan(seed, sensors=2)

@@ -6,13 +6,15 @@ import abu_calc
 from abu_calc.features.compare.screen import compare_screen, words_of
 from abu_calc.features.compare.study import CompareResult
 from abu_calc.reporting.text import as_text
+from tests.remembered import remembered
 
 
 @cache
 def drags() -> CompareResult:
     """A machine with its drag rate, and with three times as much."""
     machine = abu_calc.read("avtovaz-707-222")
-    return abu_calc.compare([machine, machine.changed({"autobalancer.rolling_drag_per_s": 45.0})])
+    with remembered():
+        return abu_calc.compare([machine, machine.changed({"autobalancer.rolling_drag_per_s": 45.0})])
 
 
 @cache
@@ -38,7 +40,8 @@ def test_levels_and_settling_stand_first_case_by_case_with_their_limits() -> Non
 
 
 def test_a_machine_without_an_autobalancer_has_no_level() -> None:
-    result = abu_calc.compare([abu_calc.read("msh-230"), abu_calc.read("mmg-3200k-knife-shaft")])
+    with remembered():
+        result = abu_calc.compare([abu_calc.read("msh-230"), abu_calc.read("mmg-3200k-knife-shaft")])
     screen = as_text(compare_screen(result))
     assert line_of(screen, "Idle, without").split()[-1] == "–" and len(screen.splitlines()) <= 48
 

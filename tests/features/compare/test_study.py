@@ -15,6 +15,7 @@ from abu_calc.foundation.quantity import flattened
 from abu_calc.inputs.reading.overrides import parse_variant
 from abu_calc.reporting.text import as_text
 from tests.cli.runner import abu
+from tests.remembered import recalled
 
 SHAFT = ("compare", "mmg-3200k-knife-shaft", "--variant", "bearing[0].shaft_fit=m6")
 CHANGE = {"autobalancer.max_outer_diameter_mm": 40.0, "wheel.runout_angle_deg": 0.0}
@@ -24,7 +25,7 @@ CHANGE = {"autobalancer.max_outer_diameter_mm": 40.0, "wheel.runout_angle_deg": 
 def sized() -> tuple[SizeResult, SizeResult]:
     """A machine, and one whose balls have too little room."""
     machine = abu_calc.read("msh-230")
-    return abu_calc.size(machine), abu_calc.size(machine.changed(CHANGE))
+    return recalled("size", machine), recalled("size", machine.changed(CHANGE))
 
 
 @pytest.fixture(scope="module")

@@ -55,7 +55,7 @@ MACHINES = {
 }  # fmt: skip
 
 
-@pytest.fixture(scope="module", params=MACHINES)
+@pytest.fixture(scope="module", params=["S100", pytest.param("S150", marks=pytest.mark.slow)])
 def pair(request: pytest.FixtureRequest) -> tuple[Reference, SimulatedTest]:
     reference = MACHINES[request.param]
     spindle = Spindle(

@@ -11,7 +11,7 @@ from abu_calc import InputError
 from abu_calc.features.declare.study import DeclareResult, declare
 from tests.features.declare.machines import S100, S150, written
 
-STARTS = 4000
+STARTS = 1500
 
 
 def result(folder: Path, text: str, starts: int = STARTS, **values: Any) -> DeclareResult:

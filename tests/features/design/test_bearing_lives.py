@@ -1,6 +1,8 @@
 """Rating lives of a machine's bearings in `abu size`, from the loads of its own simulation."""
 
 import math
+import tempfile
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -23,20 +25,22 @@ position_mm = 180.0
 ROOT = Path(__file__).parents[3]
 
 
-def sized(folder: Path, bearings: str) -> dict[str, Any]:
-    file = folder / "machine.toml"
+@cache
+def sized(bearings: str) -> dict[str, Any]:
     preset = (ROOT / "presets" / "msh-230.toml").read_text(encoding="utf-8")
-    file.write_text(preset.split("[expected]")[0] + bearings, encoding="utf-8")
-    return abu("size", str(file), "--json").document
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "machine.toml"
+        file.write_text(preset.split("[expected]")[0] + bearings, encoding="utf-8")
+        return abu("size", str(file), "--json").document
 
 
-def test_lives_follow_from_imbalance_and_residual(tmp_path: Path) -> None:
+def test_lives_follow_from_imbalance_and_residual() -> None:
     """MSh-230 grinds by its face: the constant force is the press force of 45 N with its friction, f = 0.35.
 
     The front bearing takes 180/140 of a force at the wheel. Its load without the autobalancer lies between the larger
     of both parts and their sum; L10h = 10⁶/(60 n)·(C/P)³.
     """
-    document = sized(tmp_path, BEARINGS)
+    document = sized(BEARINGS)
     front, rear = document["result"]["fits"][0], document["result"]["fits"][2]
     speed = 2 * math.pi * document["result"]["frequency"]["speed_hz"]
     rotating = 1e-6 * document["result"]["imbalance_g_mm"] * speed**2
@@ -51,9 +55,9 @@ def test_lives_follow_from_imbalance_and_residual(tmp_path: Path) -> None:
     assert [check["status"] for check in checks] == ["pass", "pass"]
 
 
-def test_without_places_the_lives_are_not_evaluated_and_do_not_decide(tmp_path: Path) -> None:
-    document = sized(tmp_path, BEARINGS.replace("position_mm", "# position_mm"))
+def test_without_places_the_lives_are_not_evaluated_and_do_not_decide() -> None:
+    document = sized(BEARINGS.replace("position_mm", "# position_mm"))
     checks = [check for check in document["checks"] if check["code"] == "ABU636"]
     assert [check["status"] for check in checks] == ["not-done", "not-done"]
     assert all("position_mm" in check["remedy"] for check in checks)
-    assert document["status"] == sized(tmp_path, BEARINGS)["status"]
+    assert document["status"] == sized(BEARINGS)["status"]

@@ -1,6 +1,7 @@
 """Stability over the whole speed range of a machine, and the bounds on hanging balls, as `abu size` has them."""
 
 import math
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -8,7 +9,7 @@ import pytest
 import abu_calc
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.records import Frequency
-from abu_calc.features.design.region import SpeedRange, _stable, true_region
+from abu_calc.features.design.region import SpeedRange, TrueRegion, _modes, _stable, true_region
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble import hanging_bounds
@@ -50,6 +51,12 @@ def written(tmp_path: Path, text: str = RANGE) -> str:
 
 def design_of(file: str, *changes: str) -> Design:
     return size(read_machine(file, changes).whole("size"))
+
+
+@cache
+def region_of(file: str, *changes: str) -> TrueRegion:
+    """Of a file that stays as it is."""
+    return true_region(design_of(file, *changes))
 
 
 def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
@@ -106,16 +113,18 @@ def test_balls_that_carry_too_little_have_no_balanced_state() -> None:
 def test_modes_of_a_machine_in_hands_with_the_damped_one() -> None:
     """Two soft ones, and the machine on hands at some 40 Hz, which the least stiffness does not show."""
     design = design_of("msh-230", 'suspension={"model" = "hands"}')
-    found = [(from_si(one.frequency, "hz"), one.damping_ratio) for one in true_region(design).modes]
+    found = [(from_si(one.frequency, "hz"), one.damping_ratio) for one in _modes(idle_scene(design))]
     assert [round(hertz) for hertz, _ in found if hertz < 97] == pytest.approx([2, 2, 41], abs=1)
     assert all(0 < ratio < 1 for _, ratio in found)
     assert max(design.frequency.natural_frequencies) < 2 * math.pi * 3
 
 
+FLUTTERING = ('suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1")
+
+
 def test_hands_that_let_the_balls_flutter_fail() -> None:
     """Not stable and a pass cannot stand together."""
-    hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
-    region = true_region(design_of("msh-230", *hands))
+    region = region_of("msh-230", *FLUTTERING)
     assert region.stable is False and region.check.status == "fail"
 
 
@@ -123,9 +132,8 @@ HANDS = str(Path(__file__).parents[2] / "machines" / "angle-grinder-hands.toml")
 
 
 def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
-    """An angle grinder in hands at 11 000 rpm: 167 rpm is no action; another drag is, and the command agrees."""
-    design = design_of(HANDS)
-    region = true_region(design)
+    """An angle grinder in hands at 11 000 rpm: 167 rpm is no action; another drag is."""
+    region = region_of(HANDS)
     check = region.check
     assert region.stable is False and region.boundaries is not None
     first, last = region.boundaries
@@ -137,6 +145,13 @@ def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
     drag = float(check.remedy.split("rolling_drag_per_s = ")[1].split(":")[0])
     assert 20 <= drag <= 30
     assert true_region(design_of(HANDS, f"autobalancer.rolling_drag_per_s={drag}")).check.status == "pass"
+
+
+@pytest.mark.slow
+def test_the_command_finds_the_boundary_of_the_region() -> None:
+    boundaries = region_of(HANDS).boundaries
+    assert boundaries is not None
+    last = boundaries[1]
     found = abu_calc.stability(abu_calc.read(HANDS), speeds_rpm=(9000.0, 12000.0))
     assert found.boundaries_rpm is not None and not found.stable
     (limit,) = found.boundaries_rpm
@@ -144,7 +159,7 @@ def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
 
 
 def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
-    held = true_region(design_of(HANDS)).check
+    held = region_of(HANDS).check
     assert (
         held.status == "warn"
         and "Dry friction holds all balls at rest in 12 of 12 simulated start cases" in held.message
@@ -154,8 +169,7 @@ def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
 
 
 def test_friction_that_does_not_hold_every_start_fails() -> None:
-    hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
-    check = true_region(design_of("msh-230", *hands)).check
+    check = region_of("msh-230", *FLUTTERING).check
     assert check.status == "fail" and " simulated start cases" in check.message
 
 

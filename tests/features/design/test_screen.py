@@ -63,10 +63,13 @@ def test_presets(command: tuple[str, ...]) -> None:
     "arguments",
     [
         ("size", "avtovaz-707-370", *STIFF),
-        ("size", "avtovaz-707-222", "--set", "autobalancer.max_outer_diameter_mm=40"),
+        ("size", "msh-230", "--set", "autobalancer.max_outer_diameter_mm=40"),
         ("simulate", "avtovaz-707-222", "--scene", "grinding"),
         ("simulate", "swing-arm-grinder", "--scene", "swing-arm-cutting"),
-        ("stability", "swing-arm-grinder", "--scene", "swing-arm-idle", "--speeds", "100:9000"),
+        pytest.param(
+            ("stability", "swing-arm-grinder", "--scene", "swing-arm-idle", "--speeds", "100:9000"),
+            marks=pytest.mark.slow,
+        ),
         ("accuracy", "msh-230", "--budget", "0.5"),
     ],
     ids=" ".join,

@@ -4,6 +4,7 @@ import math
 import shlex
 import tempfile
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -32,9 +33,11 @@ from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
 from abu_calc.simulation.scene_of_design import contact_half_angle
+from abu_calc.simulation.start_cases import members
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.cli.runner import abu
+from tests.remembered import recalled
 from tests.studies.random_machines import family_of, machine_text
 
 DESIGNED = 2 * PLACES + SPREADS + SPREADS // 3
@@ -43,6 +46,7 @@ DESIGNED = 2 * PLACES + SPREADS + SPREADS // 3
 MACHINES = Path(__file__).parents[2] / "machines"
 
 
+@cache
 def design(name: str) -> Design:
     """Of a preset or a machine of the tests."""
     file = MACHINES / f"{name}.toml"
@@ -116,11 +120,17 @@ def test_the_search_is_the_same_whatever_the_workers() -> None:
     assert alone == together and len(alone.outcomes) >= DESIGNED
 
 
-@pytest.mark.parametrize("name", ["late-bunched-elsewhere", "late-run-up-hands", "late-between-speeds"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "late-bunched-elsewhere",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("late-run-up-hands", "late-between-speeds")),
+    ],
+)
 def test_what_the_listed_starts_miss_warns_and_can_be_repeated(name: str) -> None:
     """By the very options that the report prints, with the very time it says; the action is no such command."""
     file = str(MACHINES / f"{name}.toml")
-    sized = abu_calc.size(abu_calc.read(file))
+    sized = recalled("size", abu_calc.read(file))
     (check,) = (check for check in sized.checks if check.code == "ABU702")
     assert check.status == "warn" and check.remedy and "start.angles_deg" not in check.remedy
     time = float(check.message.rsplit("in ", 1)[1].removesuffix(" s"))
@@ -250,6 +260,7 @@ def test_a_late_start_is_found_among_more_parts_if_rare_ones_seem_late() -> None
     assert len(quiet.outcomes) - quiet.near == DESIGNED
 
 
+@pytest.mark.slow
 def test_machines_that_were_undone_for_work_are_judged() -> None:
     found = abu_calc.size(abu_calc.read(str(MACHINES / "not-evaluated-for-work.toml")))
     assert not [check.code for check in found.checks if check.requested and check.status in ("not-done", "fail")]
@@ -259,8 +270,8 @@ def test_a_file_places_balls() -> None:
     """As many as there are; `abu simulate` starts there, `abu size` from there, too."""
     machine = abu_calc.read("avtovaz-707-222").changed({"start.angles_deg": [10.0, 100.0, 190.0, 280.0]})
     assert "start.angles_deg" in abu_calc.simulate(machine).start
-    starts = [row.start for row in abu_calc.size(machine).ensemble.settling_by_start]  # type: ignore[union-attr]
-    assert "placed" in starts
+    sized = size(machine.whole("size"))
+    assert "placed" in {member.start for member in members(sized)}
     wrong = abu_calc.read("avtovaz-707-222").changed({"start.angles_deg": [10.0, 100.0]})
     with pytest.raises(abu_calc.InputError, match=r"2 angles.*4, as many as the design has balls"):
         abu_calc.simulate(wrong)
@@ -269,7 +280,7 @@ def test_a_file_places_balls() -> None:
 
 
 def test_the_result_holds_the_slowest_of_the_further_start_cases() -> None:
-    result = abu_calc.size(abu_calc.read(str(MACHINES / "late-bunched-elsewhere.toml")))
+    result = recalled("size", abu_calc.read(str(MACHINES / "late-bunched-elsewhere.toml")))
     assert result.ensemble is not None and result.ensemble.further_starts is not None
     further, check = result.ensemble.further_starts, next(c for c in result.checks if c.code == "ABU702")
     assert further.settling_time_s is not None and further.settling_time_s > 1.0 and check.status == "warn"

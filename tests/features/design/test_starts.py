@@ -10,6 +10,7 @@ from abu_calc.features.design.starts import SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.simulate.study import SimulateResult
 from abu_calc.inputs.read_machine import Machine
+from tests.remembered import recalled
 
 PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
 
@@ -24,6 +25,12 @@ SETTINGS: dict[str, dict[str, object]] = {
 }  # fmt: skip
 """Entries of machines beside the presets."""
 
+NAMES = [
+    name if name in ("avtovaz-707-222", "run-up") else pytest.param(name, marks=pytest.mark.slow)
+    for name in (*PRESETS, *SETTINGS)
+]
+"""A preset and a run-up of a file stand for all others, which take long."""
+
 NEAR = 0.03
 """Of the settling time: one run in the ensemble against two that agree; by the pause 2 % apart, elsewhere below 1 %."""
 
@@ -32,7 +39,7 @@ NEAR = 0.03
 def sized(name: str) -> tuple[Machine, SizeResult]:
     """The machine with the design pinned that it was sized to, and its result."""
     source = abu_calc.read("avtovaz-707-222" if name in SETTINGS else name).changed(SETTINGS.get(name, {}))
-    result = abu_calc.size(source)
+    result = recalled("size", source)
     one = result.autobalancer
     pins = {
         "ball_count": one.ball_count,
@@ -51,7 +58,7 @@ def simulated(source: Machine, row: SettlingOfStart) -> SimulateResult:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("name", [*PRESETS, *SETTINGS])
+@pytest.mark.parametrize("name", NAMES)
 def test_simulate_repeats_the_settling_times_of_size(name: str) -> None:
     source, result = sized(name)
     assert result.ensemble is not None
@@ -74,7 +81,7 @@ def test_simulate_repeats_the_settling_times_of_size(name: str) -> None:
     assert compared >= 6
 
 
-@pytest.mark.parametrize("name", [*PRESETS, *SETTINGS])
+@pytest.mark.parametrize("name", NAMES)
 def test_one_result_holds_one_time_for_one_start(name: str) -> None:
     """The idle scene of `abu size`, its settling at other drags, the table, the check and the spread."""
     source, result = sized(name)
@@ -113,7 +120,7 @@ def test_the_race_centre_is_for_machines() -> None:
 
 def test_samples_change_no_settling_time() -> None:
     """Balls creep by friction at the end of this scene, so that the run is followed for longer, to its last sample."""
-    source, _ = sized("avtovaz-707-305")
+    source = abu_calc.read("avtovaz-707-305")
     hot = source.changed({"autobalancer.rolling_drag_per_s": 45.0})
     plain, sampled = (abu_calc.simulate(hot, "idle", "standstill", race_centre_deg=0.0, samples=n) for n in (None, 50))
     assert sampled.settling_time_s == pytest.approx(plain.settling_time_s, rel=1e-9)

@@ -17,7 +17,7 @@ from tests.sizing.test_places import angle_grinder
     ("case", "frequency", "damping", "gyro", "boundary"),
     [
         (G125, 20.0, 0.05, False, 1359.5),
-        (G230, 20.0, 0.05, False, 1408.8),
+        pytest.param(G230, 20.0, 0.05, False, 1408.8, marks=pytest.mark.slow),
         (G230, 20.0, 0.05, True, 1425.0),
         (V305, 12.0, 0.10, True, 988.6),
     ],
@@ -42,7 +42,12 @@ def test_planar_model_is_enough_without_gyroscopic_moments() -> None:
 
 
 @pytest.mark.parametrize(
-    ("polar", "rpm", "status"), [(0.0, 1450.0, "pass"), (0.002, 1450.0, "fail"), (0.002, 1700.0, "pass")]
+    ("polar", "rpm", "status"),
+    [
+        (0.0, 1450.0, "pass"),
+        (0.002, 1450.0, "fail"),
+        pytest.param(0.002, 1700.0, "pass", marks=pytest.mark.slow),
+    ],
 )
 def test_gyroscopic_moments_raise_the_boundary(polar: float, rpm: float, status: str) -> None:
     """Above the boundary in the plane of the race, a rotor with polar inertia still makes the balls unstable."""

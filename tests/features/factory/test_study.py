@@ -14,7 +14,7 @@ from abu_calc.inputs.read_machine import read
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import Candidate
 from tests.cli.runner import once
-from tests.remembered import recalled
+from tests.remembered import recalled, remembered
 
 ROOT = Path(__file__).resolve().parents[3]
 MINE = """
@@ -85,7 +85,9 @@ def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> N
     ]
     file.write_text(MINE + "".join(tables), encoding="utf-8")
     machine = abu_calc.read(file)
-    front, rear, along, other, guard = factory([machine]).rows
+    with remembered():
+        result = factory([machine])
+    front, rear, along, other, guard = result.rows
     design = recalled("size", machine)
     assert design.ensemble is not None and front.with_predicted_db is not None
     assert front.with_predicted_db == pytest.approx(design.ensemble.level_db.typical, abs=1e-6)
@@ -101,7 +103,6 @@ def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> N
     assert other.with_predicted_db is None and other.miss_db is None and guard.miss_db is None
     assert guard.not_comparable == "the file has no handle of this name"
     assert {row.degrees_of_freedom_spent for row in (front, rear)} == {None}
-    result = factory([machine])
     values = sum("=" in line for line in MINE.splitlines())
     assert result.soft_races == () and result.fitted[0].not_said == values == 20
 
@@ -128,7 +129,8 @@ position_mm = [95.0, 160.0, -15.0]
     file = tmp_path / "angle.toml"
     file.write_text(head + text.replace('measured_at = "front"', "") + tables, encoding="utf-8")
     machine = abu_calc.read(file)
-    level, lowered = factory([machine]).rows
+    with remembered():
+        level, lowered = factory([machine]).rows
     design = recalled("size", machine)
     axis = design.vibration.handles[0].axes[2]  # type: ignore[index]
     assert level.at_handles_db is not None and lowered.at_handles_db is not None and level.with_predicted_db is not None

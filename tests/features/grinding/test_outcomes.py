@@ -163,12 +163,13 @@ def _hands(stiffness: float, drag: float) -> abu_calc.GrindingResult:
 CASES = [(6e4, 15.0), (1e5, 15.0), (1.4e5, 15.0), (2e5, 15.0), (3e5, 15.0), (6e5, 15.0), (2e5, 5.0), (2e5, 45.0)]
 
 
-def test_the_level_of_an_angle_grinder_does_not_jump_with_contact_or_drag() -> None:
+@pytest.mark.parametrize("cases", [CASES[1:4:2], pytest.param(CASES, marks=pytest.mark.slow)], ids=("two", "all"))
+def test_the_level_of_an_angle_grinder_does_not_jump_with_contact_or_drag(cases: list[tuple[float, float]]) -> None:
     """It once fell from 105.2 to 89.2 dB where small disturbances begin to grow, though friction holds the balls.
 
     Balls were then taken exactly where they balance, which no start case comes to.
     """
-    levels = [_hands(*case).level_after_db for case in CASES]
+    levels = [_hands(*case).level_after_db for case in cases]
     for low, high in pairwise(sorted(level for level in levels if level is not None)):
         assert high - low < 1.0
     assert None not in levels

@@ -45,20 +45,21 @@ def test_features_of_an_exponential_are_those_of_the_equation() -> None:
     assert abs(end_of(decay.astype(complex))) < 1e-9 and features[-1] == pytest.approx(1)
 
 
-def test_intervals_hold_the_truth_wherever_in_a_narrow_box_it_lies() -> None:
-    """Forty sets of eight starts at random places: a drop of 4 has room for the regression."""
+@pytest.mark.parametrize("sets", [10, pytest.param(40, marks=pytest.mark.slow)])
+def test_intervals_hold_the_truth_wherever_in_a_narrow_box_it_lies(sets: int) -> None:
+    """Sets of eight starts at random places: a drop of 4 has room for the regression."""
     rng = np.random.default_rng(8)
     box = Box(np.array([2.2, -0.5, -4.0, -4.0]), np.array([2.7, 1.5, 4.0, 4.0]))
     points = box.low + (box.high - box.low) * rng.random((1600, 4))
     regression = Regression(Bank(box, points, np.array([track(point, rng) for point in points])), READING)
     held = []
-    for number in range(40):
+    for number in range(sets):
         truth = box.low + (box.high - box.low) * rng.uniform(0.25, 0.75, 4)
         tracks = READING.noisy(np.array([track(truth, rng) for _ in range(8)]), number)
         features = np.array([READING.features(each) for each in tracks])
         low, high = regression.interval(features, regression.best(features), 0, 4.0)
         held.append(bool(low <= truth[0] <= high))
-    assert sum(held) >= 34
+    assert sum(held) >= 0.85 * sets
 
 
 def test_a_bank_with_far_values_gives_the_means_of_the_rest() -> None:

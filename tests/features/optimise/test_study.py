@@ -99,7 +99,7 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
     "share of a half": ({"share": 0.3}, "share"),
     "not a number": ({"share": float("nan")}, "share"),
     "few fresh samples": ({"runs": 10}, "runs"),
-    "few samples": ({"samples": 3}, "samples"),
+    "few samples": ({"samples": 3, "choose": {DRAG: "choice(4, 20)"}}, "samples"),
     "negative seed": ({"seed": -1}, "seed"),
     "unknown part": ({"share_parts": "spindle"}, "share_parts"),
     "unknown key": ({"choose": {"autobalancer.bal_count": "choice(3, 4)"}}, "bal_count"),

@@ -62,11 +62,13 @@ def written(found: BearingSeats) -> dict[str, Any]:
     return {key: value for key, value in keys.items() if value is not None}
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_a_recommendation_never_fails_when_it_is_written_into_the_file(seed: int) -> None:
+@pytest.mark.parametrize(
+    ("seed", "count"), [(4, 30), *(pytest.param(seed, 150, marks=pytest.mark.slow) for seed in range(4))]
+)
+def test_a_recommendation_never_fails_when_it_is_written_into_the_file(seed: int, count: int) -> None:
     rng, judged, whole = random.Random(seed), 0, 0
     rows = [row for row in catalogue().values() if row.ratings]
-    for _ in range(150):
+    for _ in range(count):
         row = rng.choice(rows)
         given = random_service(rng, row)
         try:
@@ -81,7 +83,8 @@ def test_a_recommendation_never_fails_when_it_is_written_into_the_file(seed: int
         if {"shaft_fit", "housing_fit"} <= set(fits):
             whole += 1
             assert "ABU621" not in failed, (row.designation, given, fits)
-    assert judged > 140 and whole > 110  # few are without a class: overloaded, hollow to the skin, split
+    # Few are without a class: overloaded, hollow to the skin, split.
+    assert judged > 0.93 * count and whole > 0.73 * count
 
 
 def test_no_class_is_recommended_if_no_group_keeps_clearance() -> None:

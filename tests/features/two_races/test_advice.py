@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -16,6 +17,7 @@ from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import read_machine
 
 
+@cache
 def design_of(*overrides: str) -> TwoRaceDesign:
     tables = read_machine("pedestal-grinder", overrides).two_races
     assert tables is not None

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,7 @@ TRUE = (
 )
 
 
+@cache
 def design_of(*overrides: str) -> TwoRaceDesign:
     tables = read_machine("pedestal-grinder", overrides).two_races
     assert tables is not None

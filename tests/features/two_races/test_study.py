@@ -11,7 +11,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.two_races.case import capacity_needs, read_case
-from abu_calc.features.two_races.checks import region_check, start_checks
+from abu_calc.features.two_races.checks import capacity_checks, region_check, start_checks
 from abu_calc.features.two_races.choice import choose_both
 from abu_calc.features.two_races.drawing import both_solids
 from abu_calc.features.two_races.figures import two_race_extras
@@ -20,7 +20,8 @@ from abu_calc.features.two_races.start_cases import LostRun, StartCase
 from abu_calc.formulas.two_races import resultant_quantile
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
-from tests.cli.runner import abu
+from tests.cli.runner import again
+from tests.remembered import recalled
 
 BALL = 7800 * 4 / 3 * math.pi
 """Mass of a steel ball per cube of its radius [kg/m³]."""
@@ -37,7 +38,7 @@ BETWEEN = (
 
 @cache
 def sized(*overrides: str) -> TwoRaceSizeResult:
-    result = abu_calc.size(read_machine("pedestal-grinder", overrides))
+    result = recalled("size", read_machine("pedestal-grinder", overrides))
     assert isinstance(result, TwoRaceSizeResult)
     return result
 
@@ -137,13 +138,13 @@ def test_the_response_peaks_at_the_critical_speeds() -> None:
 @pytest.mark.slow
 def test_screen_page_and_json_tell_of_both_races(tmp_path: Path) -> None:
     page = tmp_path / "page.html"
-    seen = abu("size", "pedestal-grinder", "--output", str(page))
+    seen = again("size", "pedestal-grinder", "--output", str(page))
     assert "race 1" in seen.out
     assert "race 2" in seen.out
     text = page.read_text(encoding="utf-8")
     assert "Displacement against speed" in text
     assert "Race 2" in text
-    entries = json.loads(abu("size", "pedestal-grinder", "--json").out)["result"]
+    entries = json.loads(again("size", "pedestal-grinder", "--json").out)["result"]
     assert [race["plane_mm"] for race in entries["autobalancers"]] == [300.0, -300.0]
 
 
@@ -172,13 +173,22 @@ def test_what_cannot_be_made_is_refused(overrides: tuple[str, ...], words: str) 
 
 
 def test_an_imbalance_that_no_ball_carries_fails() -> None:
+    tables = read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]).two_races
+    assert tables is not None
+    design = choose_both(read_case(tables))
+    assert "fail" in [check.status for check in capacity_checks(design)]
+    assert region_check(design, None).status == "fail"
+
+
+@pytest.mark.slow
+def test_an_imbalance_that_no_ball_carries_fails_as_a_whole() -> None:
     result = abu_calc.size(read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]))
     failed = {check.code for check in result.checks if check.status == "fail"}
     assert {"ABU101", "ABU201"} <= failed
 
 
 def test_both_autobalancers_stand_at_their_planes_as_solids() -> None:
-    found = sized()
+    found = sized(*BETWEEN)
     assembly = both_solids(found)
     for number, own in enumerate(found.autobalancers, 1):
         balls = [item for item in assembly.items if item.name.startswith(f"race {number} {own.corrector} ")]
