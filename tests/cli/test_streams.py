@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from abu_calc.cli.streams import Outlet
-from abu_calc.foundation import interruption
 from tests.inputs.samples import BEARINGS
 
 posix = pytest.mark.skipif(os.name == "nt", reason="shells of POSIX")
@@ -70,24 +69,22 @@ def test_signals_end_a_command_in_good_order(name: str, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_system_without_these_signals_does_without(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in interruption.ENDING:
-        monkeypatch.delattr(signal, name, raising=False)
-    interruption.heed_signals()  # raises nothing
-
-
 @posix
-def test_what_is_ignored_stays_ignored(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As nohup asks."""
-    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
-    kept = {name: signal.getsignal(getattr(signal, name)) for name in ("SIGINT", "SIGTERM")}
-    try:
-        interruption.heed_signals()
-        assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
-    finally:
-        signal.signal(signal.SIGHUP, before)
-        for name, handler in kept.items():
-            signal.signal(getattr(signal, name), handler)
+@pytest.mark.parametrize(
+    ("before", "status"),
+    [
+        ("for name in ENDING: vars(signal).pop(name)", -1),  # a system without these signals does without
+        ("signal.signal(1, signal.SIG_IGN)", 0),  # what is ignored stays ignored, as nohup asks
+    ],
+)
+def test_signals_that_are_not_to_be_heeded_are_not(before: str, status: int) -> None:
+    """Of a process that heeds signals after this code, then sends itself SIGHUP."""
+    code = (
+        "import os, signal\nfrom abu_calc.foundation.interruption import heed_signals\n"
+        "ENDING = 'SIGINT', 'SIGTERM', 'SIGHUP'\nsignal.signal(1, signal.SIG_DFL)\n"
+        f"{before}\nheed_signals()\nos.kill(os.getpid(), 1)"
+    )
+    assert subprocess.run((sys.executable, "-c", code), check=False).returncode == status
 
 
 class Raising(io.RawIOBase):

@@ -1,14 +1,12 @@
-"""Windows' ways of failing, simulated: Ctrl-C events, narrow consoles, locked files, no fork, no limits of resources.
+"""Windows' ways of failing, simulated: narrow consoles, locked files, no fork, no limits of resources.
 
 None of this has run on Windows itself.
 """
 
 import builtins
-import contextlib
 import io
 import signal
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -16,24 +14,8 @@ import pytest
 
 from abu_calc.cli import app
 from abu_calc.cli.streams import make_safe
-from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.foundation.parallel import interrupts_left_to_parent, process_pool
 from tests.cli.runner import abu
-from tests.foundation.test_interruption import heeding, waiting
-
-__all__ = ["heeding"]
-
-
-@pytest.mark.usefixtures("heeding")
-def test_a_ctrl_c_event_that_is_swallowed_comes_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """There a signal is sent to no thread: Python is asked to raise it at its next line."""
-    monkeypatch.delattr(signal, "pthread_kill", raising=False)
-    with pytest.raises(EndedBySignal) as ended:
-        with contextlib.suppress(BaseException):
-            signal.raise_signal(signal.SIGINT)
-            time.sleep(0.01)
-        waiting()
-    assert status_of(ended.value) == 130
 
 
 def test_workers_are_started_afresh_where_signals_cannot_be_held_back(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -70,7 +70,7 @@ def test_the_level_where_no_handle_is_given(idle: SimulateResult) -> None:
 def test_levels_at_the_handles(offset: float) -> None:
     """Forces of imbalance at the wheel and of balls in the race plane on a free rigid body, Newton and Euler."""
     held = abu_calc.read("msh-230").changed({**HELD, "autobalancer.plane_offset_mm": offset})
-    design = abu_calc.size(held)
+    design = abu_calc.size(held, starts="none")
     machine = held.changed(
         {
             f"autobalancer.{key}": getattr(design.autobalancer, key)

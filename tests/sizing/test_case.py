@@ -98,7 +98,7 @@ def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
 
 @pytest.mark.slow
 @given(machines())
-@settings(RANDOM, max_examples=15)
+@settings(RANDOM, max_examples=10)
 def test_any_of_many_machines_is_sized_or_refused(changes: dict[str, Any]) -> None:
     _check_sized(changes)
 

@@ -142,7 +142,7 @@ def both(preset: str) -> TwoRaceDesign:
     return choose_both(read_case(tables))
 
 
-@pytest.mark.parametrize("preset", TWO_RACES)
+@pytest.mark.parametrize("preset", [TWO_RACES[0], pytest.param(TWO_RACES[1], marks=pytest.mark.slow)])
 def test_two_races_take_their_checks_by_the_same_rule(preset: str, request: pytest.FixtureRequest) -> None:
     before = both(preset)
     request.getfixturevalue("informing")

@@ -12,6 +12,7 @@ from tests.sizing.machines import check_of, machine
 RIGID: dict[str, Any] = {
     "machine__transverse_inertia_kg_m2": 0.10, "machine__center_of_mass_to_wheel_mm": 200.0,
     "machine__handle": ({"name": "front", "from_center_of_mass_mm": 100.0},),
+    "autobalancer__ball_count": 5, "autobalancer__ball_diameter_mm": 10.0, "autobalancer__race_radius_mm": 25.5,
 }  # fmt: skip
 
 

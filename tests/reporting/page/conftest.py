@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from tests.cli.runner import abu
+from tests.cli.runner import again
 from tests.reporting.page.pages import COMMANDS
 
 
@@ -26,7 +26,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Any:
     @cache
     def made(name: str) -> Written:
         file = folder / f"{name}.html"
-        seen = abu(*COMMANDS[name], "--json", "--output", str(file))
+        seen = again(*COMMANDS[name], "--json", "--output", str(file))
         assert seen.status in (0, 1), seen.err
         return Written(file.read_text(encoding="utf-8"), seen.document, file)
 

@@ -1,6 +1,7 @@
 """Filling, overspeed, burst, cover and fastening against derivations of their own."""
 
 import math
+from functools import cache
 
 import pytest
 
@@ -12,6 +13,7 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.manufacture.closure import burst_ratio
 
 
+@cache
 def sized(*overrides: str) -> Design:
     return size(read_machine("avtovaz-707-222", tuple(f"autobalancer.{each}" for each in overrides)).tables)
 

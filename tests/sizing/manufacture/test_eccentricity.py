@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import fields, replace
+from functools import cache
 from typing import Any
 
 import pytest
@@ -11,22 +12,28 @@ from hypothesis import strategies as st
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.drawing_requirements import drawing
+from abu_calc.sizing.manufacture.construction import construct
 from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.manufacture.spindle_fit import standard_fits
 from abu_calc.standards.tolerance_classes import part_limits
-from tests.sizing.machines import machine
 
 PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
 
 
+@cache
+def preset(name: str, *overrides: str) -> Design:
+    return size(read_machine(name, overrides).tables)
+
+
 def sized(*overrides: str) -> Design:
-    return size(read_machine("avtovaz-707-222", overrides).tables)
+    return preset("avtovaz-707-222", *overrides)
 
 
-@pytest.mark.parametrize("preset", PRESETS)
-def test_an_independent_sum_of_the_drawn_parts_is_the_checked_one_and_within_the_simulated_one(preset: str) -> None:
+@pytest.mark.parametrize("name", PRESETS)
+def test_an_independent_sum_of_the_drawn_parts_is_the_checked_one_and_within_the_simulated_one(name: str) -> None:
     """From frames, classes and grade alone: TIR/2 + (ES − ei + growth)/2 + TIR/2 + e_per·m/m_F, with e_per = G/Ω."""
-    design = size(read_machine(preset).tables)
+    design = preset(name)
     case, best, split = design.case, design.autobalancer, design.eccentricity
     race = next(surface for surface in design.construction.parts.race_part.surfaces if surface.name == "race")
     race_run_out = next(each.value for each in race.geometrical if each.kind == "run-out")
@@ -111,9 +118,14 @@ def test_an_eccentricity_that_no_fit_holds_fails_and_names_the_least() -> None:
 
 
 def test_a_bore_outside_the_tables_is_not_evaluated() -> None:
-    design = size(machine(autobalancer__max_outer_diameter_mm=2000.0, autobalancer__bore_diameter_mm=700.0,
-                          autobalancer__max_width_mm=100.0, autobalancer__max_mass_fraction=1.0))  # fmt: skip
-    assert next(check for check in design.checks if check.code == "ABU206").status == "not-done"
+    best = sized()
+    wide = replace(best.case, autobalancer=best.case.autobalancer.model_copy(update={"bore_diameter_mm": 700.0}))
+    split = split_eccentricity(wide, best.autobalancer)
+    assert split.fit is None and not split.holds
+    assert eccentricity_check(wide, best.autobalancer, split).status == "not-done"
+    construction = construct(best.case, best.autobalancer, replace(best.eccentricity, fit=None))
+    advice = drawing(best.case, best.autobalancer, best.track, replace(best.eccentricity, fit=None), construction)
+    assert "no standard fit" in [each.requirement for each in advice]
     assert standard_fits(0.7) == ()
 
 

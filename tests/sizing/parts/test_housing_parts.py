@@ -1,6 +1,7 @@
 """Parts of a housing: closed profiles that touch but do not overlap, as heavy as the design."""
 
 import math
+from functools import cache
 from itertools import pairwise
 
 import pytest
@@ -12,6 +13,7 @@ from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
 DESIGNS = ("one-piece", "light", "bearing-ring")
 
 
+@cache
 def parts_of(design: str) -> tuple[HousingParts, float]:
     """Parts and mass of the straight grinder's autobalancer."""
     machine = read_machine("avtovaz-707-222", (f"autobalancer.design={design}",))
