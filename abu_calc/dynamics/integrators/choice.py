@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
-from abu_calc.dynamics.integrators.run import EVENT, LOOP_EVENT, TooMuchWorkError, work
+from abu_calc.dynamics.integrators.run import DECISION, EVENT, LOOP_EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
@@ -179,20 +179,21 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
     """True if the loop takes a stiff scene through its first turns sooner than an implicit method would.
 
     That method begins anew at each event. The loop is tried, since the decay at the start tells little of the motion
-    to come: friction holds a ball that has hardly begun to move ten thousand times as fast as one that rolls. If there
-    are more events than expected, so that the trial ends early, these would cost the implicit method as much.
+    to come: friction holds a ball that has hardly begun to move ten thousand times as fast as one that rolls. Events
+    that more than the loop decides, more of them than expected, would cost the implicit method as much as a trial that
+    they end early; others may be those of steps that are too long for what dies out.
     """
     scene = equations.scene
     if not watches(equations) or untraceable(equations):
         return False
     about, until = counts(equations, tolerance), min(TRIAL * scene.revolution, scene.duration)
     implicit = (about.scipy + IMPLICIT_EVENT * about.events) / RUNS * until / scene.duration
-    choice = quickest_loop(equations, tolerance)
+    choice, most = quickest_loop(equations, tolerance), math.ceil(implicit / COMPILED_TIME)
     try:
-        choice.integrate(equations, tolerance, [until], math.ceil(implicit / COMPILED_TIME))
+        choice.integrate(equations, tolerance, [until], most)
     except TooMuchWorkError as error:
-        same = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * error.events
-        return same > implicit
+        decided = (most - error.evaluations - LOOP_EVENT * error.events) / DECISION
+        return about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decided > implicit
     except NotTrustworthyError:  # the whole run tells what is wrong
         return True
     return True

@@ -13,12 +13,13 @@ from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
-from abu_calc.dynamics.integrators.choice import choose, loop_method, verifiers
+from abu_calc.dynamics.integrators.choice import LOOP, choose, loop_method, verifiers
 from abu_calc.dynamics.integrators.compiled import code
 from abu_calc.dynamics.integrators.run import TooMuchWorkError, work
 from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import coupled_scene, straight_grinder, with_effects
+from tests.studies.bounded_work import scene_with_every_effect
 
 FRICTION = DryRollingFrictionEffect(8e-6, 0.008)
 
@@ -146,6 +147,13 @@ def test_balls_that_friction_shakes_loose_look_stiff_at_the_start_alone():
     assert chosen.name == "compiled-rk45"
     run = chosen.integrate(equations, 1e-4, [0.5], 10**6)
     assert run.evaluations < 100 * 0.5 / equations.scene.revolution * 7
+
+
+def test_a_stiff_scene_with_more_events_than_counted_stays_in_the_loop():
+    """Balls that bounce ever faster while a stiff wheel grinds: 2416 events of three runs where counting expects 20."""
+    equations = assemble(scene_with_every_effect(23))
+    assert stiff(equations) and choose(equations, "scipy", 2e-4).name == "scipy-radau"
+    assert choose(equations, "auto", 2e-4).name in LOOP
 
 
 def test_what_is_asked_for_is_taken():
