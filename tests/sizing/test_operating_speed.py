@@ -89,6 +89,9 @@ def test_losses_pull_the_idle_speed_below_the_rated_one() -> None:
     case = read_case(table)
     assert case.idle_speed is not None
     assert case.idle_speed < 0.9 * case.speed
+    # T (1 − Ω/Ω₀) = c·Ω·Δ²: both axes move by Δ on dampers c = 2·ζ·ω·M.
+    torque, no_load, damping = 0.1, 5800 * math.pi / 30, 2 * 0.5 * 2 * math.pi * 20.0 * (5.6 + 0.6)
+    assert case.idle_speed == pytest.approx(torque / (torque / no_load + damping * 0.5e-3**2), rel=1e-9)
     assert case.speed_range == (case.idle_speed, case.speed)
     (check,) = motor_checks(case, size(machine()).autobalancer)
     assert (check.code, check.status, check.bound, check.limit) == ("ABU104", "warn", "least", 5800)

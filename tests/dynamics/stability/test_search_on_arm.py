@@ -42,7 +42,7 @@ def growth(scene: Scene, angles: np.ndarray) -> float:
     return decided(BalancedMotion(scene, tuple(angles.tolist())), scene.speed)[1]
 
 
-@pytest.mark.parametrize("seed", [39, *(pytest.param(each, marks=pytest.mark.slow) for each in (8, 19, 33, 55, 59))])
+@pytest.mark.parametrize("seed", [8, *(pytest.param(each, marks=pytest.mark.slow) for each in (19, 33, 39, 55, 59))])
 def test_no_random_arrangement_grows_faster(seed: int) -> None:
     """200 of them for each of six arms; the arrangements that are listed alone missed faster growth on four."""
     case, scene = on_arm(seed)
