@@ -40,20 +40,21 @@ events and 1e-6 for those with many."""
 
 LOOP_WORK: Final = 1 / 5
 """Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
-on it either: compiled it takes a twentieth of SciPy's time, in plain Python some times as long."""
+on it either: compiled it takes a hundredth of SciPy's time, in plain Python some times as long."""
 
 FEW: Final = 6
 """Balls up to which an evaluation in the loop is worth this; with more it takes the longer the more there are. One of
 SciPy's hardly does."""
 
-COMPILED_TIME: Final = 1 / 20
-"""Time of a compiled evaluation in units of one of SciPy's."""
+COMPILED_TIME: Final = 1 / 100
+"""Time of a compiled evaluation in units of one of SciPy's, at most: three balls with friction take 1/300."""
 
 IMPLICIT_EVENT: Final = 4 * EVENT
 """Evaluations that an event is worth in an implicit method of SciPy's, whose first steps after it are small."""
 
-TRIAL: Final = 3
-"""Revolutions for which a stiff scene that switches is tried in the loop."""
+TRIAL, STORM = 3, 5
+"""Revolutions for which a stiff scene that switches is tried in the loop, and least number of decisions that tell more
+of it than the trial's early end."""
 
 SHORT: Final = 15_000
 """Evaluations, times one more than the balls, that plain Python does before compiled code is loaded: a tenth of a
@@ -187,13 +188,14 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
     if not watches(equations) or untraceable(equations):
         return False
     about, until = counts(equations, tolerance), min(TRIAL * scene.revolution, scene.duration)
-    implicit = (about.scipy + IMPLICIT_EVENT * about.events) / RUNS * until / scene.duration
+    implicit = (about.scipy + EVENT * about.events) / RUNS * until / scene.duration
     choice, most = quickest_loop(equations, tolerance), math.ceil(implicit / COMPILED_TIME)
     try:
         choice.integrate(equations, tolerance, [until], most)
     except TooMuchWorkError as error:
         decided = (most - error.evaluations - LOOP_EVENT * error.events) / DECISION
-        return about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decided > implicit
+        cost = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decided
+        return decided >= STORM and cost > implicit
     except NotTrustworthyError:  # the whole run tells what is wrong
         return True
     return True
