@@ -1,12 +1,12 @@
 """Whether the tests notice a changed line: mutants drawn at random, each against the tests that execute its line.
 
     python -m tests.mutants draw [count] [seed]      draws mutants of this checkout and keeps them in MUTANTS
-    python -m tests.mutants trace FOLDER [slow]      one run of a suite that notes which tests pass by which mutants
+    python -m tests.mutants trace FOLDER [slow] ...  one run of a suite that notes which tests pass by which mutants
     python -m tests.mutants run FOLDER [slow]        each mutant against those tests, quickest first, up to a failure
     python -m tests.mutants table FOLDER             how many were killed, and processor time of the suites by folder
 
 A run that takes four times as long as its tests did counts as killed. What `run` has answered stands in FOLDER and is
-not run again. `run FOLDER slow` takes those that the default suite left alive.
+not run again. `run FOLDER slow` takes those that the default suite left alive. Further words of `trace` go to pytest.
 """
 
 import ast
@@ -153,7 +153,7 @@ def _environment(tree: Path, **more: str) -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(tree), "ABU_CALC_CACHE": f"{tree}-cache", **more}
 
 
-def trace(folder: Path, suite: str) -> None:
+def trace(folder: Path, suite: str, *more: str) -> None:
     """Run a suite once with a note before each mutant's statement, and keep which tests pass where."""
     tree, log = copied(folder / "traced"), folder / f"{suite}-log"
     log.mkdir(parents=True, exist_ok=True)
@@ -173,7 +173,7 @@ def trace(folder: Path, suite: str) -> None:
     text = (tree / name).read_text(encoding="utf-8")
     first = text.index("        at_once", text.index(begin))
     (tree / name).write_text(text[:first] + _note("        ", at_gate) + text[first:], encoding="utf-8")
-    words = ["-n", "2", "-p", "tests.mutants", *(["-m", "slow"] if suite == "slow" else [])]
+    words = ["-n", "2", "-p", "tests.mutants", *(["-m", "slow"] if suite == "slow" else []), *more]
     environment = _environment(tree, **{LOG: str(log)})
     subprocess.run([sys.executable, "-m", "pytest", *words], cwd=tree, env=environment, check=False)
 
@@ -331,11 +331,13 @@ def main() -> None:
         drawn = {"seed": seed, "mutants": [asdict(each) for each in draw(count, seed)]}
         MUTANTS.write_text(json.dumps(drawn, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         return
-    folder, suite = Path(more[0]).resolve(), "slow" if more[1:] == ["slow"] else "default"
+    folder, suite = Path(more[0]).resolve(), "slow" if more[1:2] == ["slow"] else "default"
     if step == "table":
         table(folder)
+    elif step == "trace":
+        trace(folder, suite, *more[1 + (suite == "slow") :])
     else:
-        {"trace": trace, "run": run}[step](folder, suite)
+        run(folder, suite)
 
 
 if __name__ == "__main__":
