@@ -136,6 +136,15 @@ def test_4_half_of_the_pairs_short_at_speed_fails_and_the_advice_mends_it() -> N
     assert status(again, "ABU605") == "pass" and again.shaft.short_pairs_share < 0.01
 
 
+def test_4_the_demand_is_no_more_than_nearly_all_pairs_of_the_catalogues_class_have() -> None:
+    """6205, 3 kN: k5 has a mean of 11.5 µm and σ 2.24, so 4.78 µm are asked of j5, whose mean is 5.5, instead of 5.66."""
+    sigma = math.hypot(4.5, 5) / 3
+    found = judged("6205", radial_load_kN=3, speed_rpm=1500, shaft_fit="j5")
+    assert found.shaft.catalogue_fit == "k5"
+    share = 0.5 * math.erfc((5.5 - (11.5 - 3 * sigma)) / sigma / math.sqrt(2))
+    assert found.shaft.short_pairs_share == pytest.approx(share, rel=0.02)  # an ordinary speed counts a little
+
+
 def test_4_the_limits_of_short_pairs_come_from_the_file() -> None:
     given = {"radial_load_kN": 1, "speed_rpm": 60_000, "shaft_fit": "k5"}
     assert status(judged("6205", **given, short_pairs_warn_percent=50.0, short_pairs_fail_percent=60.0), "ABU605") == (
