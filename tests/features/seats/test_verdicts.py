@@ -137,7 +137,7 @@ def test_4_half_of_the_pairs_short_at_speed_fails_and_the_advice_mends_it() -> N
 
 
 def test_4_the_demand_is_no_more_than_nearly_all_pairs_of_the_catalogues_class_have() -> None:
-    """6205, 3 kN: k5 has a mean of 11.5 µm and σ 2.24, so 4.78 µm are asked of j5, whose mean is 5.5, instead of 5.66."""
+    """6205, 3 kN: k5 has a mean of 11.5 µm and σ 2.24, so j5 of mean 5.5 is asked for 4.78 µm, not 5.66."""
     sigma = math.hypot(4.5, 5) / 3
     found = judged("6205", radial_load_kN=3, speed_rpm=1500, shaft_fit="j5")
     assert found.shaft.catalogue_fit == "k5"
