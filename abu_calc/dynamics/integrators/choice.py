@@ -43,8 +43,8 @@ LOOP_WORK: Final = 1 / 5
 on it either: compiled it takes a hundredth of SciPy's time, in plain Python some times as long."""
 
 FEW: Final = 6
-"""Balls up to which an evaluation in the loop is worth this; with more it takes the longer the more there are. One of
-SciPy's hardly does."""
+"""Number of balls up to which an evaluation in the loop counts LOOP_WORK. With more it counts in proportion to the
+equations; an evaluation of SciPy's hardly depends on them."""
 
 COMPILED_TIME: Final = 1 / 100
 """Time of a compiled evaluation in units of one of SciPy's, at most: three balls with friction take 1/300."""
@@ -52,9 +52,11 @@ COMPILED_TIME: Final = 1 / 100
 IMPLICIT_EVENT: Final = 4 * EVENT
 """Evaluations that an event is worth in an implicit method of SciPy's, whose first steps after it are small."""
 
-TRIAL, STORM = 3, 5
-"""Revolutions for which a stiff scene that switches is tried in the loop, and least number of decisions that tell more
-of it than the trial's early end."""
+TRIAL: Final = 3
+"""Revolutions for which a stiff scene that switches is tried in the loop."""
+
+LEAST_DECISIONS: Final = 5
+"""Number of events decided by Python from which on they are compared with those expected."""
 
 SHORT: Final = 15_000
 """Evaluations, times one more than the balls, that plain Python does before compiled code is loaded: a tenth of a
@@ -180,9 +182,11 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
     """True if the loop takes a stiff scene through its first turns sooner than an implicit method would.
 
     That method begins anew at each event. The loop is tried, since the decay at the start tells little of the motion
-    to come: friction holds a ball that has hardly begun to move ten thousand times as fast as one that rolls. Events
-    that more than the loop decides, more of them than expected, would cost the implicit method as much as a trial that
-    they end early; others may be those of steps that are too long for what dies out.
+    to come: friction holds a ball that has hardly begun to move ten thousand times as fast as one that rolls.
+
+    A trial may end early by events that Python has to decide. The implicit method would meet the same events, so the
+    loop keeps the scene if there are more of them than expected. Other events do not count: the loop may make them
+    itself, by steps that are too long for what dies out.
     """
     scene = equations.scene
     if not watches(equations) or untraceable(equations):
@@ -193,9 +197,9 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
     try:
         choice.integrate(equations, tolerance, [until], most)
     except TooMuchWorkError as error:
-        decided = (most - error.evaluations - LOOP_EVENT * error.events) / DECISION
-        cost = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decided
-        return decided >= STORM and cost > implicit
+        decisions = (most - error.evaluations - LOOP_EVENT * error.events) / DECISION
+        same = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decisions
+        return decisions >= LEAST_DECISIONS and same > implicit
     except NotTrustworthyError:  # the whole run tells what is wrong
         return True
     return True

@@ -229,8 +229,9 @@ def work(run: Trajectory, event: int = EVENT) -> int:
 
 
 class TooMuchWorkError(NotTrustworthyError):
-    """A run needs more evaluations, or seconds, than it may take; it was given up at the time `reached` [s] by so many
-    evaluations, 0 where it was not begun, and after so many events.
+    """A run needs more evaluations, or seconds, than it may take.
+
+    It was given up at the time `reached` [s], after so many evaluations (0: it was not begun) and events.
     """
 
     def __init__(self, message: str, reached: float = 0.0, evaluations: int = 0, events: int = 0) -> None:

@@ -107,24 +107,34 @@ NO_QUIETER = "No smaller eccentricity, friction, or other drag rate that was tri
 
 
 def level_checks(
-    design: TwoRaceDesign, vibration: TwoRaceVibration, runs: Sequence[TwoRaceRun], action: Action | None = None
-) -> Iterator[Check]:
+    design: TwoRaceDesign, vibration: TwoRaceVibration, all_runs: Sequence[TwoRaceRun | LostRun],
+    action: Action | None = None,
+) -> Iterator[Check]:  # fmt: skip
     """ABU401 and ABU402: levels of the loudest place against the limit, and against those without autobalancers.
 
-    `action`: one that was tried and brings all start cases below the limit.
+    `action`: one that was tried and brings all start cases below the limit. Where start cases gave no answer, what
+    would pass is not evaluated.
     """
-    limit = design.case.table.limits.vibration_level_db
+    limit, runs = design.case.table.limits.vibration_level_db, [run for run in all_runs if isinstance(run, TwoRaceRun)]
     if vibration.level_after_db is None:
         yield coded("ABU401", "not-done", "No start case balances, so no level is known", remedy="See ABU701.")
         return
     given, loudest = max(run.level for run in runs if run.case.drag_factor == 1), max(run.level for run in runs)
     passed, safe = given <= limit, loudest <= limit
-    yield coded(
-        "ABU401", verdict(passed, safe),
-        "Level at the loudest place with the autobalancers, loudest start case at the given drag rate"
-        + ("" if safe else f"; in any oil {loudest:.1f} dB"), given, limit, "dB",
-        None if passed and safe else action or NO_QUIETER,
-    )  # fmt: skip
+    lost = len(all_runs) - len(runs)
+    partly = f"Only {len(runs)} of {len(all_runs)} start cases gave a level, the loudest {loudest:.1f} dB"
+    if lost and passed:
+        yield coded("ABU401", "not-done", partly, remedy="See ABU701.")
+    else:
+        yield coded(
+            "ABU401", verdict(passed, safe),
+            "Level at the loudest place with the autobalancers, loudest start case at the given drag rate"
+            + ("" if safe else f"; in any oil {loudest:.1f} dB"), given, limit, "dB",
+            None if passed and safe else action or NO_QUIETER,
+        )  # fmt: skip
+    if lost:
+        yield coded("ABU402", "not-done", partly, remedy="See ABU701.")
+        return
     lowered = vibration.level_after_db < vibration.level_before_db
     yield coded(
         "ABU402", verdict(lowered), "Level at the loudest place, median of the start cases, against that without",

@@ -56,8 +56,8 @@ PER_TURN: Final = 16
 ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
 MOST_WORK, MOST_ONE, AT_ONCE = 8_000_000, 2_000_000, 4
-"""Work of all start cases together, most work of one, and how many begin before the rest is counted. The first is most
-of a minute of compiled code."""
+"""Work of all start cases together, most work of one, and how many begin before what is left is counted. The first is
+half a minute of compiled code, more where Python decides many events."""
 DOUBTFUL: Final = 0.2
 """Largest difference of runs of a chaotic start case that counts all the same, all of which end balanced."""
 

@@ -100,7 +100,7 @@ def size_two_races(
             region_check(design, one),
             *stability_check(design, judged),
             *_made(design),
-            *level_checks(design, vibration, known, _quieter(design, known, accuracy, progress, threads, left)),
+            *level_checks(design, vibration, runs, _quieter(design, known, accuracy, progress, threads, left)),
             *start_checks(design, runs, _advice(design, known, accuracy, progress, threads, left)),
         ),
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),

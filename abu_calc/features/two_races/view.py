@@ -92,12 +92,14 @@ def _numbers(result: TwoRaceSizeResult) -> list[Block]:
     blocks.append(Paragraph(f"{meant} Limit: {limit}." if limit else meant))
     if ensemble is not None:
         spread = ensemble.settling_time_s
+        unanswered = f"; {ensemble.lost} more gave no answer" if ensemble.lost else ""
         blocks += [
             Paragraph(""),
             Paragraph(
-                f"{ensemble.balanced} of {ensemble.members} start cases balance, over all phases of the imbalances, in "
-                f"hot and cold oil. Settling time: median {_or_dash(spread.typical, 2)} s, slowest "
-                f"{_or_dash(spread.worst, 3)} s{f' ({ensemble.slowest})' if ensemble.slowest else ''}."
+                f"{ensemble.balanced} of {ensemble.members - ensemble.lost} start cases balance, over all phases of "
+                f"the imbalances, in hot and cold oil{unanswered}. Settling time: median "
+                f"{_or_dash(spread.typical, 2)} s, slowest {_or_dash(spread.worst, 3)} s"
+                f"{f' ({ensemble.slowest})' if ensemble.slowest else ''}."
             ),
         ]
     return blocks

@@ -12,7 +12,15 @@ from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.checks import capacity_checks, level_checks, mass_checks, race_checks
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.records import TwoRaceSizeResult
-from abu_calc.features.two_races.start_cases import StartCase, TwoRaceRun, all_work, run_of, speed_ends, start_cases
+from abu_calc.features.two_races.start_cases import (
+    LostRun,
+    StartCase,
+    TwoRaceRun,
+    all_work,
+    run_of,
+    speed_ends,
+    start_cases,
+)
 from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import read_machine
 
@@ -100,6 +108,10 @@ def test_levels_are_judged_at_the_speed_of_each_run() -> None:
     level, _ = level_checks(design, result, (run, loud))
     assert level.status == "fail"
     assert level.value == pytest.approx(vibration_limit + 1)
+    lost = LostRun(StartCase("spread"), "more work than allowed")
+    assert [check.status for check in level_checks(design, result, (run,))] == ["pass", "pass"]
+    assert [check.status for check in level_checks(design, result, (run, lost))] == ["not-done", "not-done"]
+    assert [check.status for check in level_checks(design, result, (run, loud, lost))] == ["fail", "not-done"]
 
 
 def test_both_ends_of_a_speed_range_are_started() -> None:
