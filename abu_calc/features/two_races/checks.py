@@ -199,7 +199,7 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
         actions.append("Allow more time: --patience.")
     if laborious:
         reasons.append(f"{len(laborious)} would take more work than allowed")
-        actions.append("Allow some minutes: --patience 600.")
+        actions.append("Allow some minutes: --patience 600 (not tried).")
     if chaotic:
         number = "1 is" if len(chaotic) == 1 else f"{len(chaotic)} are"
         reasons.append(f"{number} chaotic, so that no two runs agree: {chaotic[0].case.name}")
