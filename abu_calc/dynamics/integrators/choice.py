@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
-from abu_calc.dynamics.integrators.run import DECISION, EVENT, LOOP_EVENT, TooMuchWorkError, work
+from abu_calc.dynamics.integrators.run import EVENT, LOOP_EVENT, TooMuchWorkError, decision_work, work
 from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
@@ -197,7 +197,7 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
     try:
         choice.integrate(equations, tolerance, [until], most)
     except TooMuchWorkError as error:
-        decisions = (most - error.evaluations - LOOP_EVENT * error.events) / DECISION
+        decisions = (most - error.evaluations - LOOP_EVENT * error.events) / decision_work(equations)
         same = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decisions
         return decisions >= LEAST_DECISIONS and same > implicit
     except NotTrustworthyError:  # the whole run tells what is wrong

@@ -22,11 +22,11 @@ from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.plain import Plain
 from abu_calc.dynamics.integrators.compiled.program import Places, Program, in_order, places, widened
 from abu_calc.dynamics.integrators.run import (
-    DECISION,
     MOST_EVALUATIONS,
     NOT_FINITE,
     STALLED,
     IntegrationRun,
+    decision_work,
     exceeded,
     lost,
 )
@@ -310,7 +310,7 @@ class _CompiledRun(IntegrationRun):
                 modes = at_break(equations, t, modes)
             if t < end:
                 state, modes = settled(equations, t, state, modes)
-                self.counts[arrays.MOST] -= DECISION
+                self.counts[arrays.MOST] -= decision_work(equations)
 
 
 def prepared(equations: Equations, method: Method) -> tuple[Code, Array]:
