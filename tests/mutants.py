@@ -208,6 +208,12 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     return result  # type: ignore[return-value]
 
 
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """A test that fails by itself tells nothing of a mutant."""
+    if LOG in os.environ and report.failed:
+        _say({"test": report.nodeid, "failed": True})
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Who asks for a study that another test has made passes by what that one passed."""
     if LOG not in os.environ:
@@ -240,7 +246,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def traced(folder: Path, suite: str) -> tuple[dict[str, float], dict[int, set[str]]]:
     """Processor seconds of each test, and the tests that pass by each mutant."""
     seconds, tests = dict[str, float](), defaultdict[int, set[str]](set)
-    made, asked = defaultdict[str, set[str]](set), defaultdict[str, set[str]](set)
+    made, asked, failed = defaultdict[str, set[str]](set), defaultdict[str, set[str]](set), set[str]()
     for file in (folder / f"{suite}-log").glob("*.jsonl"):
         for line in file.read_text(encoding="utf-8").splitlines():
             row = json.loads(line)
@@ -248,13 +254,15 @@ def traced(folder: Path, suite: str) -> tuple[dict[str, float], dict[int, set[st
                 seconds[row["test"]] = row["cpu_s"]
             for number in row.get("passed", ()):
                 tests[number].add(row["test"])
+            if "failed" in row:
+                failed.add(row["test"])
             if "made" in row:
                 made[row["made"]].add(row["test"])
             if "asked" in row:
                 asked[row["asked"]].add(row["test"])
     for number, found in tests.items():
         others = (asked[key] for key, makers in made.items() if makers & found)
-        tests[number] = found.union(*others) & set(seconds)
+        tests[number] = (found.union(*others) & set(seconds)) - failed
     return seconds, tests
 
 
