@@ -1,6 +1,7 @@
 """How the tests are shared out among processes; what makes them quicker."""
 
 import gc
+from collections import Counter
 from typing import Any
 
 import pytest
@@ -17,6 +18,18 @@ def pytest_collection_finish() -> None:
     """What is there now stays: garbage is looked for among what tests make."""
     gc.freeze()
     gc.enable()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Of a test marked `few(n)` all cases but the first n are slow."""
+    cases = Counter[str]()
+    for item in items:
+        if (few := item.get_closest_marker("few")) is not None:
+            test = item.nodeid.partition("[")[0]
+            cases[test] += 1
+            if cases[test] > few.args[0]:
+                item.add_marker(pytest.mark.slow)
 
 
 @pytest.hookimpl(optionalhook=True)

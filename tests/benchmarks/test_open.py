@@ -151,6 +151,7 @@ def test_cases_that_switch_have_many_events_away_from_their_samples(name: str) -
     assert np.abs(times[:, None] - np.array(case["times_s"][1:])).min() > 1e-4
 
 
+@pytest.mark.slow
 def test_taylor_series_meet_a_smooth_reference() -> None:
     case, reference = case_of(case_path("hand-grinder")), reference_of("hand-grinder")["states"][:3]
     case["times_s"] = case["times_s"][:3]

@@ -29,11 +29,13 @@ def test_the_polynomial_has_the_roots_of_a_rotor_without_coupling() -> None:
         assert np.abs(roots - value).min() < 1e-4
 
 
+@pytest.mark.slow
 def test_stability_changes_where_the_list_of_reference_numbers_says() -> None:
     assert routh.changes(0.01) == pytest.approx([1.40154], abs=1e-5)
     assert routh.changes(0.05) == pytest.approx([1.02969, 1.09363, 1.88224], abs=1e-5)
 
 
+@pytest.mark.slow
 def test_stuck_speeds_number_one_three_three_one_on_one_axis() -> None:
     at = stuck.speeds()
     found = stuck.ranges(at, stuck.curve(at))
@@ -83,6 +85,7 @@ def test_two_planes_start_as_newtons_law_says() -> None:
     assert slope[8] * (1 + 4e-4) - 1e-4 * (sine * slope[12:]).sum() == pytest.approx(force, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_module_prints_json_and_refuses_what_it_does_not_know() -> None:
     command = [sys.executable, "-m", "tests.benchmarks.published"]
     seen = subprocess.run([*command, "two-planes"], cwd=ROOT, capture_output=True, text=True, check=True)

@@ -15,6 +15,8 @@ NAMED = re.compile(rf"(?<![`\w/-])abu (?:{'|'.join(COMMANDS)})\b(?!:)")
 """A command outside of backquotes; an error begins with its own command and a colon."""
 REPORTS = ("size", "simulate", "levels", "stability", "effects", "grinding")
 MACHINES = sorted((Path(__file__).parents[1] / "machines").glob("*.toml"))
+DRUM = "washing-machine"
+"""Of 42 balls: each command takes long, and what it advises stands in other reports, too."""
 PLACEHOLDERS = {"FILE", "MACHINE"}
 
 
@@ -35,6 +37,7 @@ def failing(file: str, text: str) -> Iterator[str]:
             yield f"abu {words}: {seen.err}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [pytest.param("avtovaz-707-305", marks=pytest.mark.slow), "swing-arm-grinder"])
 def test_commands_advised_for_presets_run(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
@@ -55,7 +58,7 @@ def test_commands_advised_in_every_report_of_a_preset_run(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("file", MACHINES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", [file for file in MACHINES if file.stem != DRUM], ids=lambda file: file.stem)
 def test_commands_advised_for_hard_machines_run(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     text = " ".join(reports(str(file)))

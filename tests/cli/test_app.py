@@ -16,6 +16,7 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
 
 
+@pytest.mark.slow
 def test_alone_it_shows_three_commands_that_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = abu()
     assert seen.status == 0 and seen.out == FIRST_STEPS + "\n" and not seen.err and seen.width <= 80

@@ -38,6 +38,7 @@ MORE_SOFT = [(0.1, 15), (0.1, 92), (0.25, 15), (0.25, 45), (0.9, 15)]
 """Damping and drag: the less damping, the longer the machine sways; without any, for ever."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("damping", "drag"), [(0.9, 92), *(pytest.param(*each, marks=pytest.mark.slow) for each in MORE_SOFT)]
 )
@@ -68,6 +69,7 @@ def test_bounces_at_the_start_are_gone_through_in_plain_code(monkeypatch: pytest
     assert {run["cost"]["integrator"] for run in result["simulation"]} <= {"plain-dop853", "plain-rk45"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drag", [0, *(pytest.param(each, marks=pytest.mark.slow) for each in (1, 1e5))])
 def test_a_drag_that_settles_nothing_leaves_the_design_standing(drag: float) -> None:
     status, checks, result = _hasty(
@@ -84,6 +86,7 @@ def test_zero_imbalance_has_finite_numbers() -> None:
     assert all(check["value"] is None or abs(check["value"]) < 1e9 for check in checks.values())
 
 
+@pytest.mark.slow
 def test_a_race_beyond_the_node_needs_balls_on_the_other_side() -> None:
     entries = ("machine.transverse_inertia_kg_m2=0.01", "machine.center_of_mass_to_wheel_mm=200")
     _, checks, result = _hasty(STRAIGHT, *entries, "autobalancer.plane_offset_mm=-300")
@@ -91,6 +94,7 @@ def test_a_race_beyond_the_node_needs_balls_on_the_other_side() -> None:
     assert checks["ABU205"]["value"] > 0
 
 
+@pytest.mark.slow
 def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
     pins = ("ball_count=8", "ball_diameter_mm=16.0", "race_radius_mm=30.0")
     _, checks, result = _checks(STRAIGHT, *(f"autobalancer.{pin}" for pin in pins))
@@ -142,12 +146,14 @@ def test_edges_are_answered(entries: tuple[str, ...]) -> None:
     assert (status == 0) is all(check["status"] in GOOD for check in checks.values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("entries", EDGES[:4], ids=lambda entries: " ".join(entries)[:60])
 def test_edges_are_answered_before_their_start_cases_are(entries: tuple[str, ...]) -> None:
     status, checks, result = _hasty(STRAIGHT, *entries)
     assert status == 1 and checks["ABU704"]["status"] == "not-done" and result["autobalancer"]["ball_count"] > 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("angle", "codes"),
     [

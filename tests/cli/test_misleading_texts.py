@@ -69,6 +69,7 @@ def test_no_uncertainty_of_nothing_is_told() -> None:
         assert not re.search(r"± *0(\.0)? dB", flat(once("grinding", name, "--full").out))
 
 
+@pytest.mark.slow
 def test_the_sheet_counts_one_entry_as_one(tmp_path: Path) -> None:
     drawing = tmp_path / "section.svg"
     assert abu("size", "avtovaz-707-370", "--set", "machine.mass_kg=5.4", "--output", str(drawing)).status == 0
@@ -91,6 +92,7 @@ LITTLE = (
 """A small machine whose race eccentricity leaves almost as much as its wheel's imbalance moves."""
 
 
+@pytest.mark.slow
 def test_a_small_benefit_is_named_at_the_top_and_an_action_finer_than_practice_says_so(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -107,6 +109,7 @@ def test_a_small_benefit_is_named_at_the_top_and_an_action_finer_than_practice_s
         assert finer is (min(finest, default=1.0) < 0.005)
 
 
+@pytest.mark.slow
 def test_an_action_is_no_command_that_repeats_a_start_case() -> None:
     """The whole report has the command, with the file and the entries of the result."""
     options = ("--set", "autobalancer.rolling_friction_mm=0.0021")
@@ -119,6 +122,7 @@ def test_an_action_is_no_command_that_repeats_a_start_case() -> None:
     assert told and "FILE" not in told[0]
 
 
+@pytest.mark.slow
 def test_no_report_names_a_file_that_is_not_there() -> None:
     for command in ("size", "grinding", "simulate"):
         assert not re.search(r"`abu [^`]*\bFILE\b", once(command, "avtovaz-707-222").out)

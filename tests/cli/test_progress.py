@@ -133,6 +133,7 @@ def test_shares_are_told_by_hundredths_and_go_through_a_part() -> None:
     assert share_of(silent, "part") is None and within(silent, "whole") is silent
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [(), ("--quiet",)])
 def test_a_run_in_a_terminal_shows_how_far_it_is(more: tuple[str, ...], tmp_path: Path) -> None:
     terminal = Terminal("%")

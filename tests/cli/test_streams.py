@@ -24,6 +24,7 @@ def shell(line: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["bash", "-c", line.replace("abu ", f"{abu} ")], capture_output=True, text=True, check=False)
 
 
+@pytest.mark.few(1)
 @posix
 @pytest.mark.parametrize(
     ("line", "status"),
@@ -49,6 +50,7 @@ def test_a_full_disk_is_told_with_what_was_computed() -> None:
     assert "a check failed or could not be done" in done.stderr
 
 
+@pytest.mark.few(1)
 @posix
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_signals_end_a_command_in_good_order(name: str, tmp_path: Path) -> None:

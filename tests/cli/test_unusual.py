@@ -11,6 +11,7 @@ SAID = "larger than the wheel: wheel.diameter_mm = 60"
 LOAD = ("--set", "bearing[0].radial_load_kN=800")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("arguments", "said"), [
     (("size", "msh-230", *ODD), SAID),
     (("stability", "msh-230", *ODD), SAID),

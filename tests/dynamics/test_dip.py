@@ -65,6 +65,7 @@ def scene(effect: RunUpEffect, duration: float) -> Scene:
     return Scene("dip", held, FULL, IMBALANCE, 0.0, (race,), duration, (0.0, 0.0), (0.0, 0.0), effects=(effect,))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("up", [0.0, 0.2])
 def test_a_dip_by_other_equations(up: float) -> None:
     """From rest and from full speed, to the last digits that two integrators share."""
@@ -77,6 +78,7 @@ def test_a_dip_by_other_equations(up: float) -> None:
     assert effect.at_speed == pytest.approx(up + 0.3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("low", [LOW, pytest.param(1.3 * NATURAL, marks=pytest.mark.slow)])
 def test_a_pause_frees_balls_that_hang(low: float) -> None:
     """Run up in one second they hang for good. After a pause below the resonance they turn with the rotor and balance

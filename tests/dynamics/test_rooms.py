@@ -52,6 +52,7 @@ def room_of(path: Path) -> str:
     return path.relative_to(DYNAMICS).parts[0] if path.parent != DYNAMICS else ""
 
 
+@pytest.mark.slow
 def test_a_room_imports_only_rooms_before_it():
     seen = set()
     for path in DYNAMICS.rglob("*.py"):
@@ -143,6 +144,7 @@ class Wind(Effect):
         return EffectInfluence(None, "it blows")
 
 
+@pytest.mark.slow
 def test_a_new_effect_is_one_class():
     """Integrated by SciPy and by the loop beside another effect, without a change anywhere."""
     wind = Wind(0.05, 0.02)

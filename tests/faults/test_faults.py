@@ -20,6 +20,7 @@ def check(faults: Faults) -> None:
     assert (tally.lost, tally.wrong, tally.bugs, tally.ignored) == (0, 0, 0, 0)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 def test_a_dozen_faults_leave_the_members_or_are_told(tmp_path: Path) -> None:
     faults = Faults(tmp_path)

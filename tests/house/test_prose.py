@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import Phase, given, seed, settings
 
-from tests.cli.runner import abu
+from tests.cli.runner import abu, once
 from tests.house.prose import error_texts, found_in, screens, static_texts, violations
 from tests.sizing.test_case import machines
 from tests.studies.random_machines import family_of, machine_text
@@ -109,6 +109,6 @@ def test_reports_of_plausible_machines(part: int, tmp_path: Path) -> None:
 def test_reports_of_hard_machines(file: Path) -> None:
     texts = []
     for words in (("size", str(file)), ("size", str(file), "--full")):
-        seen = abu(*words)
+        seen = once(*words)
         texts.append((f"abu {words[0]} {file.name}", f"{seen.out}\n\n{seen.err}"))
     assert found_in(texts) == []

@@ -96,7 +96,7 @@ def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
     _check_sized(changes)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @given(machines())
 @settings(RANDOM, max_examples=10)
 def test_any_of_many_machines_is_sized_or_refused(changes: dict[str, Any]) -> None:

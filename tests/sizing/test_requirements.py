@@ -155,8 +155,10 @@ def test_two_races_take_their_checks_by_the_same_rule(preset: str, request: pyte
     assert advice.changed(after, {"rolling_drag_per_s": 30.0}) is not None
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("preset", [*PRESETS, *TWO_RACES])
+@pytest.mark.parametrize(
+    "preset", [*(pytest.param(name, marks=pytest.mark.slow) for name in PRESETS),
+               *(pytest.param(name, marks=pytest.mark.hard) for name in TWO_RACES)]
+)  # fmt: skip
 @pytest.mark.usefixtures("informing")
 def test_no_expected_value_of_a_preset_changes(preset: str) -> None:
     machine = read(preset)

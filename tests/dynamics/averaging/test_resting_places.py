@@ -105,6 +105,7 @@ def test_no_friction_is_refused() -> None:
         resting_places(SlowBalls(4, 1e-4, 26e-3, 15.0, 1.4, 0.0, 0.5, 600.0), np.zeros(5, dtype=complex))
 
 
+@pytest.mark.slow
 def test_heavy_drag_ends_where_less_heavy_drag_ends() -> None:
     """Both creep without swinging, so that the drag sets the time and not the place."""
     sizes = []

@@ -115,6 +115,7 @@ def test_an_elastic_row_passes_the_impact_on():
     np.testing.assert_allclose(end[-4:], (0, 0, 0, 0.3), atol=1e-9)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 0.9])
 def test_below_resonance_balls_stay_packed(restitution):
     """The largest resultant of touching balls, m R_p sin(nβ)/sin β, on the heavy side."""
@@ -160,6 +161,7 @@ def test_two_tolerances_agree():
     np.testing.assert_allclose(loose, tight, atol=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("restitution", "coefficient"),
     [
@@ -229,6 +231,7 @@ def test_every_start_holds(masses, coefficient, position, middle, apart):
     assert (values >= 0).all()
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(masses_and_speeds, st.lists(st.floats(-0.2, 0.2), min_size=6, max_size=6), st.floats(0, 6))
 def test_an_elastic_impact_of_balls_across_their_race_keeps_the_energy(balls, across, middle):

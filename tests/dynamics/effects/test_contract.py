@@ -136,6 +136,7 @@ def test_a_support_that_cannot_take_an_effect_says_so():
         assemble(scene_on("planar", EXAMPLES["lift_off"]))
 
 
+@pytest.mark.few(1)
 @each_effect(*of_kind("conservative"))
 def test_conservative_force_is_the_slope_of_its_energy(support, name):
     """What Lagrange's equations ask for beside springs, energies and inertia is supplied by dampers and drag alone."""
@@ -162,6 +163,7 @@ def power_of(sample: Sample, name: str) -> float:
     )
 
 
+@pytest.mark.few(4)
 @each_effect(*of_kind("dissipative"))
 def test_dissipative_effects_take_energy_only(support, name):
     """In the motion relative to the race, and in impacts too."""
@@ -179,6 +181,7 @@ def test_dissipative_effects_take_energy_only(support, name):
     assert taken_out < -1e-6
 
 
+@pytest.mark.few(9)
 @pytest.mark.parametrize("nothing", NOTHING, ids=lambda effect: effect.name)
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_an_effect_of_no_strength_does_nothing(support, nothing):
@@ -250,6 +253,7 @@ def test_work_does_its_power_on_the_wheel_where_they_touch(support):
         assert power_of(sample, "grinding_contact") == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("rotor", [(), ("run_up",), ("motor",)], ids=str)
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_points_in_a_groove_obey_lagrange(support, rotor):

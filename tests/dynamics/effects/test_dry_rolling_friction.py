@@ -48,6 +48,7 @@ def whirl(angles: tuple[float, ...]) -> complex:
     return complex(resultant * SPEED**2 / (1 - mass * SPEED**2 + 2j * DAMPING * SPEED))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("coefficient", [1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
 def test_balls_come_to_rest_within_the_band(coefficient):
     """|w| ≤ f R_p/min(|sin θ*|, |cos θ*|), first order in |w|/R_p: n differs from R_p Ω² by that much."""
@@ -264,6 +265,7 @@ def test_weight_is_the_band_over_the_amplitude_it_is_weighed_by():
     assert DryRollingFrictionEffect(0.0, RADIUS).weight(scene).value == 0
 
 
+@pytest.mark.slow
 def test_rolling_across_the_race_shakes_friction_out():
     """A ball that rolls across by v ≫ R_p θ' feels f n R_p θ'/|v| along: next to nothing holds it beside its place.
 

@@ -82,6 +82,7 @@ GOLDEN = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("f", "sense", "angles", "reaction", "phase"), [pytest.param(*GOLDEN[0], marks=pytest.mark.slow), *GOLDEN[1:]]
 )
@@ -102,6 +103,7 @@ def test_rigid_contact_with_free_balls(f, sense, angles, reaction, phase):
     assert swing == pytest.approx(EPS / (4 * 7 / 5 * PITCH_RADIUS), rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sense", [1, pytest.param(-1, marks=pytest.mark.slow)])
 def test_axis_goes_backward_round_the_runout_circle(sense):
     """x = ε cos, y = −ε sin(Ωt + φ₀) from balls far off, damped: Ω²U = E (D_x − isf D_y)/(1 + isf)."""
@@ -116,6 +118,7 @@ def test_axis_goes_backward_round_the_runout_circle(sense):
     assert resultant == pytest.approx(U, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inertia_factor", [1.0, 7 / 5])
 def test_balls_swing_twice_a_turn(inertia_factor):
     """ε/(4 J R_p): 4.17e-4 rad for a point ball."""
@@ -127,6 +130,7 @@ def test_balls_swing_twice_a_turn(inertia_factor):
     assert swing == pytest.approx({1.0: 4.17e-4, 7 / 5: 2.98e-4}[inertia_factor], rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sense", [-1, 1])
 def test_balls_fixed_in_place(sense):
     """Balanced at idle: x = Re{isf E (D_y/D_x) e^{iΩt}}, 13.69 µm, y = −ε sin: a line inclined at δ."""
@@ -177,6 +181,7 @@ def test_compliant_contact_with_free_balls(stiffness, stable):
     assert off < 0.01 if stable else off > 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("drag", "flutters"), [(0.5 * 11.84, True), (1.5 * 11.84, False)])
 def test_balls_at_right_angles_flutter_below_the_limit_of_drag(drag, flutters):
     """h₀ > √(J κ (f²S² − C²)) = 11.84 1/s for 90°, f = 0.5, J = 1: below it they swing by some 35°."""
@@ -188,6 +193,7 @@ def test_balls_at_right_angles_flutter_below_the_limit_of_drag(drag, flutters):
     assert swung.min() > 20 if flutters else swung.max() < 0.5
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("stiffness", [1e4, 1e6, 1e8, 1e10])
 def test_bounces_are_elastic_and_on_time(stiffness):
     """A wheel dropped by the press: flight 2√(2hM/N₀), in the work 2(π − arccos(y₀/A))/ω, and back to its height."""
@@ -214,6 +220,7 @@ def grazing(share: float) -> Trajectory:
     return scipy_.integrate(assemble(scene), 1e-9, [0.1])
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("share", [0.98, 1 - 1e-12, 1.0, 1 + 1e-12, 1 + 1e-6, 1.02])
 def test_a_graze_is_passed(share):
     events = grazing(share).events
@@ -318,6 +325,7 @@ def test_a_start_is_placed_on_the_constraint_by_the_shortest_way(support):
     assert placed(soft) is soft
 
 
+@pytest.mark.slow
 def test_balls_that_run_away_are_told():
     """A rigid contact feeds heavy balls without drag until their speed is infinite; one that can part does not."""
     rigid = GrindingContactEffect(1.0, 0.5, "rigid", rotation_sense=1)

@@ -116,6 +116,7 @@ def test_a_cutting_arm_of_a_file_lifts_off() -> None:
     assert effect.depth == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_balls_balance_where_the_work_does_not_pull() -> None:
     """Pulled back by the work they stall at −2123 rpm and 142.6 dB; pressed alone they come to rest and balance."""
     machine = read_scene(str(PULLED))

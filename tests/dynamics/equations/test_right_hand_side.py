@@ -48,6 +48,7 @@ def every_scene(*rotors: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("support", "rotor"), cases)
 
 
+@pytest.mark.few(3)
 @every_scene()
 @settings(deadline=None, derandomize=True, max_examples=5)
 @given(seed=seeds, t=moments, more=st.sampled_from(MORE))
@@ -114,6 +115,7 @@ def massless(scene: Scene) -> LinearSupport | SwingArmSupport:
     return replace(scene.support, mass=tuple(tuple(0.0 for _ in row) for row in scene.support.mass))
 
 
+@pytest.mark.few(5)
 @every_scene()
 @settings(deadline=None, derandomize=True, max_examples=4)
 @given(seed=seeds, t=moments, more=st.sampled_from(MORE))

@@ -67,6 +67,7 @@ def test_long_runs_are_compiled_and_short_ones_are_not(scene):
     assert ("switches" in long.why) is (scene is switching)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unloaded")
 def test_a_run_in_plain_python_that_proves_long_goes_on_in_compiled_code():
     """Steps are two thousand times as short as counting expects."""
@@ -183,6 +184,7 @@ def test_two_kinds_of_integrators_verify_each_other():
         assert tuple(name for name, _ in verifiers(equations, 0.01)) == names
 
 
+@pytest.mark.slow
 def test_the_same_work_is_allowed_to_all():
     """Whoever does it."""
     equations, times = switching(0.5), [0.5]

@@ -79,6 +79,7 @@ def by_tolerance(scene, name: str) -> tuple[float, int]:
     return slope(TOLERANCES[known], errors[known]), runs[-1].events
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(("scene", "name"), CASES)
 def test_errors_are_proportional_to_the_tolerance(scene, name):
     found, _ = by_tolerance(SMOOTH[scene], name)

@@ -153,6 +153,7 @@ def test_next_to_no_imbalance_changes_nothing(share: float) -> None:
     assert stability(uneven).stable and stability(uneven).multipliers is not None
 
 
+@pytest.mark.slow
 def test_crossings_tell_how_many_grow() -> None:
     """Each at the right place: the number of growing roots of the characteristic equation is that on either side."""
     scene = scene_of(4)

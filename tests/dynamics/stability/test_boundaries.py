@@ -158,6 +158,7 @@ def test_nearly_isotropic_supports_are_nearly_the_same() -> None:
     assert stability(scene_of(stiffness=(1.0, 1.0 + 1e-6))).multipliers is not None
 
 
+@pytest.mark.slow
 def test_between_the_natural_frequencies_of_an_anisotropic_support() -> None:
     """ω = 300 and 700 rad/s: published simulations balance at 460 and 1000, not at 200 and 620."""
     base = Scene(

@@ -32,6 +32,7 @@ def refuted() -> Scene:
     return subject_of(abu_calc.read_scene(REFUTED), command="stability").scene
 
 
+@pytest.mark.slow
 def test_the_arrangement_that_a_list_missed(refuted: Scene) -> None:
     """+2.534e-4 1/s and 2.7432 rad/s at the start angles of the file; the worst arrangement is worse than these."""
     start, worst = stability(refuted, 0.0, "start"), stability(refuted)
@@ -107,6 +108,7 @@ def test_likeness_alone_decides(seed: int) -> None:
             assert two.growth(speed) == pytest.approx(rate, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_balls_of_several_races_are_moved() -> None:
     """No random arrangement is worse than the one found, but for the last steps of the search."""
     scene = case_of(7).scene

@@ -42,6 +42,7 @@ def growth(scene: Scene, angles: np.ndarray) -> float:
     return decided(BalancedMotion(scene, tuple(angles.tolist())), scene.speed)[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [8, *(pytest.param(each, marks=pytest.mark.slow) for each in (19, 33, 39, 55, 59))])
 def test_no_random_arrangement_grows_faster(seed: int) -> None:
     """200 of them for each of six arms; the arrangements that are listed alone missed faster growth on four."""
@@ -57,6 +58,7 @@ def test_no_random_arrangement_grows_faster(seed: int) -> None:
     assert np.isclose(np.array(case.masses) @ np.exp(1j * np.array(judgement.angles)), -case.imbalance, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_list_alone_misses_a_growing_arrangement() -> None:
     """Six balls, 2.55 times as fast as the arm swings: all that are listed die out, the one that is found grows."""
     case, scene = on_arm(39)
@@ -65,6 +67,7 @@ def test_the_list_alone_misses_a_growing_arrangement() -> None:
     assert stability(scene, case.half_angle).stable is False
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [19, pytest.param(55, marks=pytest.mark.slow)])
 def test_growth_by_the_equations_themselves(seed: int) -> None:
     """ln|μ|/T of a revolution, by central differences of the full equations and Runge–Kutta's method."""

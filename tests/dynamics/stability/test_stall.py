@@ -132,6 +132,7 @@ def motion(scene: Scene, speed_of_balls: float, end: float) -> tuple[np.ndarray,
     return times, run.sol(times)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frequencies", [(1.0, 1.0), (0.6, 1.1)])
 def test_the_bound_is_the_balance_of_power(frequencies: tuple[float, float]) -> None:
     """Balls driven round at ν: the mean torque on them, by the support's motion integrated in time."""
@@ -152,6 +153,7 @@ def test_the_bound_is_the_balance_of_power(frequencies: tuple[float, float]) -> 
     assert hanging_bounds(scene).resonance == pytest.approx(braking / (scene.speed - v), rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("share_of_bound", "hangs"), [(0.8, True), (1.05, False)])
 def test_balls_hang_below_the_bound_and_not_above(share_of_bound: float, hangs: bool) -> None:
     """From the very state that the bound speaks of, or one next to it."""

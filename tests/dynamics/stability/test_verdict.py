@@ -104,6 +104,7 @@ CASES = {
 }
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", CASES)
 def test_multipliers_are_those_of_the_whole_motion(name: str) -> None:
     """Largest first; what has died out to a tenth is left to the integrators' errors."""
@@ -199,6 +200,7 @@ def test_force_and_couple_vanish(places: list[float], imbalance: float, couple: 
     assert abs(force) < 1e-8 * 3e-4 and abs(moment) < 1e-8 * 3e-4 and rest.motion == ()
 
 
+@pytest.mark.slow
 def test_one_race_and_its_plane() -> None:
     """An imbalance in the race's own plane is balanced exactly; elsewhere the race alone is held still."""
     scene = rotor(race(0.11), couple=1.1e-6, couple_angle=0.3)  # 1e-5 kg m at 0.11 m
@@ -234,6 +236,7 @@ def mathieu(damping: float, strength: float, ratio: float) -> float:
     return math.log(np.abs(multipliers(matrices, 2 * math.pi, np.eye(2))).max())
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("ratio", "law"), [(0.5, lambda z: 4 * z), (1.0, lambda z: math.sqrt(8 * z))])
 def test_tongues_of_the_damped_mathieu_equation(ratio: float, law) -> None:
     """ε = 4ζ at ω = 2ω₀ and √(8ζ) at ω₀, known to leading order; the second tongue leans, so its tip is sought."""
@@ -322,6 +325,7 @@ def published_arm(ratio: float) -> Scene:
     return on(held, (race(mass=0.01, drag=10.0, factor=1.0),), speed=300.0, imbalance=4e-4, imbalance_angle=0.0)
 
 
+@pytest.mark.slow
 def test_where_balls_balance_an_arm() -> None:
     """Full motion: balls at ± 131.8° at Ω/ω₀ = 5 and 2, merged on the heavy side at 0.75 and 0.5."""
     for ratio, balances in ((5, True), (2, True), (0.75, False), (0.5, False)):
@@ -353,6 +357,7 @@ def test_effects_are_left_out_and_named() -> None:
     assert found.eigenvalues == stability(plain).eigenvalues
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("low", [0.1, 10.0])
 def test_work_is_bounded_at_any_speed(low: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Far below and far above the natural frequencies, soft and stiff: so many speeds, and few steps at each."""

@@ -112,6 +112,7 @@ def own_motion(scene: Scene, stall: float, normal, times: np.ndarray) -> np.ndar
     return np.hstack([first.sol(before)[[0, 2]], [rolled[0], -rolled[1] / RADIUS]])
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("kind", "names"), [("compliant", PLAIN), ("rigid", ALL)])
 def test_a_wheel_that_stands_on_its_edge_rolls_with_the_swinging_axis(kind, names):
     """A compliant contact's N swings about the press force as the axis does along y."""

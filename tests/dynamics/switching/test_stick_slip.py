@@ -65,6 +65,7 @@ def test_the_very_same_mode_comes_back_where_nothing_changes() -> None:
     assert not mode.like(Rolling(mode.direction, -mode.side, mode.begun))
 
 
+@pytest.mark.slow
 def test_a_chain_of_balls_of_which_one_stops_across_the_race_goes_on() -> None:
     """A face grinder whose runout shakes some balls of a chain loose and others not: chains part and join some dozen
     times, and two ways of integration agree.

@@ -34,6 +34,7 @@ def measured():
         return price_list(scene, Ledger(scene, (), scene), "amplitude", 0.01, 3600.0, TOLD.append)
 
 
+@pytest.mark.slow
 def test_every_rung_and_integrator_is_measured(measured):
     assert not measured.skipped
     kinds = {(point.rung, point.integrator) for point in measured.points}

@@ -59,6 +59,7 @@ def test_a_machine_beside_all_charts_gets_none() -> None:
     assert not list(atlas_figures(size(machine.whole("size"))))
 
 
+@pytest.mark.slow
 def test_the_atlas_is_not_imported_before_a_page_is_written() -> None:
     code = (
         "import sys, abu_calc, abu_calc.features.design.figures\n"

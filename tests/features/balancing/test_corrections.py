@@ -41,6 +41,7 @@ ANY = st.lists(st.floats(0, 6.28), min_size=3, max_size=8).filter(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(st.floats(0.001, 1.0), st.floats(0, 6.28), CIRCLE | ANY, st.floats(0.15, 1.5))
 def test_masses_with_a_cap_are_the_least_that_do_it(mass: float, angle: float, places: list[float], cap: float) -> None:

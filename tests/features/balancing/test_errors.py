@@ -31,6 +31,7 @@ def spoilt(roll: RollOnRig, rng: np.random.Generator) -> RollOnRig:
     return replace(roll, **moved, **{key: getattr(roll, key) + 0.001 * next(n) for key in "abcd"})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rpm", [1300.0, 3000.0])
 def test_uncertainties_are_the_scatter_of_spoilt_readings_and_rigs(rpm: float) -> None:
     shop = Workshop(speed_rpm=rpm)

@@ -282,6 +282,7 @@ def test_errors_are_held_against_what_the_correction_takes_away(tmp_path: Path) 
     assert sure.value == pytest.approx(100 * math.hypot(0.1, 0.005) / 1.25 / 8.2, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_second_correction_leaves_no_more_than_was_told() -> None:
     """Errors grow with the vibration that is there, that which the plane leaves included."""
     W, X = random_machine(21, 4, 1)

@@ -60,6 +60,7 @@ def test_good_files_validate(text: str) -> None:
     VALIDATOR.validate(document(text))
 
 
+@pytest.mark.slow
 @settings(deadline=None, derandomize=True, max_examples=300)
 @given(place=st.sampled_from(PLACES), how=st.sampled_from(["replace", "remove", "add"]), value=st.sampled_from(VALUES))
 def test_schema_and_models_agree(place: tuple[int, tuple[Any, ...]], how: str, value: Any) -> None:

@@ -21,6 +21,7 @@ def quiet(**values: object) -> Fan:
     return Fan(reading_error=0.0, placing_error=0.0, **values)  # type: ignore[arg-type]
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("angle", [0.0, 77.0, 180.0, 301.0])
 @pytest.mark.parametrize("mass", [3.0, 100.0])
 def test_four_runs_give_mass_and_angle(tmp_path: Path, mass: float, angle: float) -> None:
@@ -45,6 +46,7 @@ def test_the_answer_is_within_its_uncertainty(tmp_path: Path, count: int) -> Non
     assert inside >= 0.95 * count
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 6))])
 def test_more_sensors_speeds_and_runs_are_all_used(tmp_path: Path, seed: int) -> None:
     """Two sensors, two speeds, five states: the answer is surer than that of four runs, and as good as told."""

@@ -18,6 +18,7 @@ def of(part: str, rows: Any) -> dict[str, list[Any]]:
     return {row["path"]: row["values"] for row in rows if row["part"] == part}
 
 
+@pytest.mark.slow
 def test_files_have_the_differences_and_with_full_every_entry(tmp_path: Path) -> None:
     short, whole = tmp_path / "short.txt", tmp_path / "whole.txt"
     assert once(*SHAFT, "--output", str(short)).status == once(*SHAFT, "--full", "--output", str(whole)).status == 1

@@ -33,6 +33,7 @@ def recordings(folder: Path, count: int, *, mark: bool = True) -> list[str]:
     return [record(path, folder / f"s{k}{mark}.csv", DRAG, LEVER, complex(OFFSET), k, mark=mark) for k in range(count)]
 
 
+@pytest.mark.slow
 def test_known_values_predict_the_recorded_starts_and_wrong_ones_do_not(tmp_path: Path) -> None:
     files = recordings(tmp_path, 4)
     right = compare_measured([read_any(str(told(tmp_path)))], files)
@@ -62,6 +63,7 @@ def test_numbers_of_an_exponential_are_those_of_its_equation(tmp_path: Path) -> 
     assert never.settling_time_s is None
 
 
+@pytest.mark.slow
 def test_the_command_prints_and_draws(tmp_path: Path) -> None:
     files = [option for file in recordings(tmp_path, 2, mark=False) for option in ("--measured", file)]
     figure = tmp_path / "courses.svg"

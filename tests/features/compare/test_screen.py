@@ -2,6 +2,8 @@
 
 from functools import cache
 
+import pytest
+
 import abu_calc
 from abu_calc.features.compare.screen import compare_screen, words_of
 from abu_calc.features.compare.study import CompareResult
@@ -29,6 +31,7 @@ def line_of(screen: str, start: str) -> str:
     return next(line for line in screen.splitlines() if line.strip().startswith(start))
 
 
+@pytest.mark.slow
 def test_levels_and_settling_stand_first_case_by_case_with_their_limits() -> None:
     """The early-pressed run is 15 dB quieter with more drag: that is what the reader compares variants for."""
     screen = as_text(compare_screen(drags()))
@@ -39,6 +42,7 @@ def test_levels_and_settling_stand_first_case_by_case_with_their_limits() -> Non
     assert line_of(screen, "worst friction case").split()[-2:] == ["105.4", "105.4"]  # equal ones stand there, too
 
 
+@pytest.mark.slow
 def test_a_machine_without_an_autobalancer_has_no_level() -> None:
     with remembered():
         result = abu_calc.compare([abu_calc.read("msh-230"), abu_calc.read("mmg-3200k-knife-shaft")])

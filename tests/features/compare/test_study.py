@@ -71,6 +71,7 @@ def test_checks_stand_side_by_side_and_the_worst_is_the_status(
     assert {check.name.rpartition(", ")[2] for check in compared.checks} == {"A", "B"}
 
 
+@pytest.mark.slow
 def test_one_screen_has_the_differences_and_the_whole_report_all(compared: CompareResult) -> None:
     screen, whole = as_text(compare_screen(compared)), as_text(compare_blocks(compared))
     assert len(screen.splitlines()) <= 48 and max(map(len, screen.splitlines())) <= 80

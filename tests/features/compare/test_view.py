@@ -49,6 +49,7 @@ def test_long_cells_stand_below_the_table() -> None:
     assert [value.text for value in values if isinstance(value, Paragraph)] == ["A  " + "a" * 25, "B  b"]
 
 
+@pytest.mark.slow
 def test_the_short_report_says_that_it_is_short() -> None:
     short = as_text(compare_blocks(seats(), full=False))
     whole = as_text(compare_blocks(seats()))

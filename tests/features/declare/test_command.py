@@ -14,6 +14,7 @@ KEYS = {
 PRESETS = ("angle-grinder-125", "avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("preset", PRESETS)
 def test_presets_have_a_screen(preset: str) -> None:
     seen = once("declare", preset, "--starts", "500")
@@ -22,6 +23,7 @@ def test_presets_have_a_screen(preset: str) -> None:
     assert seen.width <= 80 and len(seen.out.splitlines()) <= 48
 
 
+@pytest.mark.slow
 def test_a_common_tool_shows_its_handles_out_of_the_box() -> None:
     """Two handles in three axes, the limit of a_hv, and a declared value that falls by more than K."""
     for command in ("size", "levels", "declare"):

@@ -62,12 +62,14 @@ def test_fifteen_recordings_have_their_value(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_millivolts_and_decimal_commas(tmp_path: Path) -> None:
     plain = evaluated(listed(tmp_path))
     path = listed(tmp_path, more='sensitivity = "100 mV/g"\n', unit="mV", per_unit=MV, decimal=",")
     assert evaluated(path).a_hd_m_per_s2 == pytest.approx(plain.a_hd_m_per_s2, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_machine_that_balances_itself_declares_more(tmp_path: Path) -> None:
     path = listed(tmp_path, head="[type_test]\nautomatic_balancing = true")
     result = evaluated(path)
@@ -120,6 +122,7 @@ def test_axes_in_files_of_their_own(tmp_path: Path) -> None:
     assert [axis.name for axis in result.runs[0].axes] == ["x", "y", "z"]
 
 
+@pytest.mark.slow
 def test_calibrator_runs_judge_each_channel(tmp_path: Path) -> None:
     """Channel x reads 8 % too much, y is right."""
     t = np.arange(2 * RATE) / RATE
@@ -135,6 +138,7 @@ def test_calibrator_runs_judge_each_channel(tmp_path: Path) -> None:
     assert result.status == "fail"
 
 
+@pytest.mark.slow
 def test_an_overload_fails(tmp_path: Path) -> None:
     path = listed(tmp_path)
     run_file(tmp_path, "operator0-run1.csv", 2.0, limit=8.0)
@@ -215,6 +219,7 @@ def test_a_unit_that_is_not_known_is_refused(tmp_path: Path) -> None:
     assert caught.value.place.line == 1
 
 
+@pytest.mark.slow
 def test_runs_that_scatter_fail(tmp_path: Path) -> None:
     path = listed(tmp_path)
     run_file(tmp_path, "operator1-run3.csv", 5.0)
@@ -239,6 +244,7 @@ def test_a_single_run_is_not_evaluated(tmp_path: Path) -> None:
     assert result.status == "not-done"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axes", [1, 2])
 def test_axes_that_are_missing_warn(tmp_path: Path, axes: int) -> None:
     result = evaluated(listed(tmp_path, axes=axes))

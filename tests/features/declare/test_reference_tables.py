@@ -65,6 +65,7 @@ def pair(request: pytest.FixtureRequest) -> tuple[Reference, SimulatedTest]:
     return reference, simulated_test(spindle, reference.imbalance, reference.eccentricity, RUNS)
 
 
+@pytest.mark.slow
 def test_values_of_the_handles(pair: tuple[Reference, SimulatedTest]) -> None:
     reference, test = pair
     for name, (mean, error, percentiles, deviation) in reference.values.items():
@@ -91,6 +92,7 @@ def test_declared_values_and_their_uncertainty(pair: tuple[Reference, SimulatedT
     assert found == pytest.approx(reference.uncertainty, abs=1.2e-3)
 
 
+@pytest.mark.slow
 def test_break_even_eccentricities(pair: tuple[Reference, SimulatedTest]) -> None:
     reference, test = pair
     even = search_break_even(test, 20_000, silent)

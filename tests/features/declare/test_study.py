@@ -30,6 +30,7 @@ def point(tmp_path_factory: pytest.TempPathFactory) -> DeclareResult:
     return result(tmp_path_factory.mktemp("point"), S100, 10_000)
 
 
+@pytest.mark.slow
 def test_rigid_machine_without_autobalancer(rigid: DeclareResult) -> None:
     """1.45775 and 0.92766 of a free body; the suspension at 2.5 Hz adds 0.03 %."""
     assert rigid.without.a_hv_m_per_s2 == pytest.approx(1.0003 * 1.45775, rel=1e-4)
@@ -55,6 +56,7 @@ def test_rigid_machine_with_autobalancer(rigid: DeclareResult) -> None:
     assert spread == pytest.approx(1.6449 * 1.3 * 0.124 / math.sqrt(3), rel=0.06)
 
 
+@pytest.mark.slow
 def test_rigid_machine_of_the_same_mass_with_autobalancer(tmp_path: Path, rigid: DeclareResult) -> None:
     """The reference has 6 kg with the autobalancer: a file says so by a mass that is lighter by it.
 
@@ -77,6 +79,7 @@ def test_break_even_of_the_rigid_machine(rigid: DeclareResult) -> None:
     assert rigid.break_even_reason is None
 
 
+@pytest.mark.slow
 def test_point_mass(point: DeclareResult) -> None:
     """The reference is 3.2 kg in both states; here 3.1 kg without and 3.2 kg with the autobalancer."""
     mass = point.model.mass_kg

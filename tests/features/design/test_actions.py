@@ -103,6 +103,7 @@ def as_printed(value: float, text: str) -> bool:
     return abs(value - float(text)) <= 0.5 * last * 1.001 + 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [

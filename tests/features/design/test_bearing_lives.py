@@ -34,6 +34,7 @@ def sized(bearings: str) -> dict[str, Any]:
         return abu("size", str(file), "--json").document
 
 
+@pytest.mark.slow
 def test_lives_follow_from_imbalance_and_residual() -> None:
     """MSh-230 grinds by its face: the constant force is the press force of 45 N with its friction, f = 0.35.
 

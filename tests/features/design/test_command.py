@@ -34,6 +34,7 @@ def test_two_balls_do_not_suffice_under_load() -> None:
     assert design.autobalancer.capacity_ratio < 1.2
 
 
+@pytest.mark.slow
 def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
     seen = once("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
                 "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip
@@ -49,6 +50,7 @@ def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
     assert document["result"]["data_gaps"] == []
 
 
+@pytest.mark.slow
 def test_a_machine_in_hands_is_simulated_with_them() -> None:
     # With friction balls stop somewhere in its band.
     smooth = abu_calc.read("avtovaz-707-370").changed({"autobalancer.rolling_friction_mm": 0.0})

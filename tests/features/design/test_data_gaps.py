@@ -35,6 +35,7 @@ def changed(machine: Machine, sized: SizeResult, **entries: object) -> SizeResul
     return size(machine.changed({f"autobalancer.{key}": value for key, value in pinned.items()}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "end"),
     [
@@ -68,6 +69,7 @@ def test_drag_rates_have_the_settling_times_of_the_start_cases(sized: SizeResult
     assert gap.settling_time_s == slowest and gap.level_db[0] == gap.level_db[1] == sized.vibration.level_after_db
 
 
+@pytest.mark.slow
 def test_the_value_that_decides_the_verdict_is_first(machine: Machine, sized: SizeResult) -> None:
     """On a vertical spindle friction decides: on the horizontal one gravity shakes it out."""
     gaps = changed(machine.changed({"machine.spindle_axis": "vertical"}), sized).data_gaps

@@ -69,6 +69,7 @@ def test_costs_fall_from_the_first_bar(shown: dict[str, object]) -> None:
 PRESETS = ("avtovaz-707-222", "msh-230", "swing-arm-grinder")
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", PRESETS)
 def test_each_run_of_the_animation_has_its_own_label_that_names_the_case(name: str) -> None:
     result = recalled("size", read_machine(name))

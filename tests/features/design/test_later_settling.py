@@ -20,6 +20,7 @@ def design(name: str) -> Design:
     return size(read_machine(name).whole("size"))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("time", "said"),
     [

@@ -31,6 +31,7 @@ def without() -> abu_calc.SizeResult:
     return abu_calc.size(abu_calc.read(PRESET), starts="none")
 
 
+@pytest.mark.slow
 def test_save_writes_what_output_writes(result: abu_calc.SizeResult, tmp_path: Path) -> None:
     for ending in (".json", ".toml", ".csv", ".txt", ".svg", ".dxf", ".html"):
         if ending == ".dxf":
@@ -92,6 +93,7 @@ def test_tables(result: abu_calc.SizeResult) -> None:
     assert ("grinding", result.vibration.place) in rows and len(rows) == len(result.levels)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("starts", ["none", "one"])
 @pytest.mark.parametrize("preset", [PRESET, "msh-230", "avtovaz-707-305"])
 def test_without_the_starts_no_check_that_needs_them_passes(preset: str, starts: str) -> None:
@@ -102,6 +104,7 @@ def test_without_the_starts_no_check_that_needs_them_passes(preset: str, starts:
     assert sized.status != "pass" and any(f'starts="{starts}"' in text for text in sized.warnings)
 
 
+@pytest.mark.slow
 def test_what_fails_without_the_starts_still_fails() -> None:
     loud = abu_calc.read(PRESET).changed({"limits.vibration_level_db": 90.0})
     for starts in ("none", "one"):
@@ -167,6 +170,7 @@ def test_other_sources_are_refused(source: object) -> None:
         abu_calc.read(source)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_xarray_and_numpy_of_a_simulation() -> None:
     simulated = abu_calc.simulate(abu_calc.read(PRESET), samples=50)
     motion = simulated.motion

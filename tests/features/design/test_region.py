@@ -83,6 +83,7 @@ def test_the_boundary_of_the_even_fan(tmp_path: Path) -> None:
     assert stability(scene, half, "fan").stable and not stability(scene, half).stable
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("hertz", "status"), [("[2.5, 3.75]", "pass"), ("[40.0, 60.0]", "fail"), ("[90, 90]", "fail")])
 def test_what_the_simple_rule_does_not_know(hertz: str, status: str) -> None:
     """Stiff and heavily damped, the phase lag makes the balls flutter though the speed is above both frequencies."""
@@ -92,6 +93,7 @@ def test_what_the_simple_rule_does_not_know(hertz: str, status: str) -> None:
     assert region.check.status == status and region.stable is (status == "pass")
 
 
+@pytest.mark.slow
 def test_a_pocket_inside_the_range_fails() -> None:
     """Ends in the two zones of an anisotropic support, the forbidden band between them."""
     region = true_region(
@@ -122,6 +124,7 @@ def test_modes_of_a_machine_in_hands_with_the_damped_one() -> None:
 FLUTTERING = ('suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1")
 
 
+@pytest.mark.slow
 def test_hands_that_let_the_balls_flutter_fail() -> None:
     """Not stable and a pass cannot stand together."""
     region = region_of("msh-230", *FLUTTERING)
@@ -131,6 +134,7 @@ def test_hands_that_let_the_balls_flutter_fail() -> None:
 HANDS = str(Path(__file__).parents[2] / "machines" / "angle-grinder-hands.toml")
 
 
+@pytest.mark.slow
 def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
     """An angle grinder in hands at 11 000 rpm: 167 rpm is no action; another drag is."""
     region = region_of(HANDS)
@@ -158,6 +162,7 @@ def test_the_command_finds_the_boundary_of_the_region() -> None:
     assert limit.speed_rpm == pytest.approx(from_si(last.speed, "rpm"), rel=1e-4)
 
 
+@pytest.mark.slow
 def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
     held = region_of(HANDS).check
     assert (

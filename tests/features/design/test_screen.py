@@ -53,12 +53,14 @@ def flat(text: str) -> str:
     return " ".join(text.split())
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_presets(command: tuple[str, ...]) -> None:
     seen = once(*command)
     assert fits(seen) and seen.out.strip()
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -78,6 +80,7 @@ def test_other_reports(arguments: tuple[str, ...]) -> None:
     assert fits(once(*arguments))
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize(
     ("text", "duration"),
     [(SCENE, "20"), (PLANAR, ""), (TILTING, "0.2"), (ARM, "0.5")],
@@ -131,6 +134,7 @@ def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> 
     assert f"{sized.autobalancer.mass_g:.0f} g with balls" in row_of(text, "Mass")
 
 
+@pytest.mark.slow
 def test_a_case_beyond_its_limit_points_to_its_action() -> None:
     """The worst friction case of the choice for a horizontal spindle warns on a vertical one; the number of its action
     stands below, with what it changes.
@@ -246,6 +250,7 @@ def test_a_loud_further_start_case_stands_in_the_table(sized: SizeResult) -> Non
     assert re.search(r"loudest of 36 further start cases +112\.3 +109 +WARN 1", as_text(size_screen(result)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("bad", "warned"), [(0, 0), (0, 60), (5, 7), (14, 0), (60, 60)])
 def test_what_there_is_no_room_for_is_counted(sized: SizeResult, seats: CheckFitResult, bad: int, warned: int) -> None:
     checks = tuple(graded(GRADES[1 + number % 3], number) for number in range(bad))
@@ -292,6 +297,7 @@ def test_what_shortens_the_balls_way(sized: SizeResult) -> None:
 ESTIMATED = str(Path(__file__).parents[2] / "machines" / "angle-grinder-estimated.toml")
 
 
+@pytest.mark.slow
 def test_handles_stand_on_the_screen_axis_by_axis() -> None:
     """The two highest of three handles, without and with the autobalancer, with bands and the limit."""
     seen = once("size", ESTIMATED)

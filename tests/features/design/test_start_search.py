@@ -77,6 +77,7 @@ def test_designed_starts_cover_the_race_without_overlap(name: str) -> None:
         assert len({start.eccentricity for start in starts if bool(start.run_up) is kind}) == 2
 
 
+@pytest.mark.slow
 def test_a_range_is_started_at_both_ends_and_in_the_middle() -> None:
     """The upper end is the rated speed, which the designed starts have. In the search the speed moves within the
     range.
@@ -114,12 +115,14 @@ def test_neighbours_are_near_and_other() -> None:
         assert all(other.drag == start.drag for other in near)
 
 
+@pytest.mark.slow
 def test_the_search_is_the_same_whatever_the_workers() -> None:
     found = design("avtovaz-707-305")
     alone, together = search(found, 0.01), search(found, 0.01, workers=3)
     assert alone == together and len(alone.outcomes) >= DESIGNED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [

@@ -58,6 +58,7 @@ def simulated(source: Machine, row: SettlingOfStart) -> SimulateResult:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_simulate_repeats_the_settling_times_of_size(name: str) -> None:
     source, result = sized(name)
@@ -118,6 +119,7 @@ def test_the_race_centre_is_for_machines() -> None:
         abu_calc.simulate(abu_calc.read("avtovaz-707-222"), race_centre_deg=400.0)
 
 
+@pytest.mark.slow
 def test_samples_change_no_settling_time() -> None:
     """Balls creep by friction at the end of this scene, so that the run is followed for longer, to its last sample."""
     source = abu_calc.read("avtovaz-707-305")

@@ -10,6 +10,7 @@ from abu_calc.sizing import size as size_design
 from tests.cli.runner import once
 
 
+@pytest.mark.slow
 def test_all_scenes_a_file_calls_for_are_simulated() -> None:
     machine = abu_calc.read("swing-arm-grinder").changed({"grinding.press_force_N": 45.0})
     result = abu_calc.size(machine, starts="none")

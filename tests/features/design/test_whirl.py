@@ -13,6 +13,7 @@ from tests.formulas.bodies import G125, G230, V305, SpaceCase
 from tests.sizing.test_places import angle_grinder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "frequency", "damping", "gyro", "boundary"),
     [
@@ -45,6 +46,7 @@ BALLS = "ball_count", "ball_diameter_mm", "race_radius_mm"
 """Chosen for the speed, not those that the reference has at its own."""
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("polar", "rpm", "status"),
     [

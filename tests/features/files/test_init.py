@@ -5,11 +5,13 @@ import tomllib
 from pathlib import Path
 
 import jsonschema
+import pytest
 
 from tests.cli.runner import abu
 from tests.inputs.samples import BEARINGS
 
 
+@pytest.mark.slow
 def test_init_writes_what_size_takes(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     assert abu("init", str(file)).status == 0

@@ -50,6 +50,7 @@ def schema() -> dict[str, object]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_every_document_is_as_the_schema_says(
     schema: dict[str, object], command: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch

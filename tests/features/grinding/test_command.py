@@ -49,6 +49,7 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("name", "which", "begins"),
     [
@@ -146,6 +147,7 @@ def test_the_face_machine_does_at_work_what_it_does_at_idle() -> None:
     assert result["level_before_db"] == pytest.approx(112.0)
 
 
+@pytest.mark.slow
 def test_remedies_hold_when_taken() -> None:
     """What is advised is in force: the machine with it passes without that warning."""
     result = worked(STRAIGHT).to_dict()

@@ -297,6 +297,7 @@ def test_boundaries_of_stability_are_the_published_ones(count, fan, ball, inerti
     assert growing(speed * (1 + 2e-4)) == 0
 
 
+@pytest.mark.slow
 @given(st.lists(st.complex_numbers(max_magnitude=3.5, allow_nan=False), min_size=2, max_size=2))
 def test_growing_roots_are_counted(roots):
     """Of a real polynomial of fourth order with known roots."""

@@ -29,6 +29,7 @@ def _bound(work: Work) -> LowerBound | None:
     return lower_bound(work.levels.after, work.design.case)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("eccentricity_mm", "holds"), [(0.005, True), (0.01, True), (0.03, False)])
 def test_the_threshold_is_one_weighted_metre_per_second_squared(eccentricity_mm: float, holds: bool) -> None:
     """a_hv = √2·W_h·Ω·v with v of the level, on both sides of the threshold."""

@@ -145,12 +145,13 @@ within a fifth of the contact's resonance, where its balls go round when they co
 """
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("seed", USUAL)
 def test_closed_form_and_simulation_agree(seed: int) -> None:
     assert check(seed) == USUAL[seed]
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_closed_form_and_simulation_agree_on_a_hundred_machines() -> None:
     """As they are drawn, none left out: where balls balance, where they go otherwise, and where they never rest."""
     said = Counter(check(seed) for seed in range(ALL))
@@ -216,6 +217,7 @@ def integrated(
     return complex(2 * (run.y[0] * back).mean()), complex(2 * (y * back).mean()), complex(total.mean())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stiffness", "sense", "runout"),
     [(None, -1, 4e-5), (None, 1, 4e-5), (4.9e5, -1, 9e-5), pytest.param(6e6, 1, 2e-5, marks=pytest.mark.slow)],
@@ -244,6 +246,7 @@ def own_torque(contact: SteadyContact, imbalance: complex, runout: complex, angl
     return ((x + 1j * y) / 2 * cmath.exp(-1j * angle)).imag
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "places"),
     [

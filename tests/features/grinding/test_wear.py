@@ -57,6 +57,7 @@ def ground(stiffness: float | None, depth: float, steps: int, *, balls: bool) ->
     return complex(2 * (outline * np.exp(1j * POINTS)).mean()), OWN + moment() - first
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stiffness", "balls"),
     [

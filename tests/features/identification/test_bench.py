@@ -36,6 +36,7 @@ def test_dry_friction_takes_two_friction_angles_per_half_swing() -> None:
     assert abs(angles[-1]) <= friction * 1.001  # where it sticks
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("drag", "lever"), [(4.0, 1e-6), (8.0, 5e-6), (2.0, 15e-6)])
 def test_values_of_a_decay_are_found(tmp_path: Path, drag: float, lever: float) -> None:
     scene = scene_from(read_any(str(scene_file(tmp_path))).scene)  # type: ignore[union-attr]

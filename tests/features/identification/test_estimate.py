@@ -45,6 +45,7 @@ def test_features_of_an_exponential_are_those_of_the_equation() -> None:
     assert abs(end_of(decay.astype(complex))) < 1e-9 and features[-1] == pytest.approx(1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sets", [10, pytest.param(40, marks=pytest.mark.slow)])
 def test_intervals_hold_the_truth_wherever_in_a_narrow_box_it_lies(sets: int) -> None:
     """Sets of eight starts at random places: a drop of 4 has room for the regression."""

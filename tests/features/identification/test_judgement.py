@@ -32,6 +32,7 @@ def measured(folder: Path, drags: np.ndarray, cut: float = 0.0):  # type: ignore
     return scene, Measured(starts, tuple(start.track for start in starts), reading, None)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("last", "status"), [(8.0, "warn"), (16.0, "warn"), (24.0, "pass")])
 def test_oil_that_warms_shows_a_trend(tmp_path: Path, last: float, status: str) -> None:
     """The drag rate falls from 24 1/s over eight starts, or stays."""

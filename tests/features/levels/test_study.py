@@ -105,6 +105,7 @@ def two_handles(folder: Path) -> str:
     return str(file)
 
 
+@pytest.mark.slow
 def test_two_handles_in_volts_each_have_their_levels_and_total(tmp_path: Path) -> None:
     """By closed form: √(1+4+9) and twice it, W_h 0.160 at 100 Hz; the rear decides; third octaves beside octaves."""
     asked = ("--sensitivity", "1", "--sensitivity", "rear_az_mV=2", "--third-octaves", "--json")
@@ -133,6 +134,7 @@ def test_a_machine_has_third_octaves_too() -> None:
 
 
 # simulated motion
+@pytest.mark.slow
 @pytest.mark.parametrize("samples", ["1001", "4001"])
 def test_a_file_that_the_simulation_wrote_has_its_level(tmp_path: Path, samples: str) -> None:
     motion = tmp_path / "motion.csv"
@@ -156,6 +158,7 @@ def test_a_machine_has_the_level_that_its_simulation_has() -> None:
     assert predicted is not None and found.measured_after.difference_db == pytest.approx(mean - predicted, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_handles_of_a_rigid_body_move_and_carry_as_mechanics_has_it() -> None:
     """Motion per imbalance 1/M + p·a/J, load by the lever about the centre of mass."""
     machine = abu_calc.read("avtovaz-707-222").changed({**RIGID, "machine.handle": HANDLES})
@@ -172,6 +175,7 @@ def test_handles_of_a_rigid_body_move_and_carry_as_mechanics_has_it() -> None:
     assert front.level_before_db > front.level_db + 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("changes", [{}, {"machine.spindle_axis": "vertical"}])
 def test_where_statics_does_not_tell_no_load_is_given(changes: dict[str, object]) -> None:
     rigid = RIGID if changes else {}

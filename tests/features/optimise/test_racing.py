@@ -46,6 +46,7 @@ def known() -> int:
     return int(min(np.flatnonzero(shares >= TARGET), key=lambda k: COSTS[k]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seeds", [3, pytest.param(20, marks=pytest.mark.slow)])
 def test_the_same_winner_for_every_seed_with_a_tenth_of_the_work(known: int, seeds: int) -> None:
     races = [raced(seed) for seed in range(seeds)]
@@ -53,6 +54,7 @@ def test_the_same_winner_for_every_seed_with_a_tenth_of_the_work(known: int, see
     assert max(race.spent for race in races) <= 0.1 * len(SPACE) * EACH
 
 
+@pytest.mark.slow
 def test_no_candidate_proven_gives_none_and_the_highest_share_is_found() -> None:
     places = np.random.default_rng(998).random((20 * EACH, 4))
     shares = [meets(variant, places).mean() for variant in range(len(SPACE))]

@@ -16,6 +16,7 @@ PRESET = "avtovaz-707-222"
 DRAG, ECCENTRICITY = "autobalancer.rolling_drag_per_s", "autobalancer.race_eccentricity_mm"
 
 
+@pytest.mark.slow
 def test_the_cheapest_choice_that_settles_wins(small: OptimiseResult) -> None:
     best = small.recommended
     assert (best.set_[DRAG], best.set_[ECCENTRICITY]) == (20, 0.03)

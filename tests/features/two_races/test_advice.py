@@ -52,7 +52,7 @@ def test_a_change_that_cannot_be_made_or_breaks_a_check_is_none() -> None:
     assert advice.changed(design_of(), {"max_mass_fraction": 0.001}) is None
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_quieter_change_holds_when_followed() -> None:
     design = design_of("limits.vibration_level_db=109.0")
     loud = run_of(design, StartCase("bunched", 1.0, (0.0,)), 0.05)

@@ -28,6 +28,7 @@ def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 def test_code_is_kept_on_disk_and_rebuilt_where_it_is_damaged(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     equations = assemble(scene_on("planar", DryRollingFrictionEffect(0.002, 0.1)))
     built: list[str] = []

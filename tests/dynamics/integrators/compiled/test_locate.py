@@ -69,6 +69,7 @@ def test_looking_at_all_numbers_finds_the_same_events(name: str, monkeypatch: py
     assert found.events and found.evaluations < every.evaluations
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("seed", SWINGING)
 def test_a_race_that_lets_go_within_a_step_is_seen(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """However much it presses on other balls."""

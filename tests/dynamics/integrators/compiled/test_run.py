@@ -78,6 +78,7 @@ def agree(scene: Scene, within: float, tolerance: float = 1e-8, method: Method =
     return found.events, exact.events
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", [pytest.param(each, marks=[pytest.mark.slow] * (each in LONG)) for each in SCENES])
 def test_the_motion_is_that_of_scipy(name: str) -> None:
     for method in METHODS:
@@ -110,14 +111,16 @@ def test_large_angles_do_not_loosen_the_tolerance() -> None:
     np.testing.assert_allclose(found / equations.scales, exact / equations.scales, rtol=0, atol=1e-3)
 
 
-@pytest.mark.slow
-def test_a_hundred_thousand_revolutions_without_drift() -> None:
+@pytest.mark.parametrize(
+    "revolutions", [pytest.param(10_000, marks=pytest.mark.slow), pytest.param(100_000, marks=pytest.mark.hard)]
+)
+def test_many_revolutions_without_drift(revolutions: int) -> None:
     """An undamped rotor whose balls swing about the places where they balance it keeps its integral of motion.
 
     Seen in the rotor nothing depends on time, so T − Ω L + V of the inertial motion is constant (Jacobi's integral),
     and balls that swing go on swinging as far.
     """
-    scene = dimensionless(2.0, 0.05, 0.02, 0.0, 0.0, (1.8, -1.75), 1e5 * math.pi)
+    scene = dimensionless(2.0, 0.05, 0.02, 0.0, 0.0, (1.8, -1.75), math.pi * revolutions)
     times = np.linspace(0, scene.duration, 10_001)
     y = compiled.integrate(assemble(scene), 1e-12, times, most_evaluations=10**10, method="dop853").y
     integral = np.array([jacobi(scene, t, column) for t, column in zip(times, y.T, strict=True)])
@@ -236,6 +239,7 @@ except KeyboardInterrupt:
     assert (done.stdout, done.stderr, done.returncode) == ("heard\n", "", 0)
 
 
+@pytest.mark.few(5)
 @pytest.mark.parametrize("name", SCENES)
 def test_plain_code_gives_the_same_numbers(name: str) -> None:
     """To the last bit: so what is on disk decides how long a run takes, never what comes out."""

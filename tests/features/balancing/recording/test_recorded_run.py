@@ -122,6 +122,7 @@ def test_records_that_tell_nothing_are_refused() -> None:
 # Files
 
 
+@pytest.mark.slow
 def test_a_simulated_run_goes_the_whole_way(tmp_path: Path) -> None:
     """Integrated in time with a drifting speed, noise, offsets; by displacement and by acceleration."""
     shop = Workshop(Simulated(damping=DAMPING), sensor_deg=40.0)

@@ -21,6 +21,7 @@ def frames(sheet: Drawing) -> list[tuple[str, ...]]:
     return [shape.cells for shape in sheet.shapes if isinstance(shape, ToleranceFrame)]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", MACHINES)
 def test_nothing_stands_over_a_text(name: str) -> None:
     for sheet in size_sheets(result(name)):
