@@ -1,7 +1,9 @@
 """How the tests are shared out among processes; what makes them quicker."""
 
 import gc
+import os
 from collections import Counter
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -44,7 +46,9 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.fixture(scope="session", autouse=True)
 def studies(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Processes of a session tell each other what they have computed."""
+    """Processes of a session tell each other what they have computed, and those of sessions that name one folder."""
     base = tmp_path_factory.getbasetemp()
-    if base.name.startswith("popen-"):
+    if "ABU_CALC_TEST_STUDIES" in os.environ:
+        remembered.share(Path(os.environ["ABU_CALC_TEST_STUDIES"]))
+    elif base.name.startswith("popen-"):
         remembered.share(base.parent / "studies")
