@@ -237,6 +237,7 @@ def test_boundary_of_stability(case: SpaceCase, frequency: float, damping: float
     assert min(roots) == pytest.approx(boundary, rel=4.5e-4)
 
 
+@pytest.mark.slow
 def test_six_degrees_of_freedom_without_balls() -> None:
     case = replace(G125, handles={"side": G125.handles["side"]})
     integrated = settled_amplitudes(case, case.handles, balls=False, turns=120)["side"]

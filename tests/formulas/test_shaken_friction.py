@@ -40,6 +40,7 @@ def test_a_ball_stays_just_within_the_band_that_a_level_spindle_leaves(number: f
     assert band - SHAKE < remaining_band(band, SPEED) < band
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("number", [0.2, 0.6, 0.9])
 def test_below_one_any_pull_moves_a_ball(number: float) -> None:
     band = number * SHAKE

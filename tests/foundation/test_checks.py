@@ -49,6 +49,7 @@ def test_every_code_stands_in_the_file_of_its_hundred_under_its_own_name() -> No
         assert all(condition.endswith(".") for condition in conditions if condition), code
 
 
+@pytest.mark.slow
 def test_the_grades_that_the_code_gives_outright_have_a_condition() -> None:
     """`coded("ABU…", "warn", …)` and likewise: the grade stands in the call."""
     given: dict[str, set[str]] = {}

@@ -131,6 +131,7 @@ def strict() -> Iterator[None]:
         yield
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("strict")
 def test_two_processes_write_at_once(tmp_path: Path) -> None:
     """Nobody ever reads half of it."""

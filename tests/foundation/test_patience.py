@@ -23,6 +23,7 @@ def statuses(*arguments: str) -> dict[tuple[str, str], str]:
     return {(check["code"], check["name"]): check["status"] for check in document["checks"]}
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["avtovaz-707-222", "swing-arm-grinder"])
 def test_past_it_a_check_is_not_done_and_never_another_verdict(name: str) -> None:
     whole, hasty = statuses(name), statuses(name, "--patience", "1e-6")
@@ -31,6 +32,7 @@ def test_past_it_a_check_is_not_done_and_never_another_verdict(name: str) -> Non
         assert status in ("not-done", whole.get(check)), check
 
 
+@pytest.mark.slow
 def test_with_enough_of_it_all_is_as_without() -> None:
     assert statuses("msh-230", "--patience", "600") == statuses("msh-230")
 

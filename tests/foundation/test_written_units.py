@@ -86,6 +86,7 @@ def test_every_unit_of_keys_is_known_with_the_same_size() -> None:
                 assert unit.value(f"1 {symbol}") == pytest.approx(ratio, rel=1e-14), quantity  # type: ignore[union-attr]
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("suffix", SUFFIXES)
 @given(st.floats(-1e6, 1e6, allow_subnormal=False))
 def test_a_number_in_the_unit_of_the_key_is_that_number(suffix: str, number: float) -> None:
@@ -124,6 +125,7 @@ def test_other_texts_are_refused_with_the_units(text: str, fault: str) -> None:
     assert caught.value.allowed == "a number with one of kg, g, mg, t, lb, oz"
 
 
+@pytest.mark.slow
 @given(st.text(max_size=20))
 def test_no_text_makes_anything_but_a_finite_number_or_a_refusal(text: str) -> None:
     for key in ("mass_kg", "drag_per_s", "t_C", "rise_K"):

@@ -15,6 +15,7 @@ SEEDS = sorted((Path(__file__).parent / "seeds").glob("*.json"))
 CALM = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example, HealthCheck.filter_too_much)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("odd", "each"), shared_out(INPUTS).items())
 def test_nothing_breaks_a_command(odd: str, each: int) -> None:
     @settings(max_examples=each, derandomize=True, deadline=None, database=None, suppress_health_check=CALM)
@@ -28,6 +29,7 @@ def test_nothing_breaks_a_command(odd: str, each: int) -> None:
     commands_end_well()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SEEDS, ids=lambda path: path.stem)
 def test_what_once_broke_a_command(path: Path, tmp_path: Path) -> None:
     assert broken(seed(path.read_text(encoding="utf-8")), tmp_path) == []

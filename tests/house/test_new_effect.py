@@ -70,6 +70,7 @@ def copy(tmp_path: Path) -> Copy:
     return copied(tmp_path)
 
 
+@pytest.mark.slow
 def test_a_new_effect_goes_the_whole_way(copy: Copy) -> None:
     """Two balls across from each other leave the axis at rest, so each moves as it would alone."""
     add_churning(copy)

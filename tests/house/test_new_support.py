@@ -75,6 +75,7 @@ def copy(tmp_path: Path) -> Copy:
     return copied(tmp_path)
 
 
+@pytest.mark.slow
 def test_a_new_support_goes_the_whole_way(copy: Copy) -> None:
     """The rotor without balls swings along its rail as one mass on one spring does."""
     add_rail(copy)

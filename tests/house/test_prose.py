@@ -34,6 +34,7 @@ def test_rules(text: str, rules: list[str]) -> None:
     assert [each.rule for each in violations(text, "here")] == rules
 
 
+@pytest.mark.slow
 def test_help_explanations_schemas_templates_and_presets() -> None:
     assert found_in(static_texts()) == []
 
@@ -42,6 +43,7 @@ def test_errors_of_wrong_files(tmp_path: Path) -> None:
     assert found_in(error_texts(tmp_path)) == []
 
 
+@pytest.mark.slow
 def test_reports_of_presets() -> None:
     assert found_in(screens()) == []
 
@@ -63,6 +65,7 @@ def _report_of(command: str, changes: dict) -> tuple[str, str]:
     return f"abu {command} {options}", f"{seen.out}\n\n{seen.err}"
 
 
+@pytest.mark.slow
 @given(machines())
 @settings(max_examples=8, deadline=None, derandomize=True, phases=[Phase.generate])
 def test_reports_of_random_machines(changes: dict) -> None:

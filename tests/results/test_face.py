@@ -25,6 +25,7 @@ def without_clock(value: object) -> object:
     return [without_clock(inner) for inner in value] if isinstance(value, list) else value
 
 
+@pytest.mark.slow
 def test_sizing_returns_what_the_command_prints() -> None:
     machine = abu_calc.read("msh-230").changed({"wheel.mass_kg": 0.6, "autobalancer.rolling_drag_per_s": 20.0})
     result = abu_calc.size(machine)
@@ -108,6 +109,7 @@ def test_results_are_dataclasses() -> None:
         result.title = "y"  # type: ignore[misc]
 
 
+@pytest.mark.slow
 def test_the_same_machine_gives_an_equal_result_however_long_that_took() -> None:
     machine = abu_calc.read("msh-230")
     result, again = abu_calc.size(machine), recalled("size", machine)

@@ -26,6 +26,7 @@ def design(name: str) -> Design:
     return size(read_machine(str(file) if file.exists() else name).whole("size"))
 
 
+@pytest.mark.slow
 def test_balls_that_creep_without_inertia_stay_within_the_circle_of_their_way() -> None:
     """θ_k' = −∂/∂θ_k ½|U − U_b|² from 300 random starts of 2 to 8 balls, in units of the imbalance."""
     rng = np.random.default_rng(3)

@@ -176,6 +176,7 @@ def fast_transient(*effects: Effect) -> Scene:
     return Scene("fast", support, 2000 * math.pi, 250e-6, 0.0, (race,), 0.1, (0.0, 0.0), (0.0, 0.0), effects=effects)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("effects", "accuracy"),
     [((GravityEffect(),), 1e-2), ((RaceEccentricityEffect(1e-10, 0.0), GravityEffect()), 1e-3)],

@@ -71,22 +71,26 @@ def test_balls_hang_from_standstill(drag: float) -> None:
     assert found == {"ABU401": "fail", "ABU701": "fail", "ABU702": "fail", "ABU704": "fail"}
 
 
+@pytest.mark.slow
 def test_a_slow_run_up_catches_balls_that_others_do_not() -> None:
     """At a drag of 6 1/s all starts at full speed balance, and so does a run-up in one second."""
     assert judged("hanging-balls")["ABU704"] == "warn"
     assert judged("hanging-balls", ALL)["ABU704"] == "fail"
 
 
+@pytest.mark.slow
 def test_friction_holds_other_arrangements_than_the_fan() -> None:
     """Bunched behind the imbalance the balls stay where they leave 112 dB, limit 109."""
     assert judged("friction-elsewhere")["ABU401"] == "fail"
 
 
+@pytest.mark.slow
 def test_standstill_settles_later_than_bunched() -> None:
     """1.03 s where the bunched start takes 0.07, limit 1."""
     assert judged("late-settling")["ABU702"] == "fail"
 
 
+@pytest.mark.slow
 def test_hands_are_not_chaotic() -> None:
     """All starts balance in time; gravity leaves little of the friction, so that the level passes, too."""
     found = judged("hands-called-chaotic")
@@ -99,6 +103,7 @@ def test_workers_change_nothing() -> None:
     assert simulate_members(found, workers=3) == simulate_members(found)
 
 
+@pytest.mark.slow
 def test_workers_change_no_scene() -> None:
     """The scenes of an arm, told as they are done."""
     found, told = design("swing-arm-grinder"), list[str]()
@@ -136,6 +141,7 @@ def test_members() -> None:
     assert len(set(all_of_them)) == len(all_of_them)
 
 
+@pytest.mark.slow
 def test_the_ends_of_a_speed_range_are_tried() -> None:
     """At 2300 rpm balls hang that catch up at the rated 9000: 125 dB where 103 are left there."""
     changed = ["machine.speed_range_rpm=[2300, 9000]", "autobalancer.rolling_drag_per_s=5"]
@@ -297,6 +303,7 @@ def test_a_loud_start_is_answered_by_what_helps_it(status: Grade, slip: float, t
     assert "ABU701" in (level_check(closed, loud).remedy or "") or told == "truer race"
 
 
+@pytest.mark.slow
 def test_another_candidate_where_the_best_does_not_pass(monkeypatch: pytest.MonkeyPatch) -> None:
     """And the report says so; what is pinned stays, and a drag that was tried is named."""
     best = design("msh-230")
@@ -356,6 +363,7 @@ def test_a_pause_is_below_where_balls_hang() -> None:
     assert pauses(change.designs(found)[0], slip=0.55) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drag", [4.0, pytest.param(6.0, marks=pytest.mark.slow)])
 def test_a_pause_lets_balls_that_hang_catch_up(drag: float) -> None:
     """Every start balances with it, which not every one does without."""

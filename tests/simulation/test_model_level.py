@@ -43,6 +43,7 @@ def test_gravity_gives_the_balls_a_mean_speed_at_the_start():
     np.testing.assert_allclose(kicks[0] - kicks[1], 9.80665 * np.sin(scene.start_angles) / 607.3746 / 0.023 / 1.4)
 
 
+@pytest.mark.slow
 def test_each_order_of_the_envelope_leaves_the_next_power_of_slowness():
     """Balls of a share μ of the rotor's mass move at a rate √μ; so the orders leave √μ and μ, by regression.
 
@@ -82,6 +83,7 @@ def test_the_cheapest_rung_that_is_accurate_enough_is_taken():
         assert simulate(LIGHT, 0.02, **asked).rung == "equations"
 
 
+@pytest.mark.slow
 def test_the_motion_of_the_envelope_is_that_of_the_equations():
     """Support and balls through the whole run, the free motion of the support at the start among it."""
     slow, full = simulate(LIGHT, 0.02), simulate(LIGHT, 1e-6, integrator="scipy")
@@ -128,6 +130,7 @@ def test_closed_form_of_two_balls():
     assert told.settling_time == pytest.approx(math.log(start / 1e-4) / slowest, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_offset_races_keep_the_axis_whirling():
     scene = replace(
         dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (2.0, -2.2), 2000.0), effects=(RaceEccentricityEffect(0.002),)

@@ -31,12 +31,14 @@ def reason(scene, accuracy, apart, changes=({}, {})):
     return str(unreached(scene, accuracy, FinestRuns(*runs, apart, choice, TOLERANCE), MOST))
 
 
+@pytest.mark.slow
 def test_chaos_is_called_so():
     told = reason(TUMBLING, 0.01, 0.4)
     assert "differ by 0.4" in told and "The motion is chaotic: 1e-09 rad at its start grow" in told
     assert len(told.splitlines()) == 2
 
 
+@pytest.mark.slow
 def test_a_chaotic_scene_is_refused_with_that_reason():
     """By the way from end to end, in fewer revolutions than would cost much."""
     with pytest.raises(NotTrustworthyError, match="chaotic"):

@@ -16,6 +16,7 @@ from tests.sizing.machines import PINNED, machine
 PRESET = "avtovaz-707-222"
 
 
+@pytest.mark.slow
 def test_every_command_predicts_the_same_level() -> None:
     """Idle and at the workpiece; the run itself stands beside it under a name of its own."""
     predicted = set()

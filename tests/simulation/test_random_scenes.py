@@ -73,6 +73,7 @@ def test_a_seed_is_a_scene():
         assert len(assemble(scene).initial) == len(assemble(scene).states)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("seed", CHEAP)
 def test_cheap_scenes_are_answered(seed):
     """These are none of the few that may be refused."""

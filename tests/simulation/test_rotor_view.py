@@ -33,6 +33,7 @@ def test_thinned_run_is_the_one_that_was_made() -> None:
     assert "idle_run" not in result.to_dict()
 
 
+@pytest.mark.slow
 def test_of_a_long_run_the_beginning_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same as of the run held whole, as far as it goes."""
     from abu_calc.features.simulate.study import simulate

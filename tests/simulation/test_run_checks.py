@@ -126,6 +126,7 @@ def test_a_level_that_the_error_leaves_open_warns(idle: SimulateResult, below: f
     assert judged.status == status and (judged.remedy is None) is (status == "pass")
 
 
+@pytest.mark.slow
 def test_under_load_the_level_is_information() -> None:
     tight = abu_calc.read("avtovaz-707-222").changed({"limits.vibration_level_db": 80.0})
     result = abu_calc.simulate(tight, "grinding")

@@ -54,6 +54,7 @@ OTHERS = {"knife", "rig", "pedestal", "washing", "125"}
 GRINDERS = [name for name in presets.names() if not OTHERS & set(name.split("-"))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", SCENES)
 @pytest.mark.parametrize("name", GRINDERS)
 def test_presets_make_each_of_their_scenes(designs, name, which):

@@ -183,6 +183,7 @@ def test_straight_grinder_settles_as_known():
     assert simulation.warnings == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "scene",
     [

@@ -55,6 +55,7 @@ BODY = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wh
 PRESSED = {"press_force_N": 45.0, "cutting_coefficient": 0.35}
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("code", "given"),
     [

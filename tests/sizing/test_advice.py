@@ -26,6 +26,7 @@ def test_what_is_uncertain_is_warned_of() -> None:
     assert not any("point mass" in warning for warning in size(machine(**rigid)).warnings)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("preset", "keys"), [("avtovaz-707-222", 1), ("avtovaz-707-370", 1), ("avtovaz-707-305", 2), ("msh-230", 2)]
 )

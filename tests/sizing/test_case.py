@@ -90,6 +90,7 @@ def _numbers(value: Any) -> list[float]:
     return _numbers(list(vars(value).values())) if hasattr(value, "__dataclass_fields__") else []
 
 
+@pytest.mark.slow
 @given(machines())
 @settings(RANDOM, max_examples=3)
 def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
@@ -178,6 +179,7 @@ def test_capacity_and_mass_scale_with_geometry(factor: float, count: int) -> Non
 
 
 # The choice.
+@pytest.mark.slow
 def test_the_choice_is_the_lightest_of_all_that_suffice() -> None:
     """Against every stock diameter, count and half millimetre, tried one by one."""
     from abu_calc.sizing.balls import ball_counts, evaluate, race_radii
@@ -260,6 +262,7 @@ def test_a_weak_pin_fails_with_its_result() -> None:
 
 
 # Region, race plane, warnings.
+@pytest.mark.few(3)
 @pytest.mark.parametrize(
     ("frequencies", "speeds", "region", "possible"),
     [

@@ -123,6 +123,7 @@ def test_point_mass_and_missing_handles_never_pass() -> None:
     assert bare.status == "warn" and "[[machine.handle]]" in (bare.remedy or "")
 
 
+@pytest.mark.slow
 def test_speed_that_is_not_weighted_is_not_evaluated() -> None:
     """85 000 rpm are 1417 Hz, above the band of W_h."""
     fast = angle_grinder(machine__speed_rpm=85_000.0, limits={"a_hv_m_per_s2": 5.0}, wheel__imbalance_g_mm=1.0)

@@ -114,6 +114,7 @@ def test_no_weighting_where_the_standard_has_none(hertz: float) -> None:
     assert readings(1e-3, 2 * math.pi * hertz).weighted is None
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("table", "more"), [("wheel", ()), ("measured_after", ())])
 def test_a_weighting_that_is_not_defined_names_its_key(table: str, more: tuple[str, ...]) -> None:
     slow = ("--set", "machine.speed_rpm=300", "--set", "suspension.natural_frequencies_hz=0.5")

@@ -50,6 +50,7 @@ def test_without_oil_nothing_changes() -> None:
         drag_source(design.case)
 
 
+@pytest.mark.slow
 def test_more_viscous_or_more_oil_gives_more_drag_and_one_machine_has_that_of_its_design() -> None:
     drags = [oiled(oil={**OIL, "grade": grade}).case.drag for grade in ("VG 10", "VG 46", "VG 220")]
     assert drags == sorted(drags) and drags[2] > 5 * drags[0]

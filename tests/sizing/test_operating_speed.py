@@ -43,6 +43,7 @@ VARIETY = [
 ]
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("table", [*VARIETY[:4], *(pytest.param(each, marks=pytest.mark.slow) for each in VARIETY[4:])])
 def test_a_motor_settles_at_the_idle_speed(table: Any) -> None:
     """The speed against an equation of its own, by the simulated amplitude, and against the simulation itself."""
@@ -60,6 +61,7 @@ def test_a_motor_settles_at_the_idle_speed(table: Any) -> None:
     assert speed == pytest.approx(balance, rel=5e-4)
 
 
+@pytest.mark.slow
 def test_the_refuted_machine_fails_at_its_idle_speed() -> None:
     """It passed at 13993 rpm; at 15107 rpm the level is 109.2 dB and the race goes oval."""
     result = recalled("size", abu_calc.read(MACHINES / "motor-no-load-speed.toml"))
@@ -147,6 +149,7 @@ def test_no_second_level_where_the_machine_idles_at_its_rated_speed(no_load: flo
     assert IdleSpeedLevels.of(size(table)) is None
 
 
+@pytest.mark.slow
 def test_the_idle_scene_says_that_it_turns_at_the_rated_speed() -> None:
     there = abu_calc.read(MACHINES / "motor-no-load-speed.toml")
     told = [text for text in abu_calc.simulate(there, duration_s=0.1).warnings if "machine.speed_rpm = 13993" in text]

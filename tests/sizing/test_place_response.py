@@ -46,6 +46,7 @@ def level(of: Design, displacement: float) -> float:
     return level_from_velocity(of.case.speed * displacement / math.sqrt(2))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("offset", OFFSETS)
 @pytest.mark.parametrize("eccentricity", [0.0, 0.010])
 def test_levels_of_handles(offset: float, eccentricity: float) -> None:

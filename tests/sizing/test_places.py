@@ -257,6 +257,7 @@ def integrated(design: Design, *, balls: bool) -> dict[str, Any]:
     return settled_amplitudes(whole, whole.handles, balls=balls, turns=600 if balls else 150)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", [IN_SPACE, ALONG], ids=["in space", "along the spindle"])
 def test_handles_of_the_straight_grinder_without_balls(body: dict[str, Any]) -> None:
     design = straight_grinder(body, 0.0)

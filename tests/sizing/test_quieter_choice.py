@@ -33,6 +33,7 @@ def random_design(seed: int, folder: Path) -> Design:
     return design(str(file))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["avtovaz-707-370", 32, 57])
 def test_a_lighter_candidate_that_is_too_loud_is_passed_over(name: str | int, tmp_path: Path) -> None:
     chosen = design(name) if isinstance(name, str) else random_design(name, tmp_path)
@@ -88,6 +89,7 @@ def grades(chosen: Design) -> dict[str, int]:
     return worst
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [32, *(pytest.param(each, marks=pytest.mark.slow) for each in (10, 12, 36, 75, 110))])
 def test_no_check_comes_out_worse_than_with_the_lightest(seed: int, tmp_path: Path) -> None:
     """Limits about the values of the candidates: what warns must not fail for another check, and less is better."""

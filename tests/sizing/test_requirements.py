@@ -91,6 +91,7 @@ def sized(preset: str) -> Design:
     return size(read_machine(preset).whole("size"))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("preset", PRESETS)
 def test_a_check_that_only_informs_and_kept_limits_change_no_design(
     preset: str, request: pytest.FixtureRequest
@@ -102,6 +103,7 @@ def test_a_check_that_only_informs_and_kept_limits_change_no_design(
     assert made(after) == made(before)
 
 
+@pytest.mark.slow
 def test_a_limit_of_a_hv_that_is_kept_does_not_undo_the_quieter_choice(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     file.write_text(HAND_GRINDER, encoding="utf-8")
@@ -120,6 +122,7 @@ def test_a_limit_that_is_not_kept_steers() -> None:
     assert size(with_entries(chosen.case.table, {"limits.vibration_level_db": 120.0})).autobalancer.ball_count == 5
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize(
     ("entries", "name"),
     [
@@ -142,6 +145,7 @@ def both(preset: str) -> TwoRaceDesign:
     return choose_both(read_case(tables))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", [TWO_RACES[0], pytest.param(TWO_RACES[1], marks=pytest.mark.slow)])
 def test_two_races_take_their_checks_by_the_same_rule(preset: str, request: pytest.FixtureRequest) -> None:
     before = both(preset)

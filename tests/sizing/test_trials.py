@@ -12,6 +12,7 @@ from abu_calc.sizing.trials import Change, TriedRequirement, harder, more_room, 
 from tests.sizing.machines import DRUM, check_of, machine
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("code", "given"),
     [

@@ -86,6 +86,7 @@ def test_the_level_names_each_case_with_its_number_and_its_limit() -> None:
     assert check_of(held, "ABU401").message.startswith('Handle "front", 5800 rpm: expected ')
 
 
+@pytest.mark.slow
 def test_what_no_race_can_reach_is_said() -> None:
     alone = check_of(ranged(80.0), "ABU401").remedy or ""
     assert "No change was found" in alone and "plane" not in alone

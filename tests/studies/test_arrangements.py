@@ -7,6 +7,7 @@ from tests.studies.arrangements import ALLOWED, compared
 QUICK = (5, 9, 23)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [*QUICK, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(30, 36))])
 def test_no_arrangement_is_missed(seed: int) -> None:
     comparison = compared(seed, 60)

@@ -34,6 +34,7 @@ def test_every_cell_has_a_place_of_its_own() -> None:
     assert records.letters() == tuple("abcdefgh") == tuple(sorted(RECIPES))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", QUICK)
 def test_a_cell_opened_as_a_command_gives_its_value(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(FOLDER.parents[2])
@@ -61,6 +62,7 @@ def test_the_command_of_the_record_gives_the_recorded_value(
     assert found.value == pytest.approx(float(row["value"]), abs=2e-4, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("letter", records.letters())
 def test_a_record_is_whole_with_values_in_their_intervals_and_commands_of_their_cells(letter: str) -> None:
     rows = records.stored(letter)
@@ -89,6 +91,7 @@ def test_the_package_ships_the_cells_of_the_records() -> None:
         assert numbers == tuple(float(rows[at][key]) for key in ("value", "low", "high"))
 
 
+@pytest.mark.slow
 def test_the_page_and_the_figures_are_those_of_the_records() -> None:
     assert page.PAGE.read_text("utf-8") == page.text()
     assert all(figures.figure(letter).exists() for letter in records.letters())

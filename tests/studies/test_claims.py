@@ -24,6 +24,7 @@ def patient(monkeypatch):
     monkeypatch.setattr(claims, "SECONDS", 3600)
 
 
+@pytest.mark.few(1)
 @pytest.mark.usefixtures("patient")
 @pytest.mark.parametrize("seed", [*QUICK, *(pytest.param(seed, marks=pytest.mark.slow) for seed in MORE)])
 def test_claims_hold_on_a_few_scenes(seed):

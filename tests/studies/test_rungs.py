@@ -26,6 +26,7 @@ def test_the_envelope_is_not_offered_where_it_would_be_wrong(name: str) -> None:
     assert refused.trajectory is None and (refused.error is None or refused.error > WIDEST)
 
 
+@pytest.mark.slow
 def test_the_envelope_is_as_near_as_it_says(one):
     """All that its claim counts: amplitude, settling time, angles."""
     errors = [measure(one.scene, one.slow, one.full) for measure in (amplitude, settling, angles)]

@@ -24,6 +24,7 @@ def test_the_cheapest_choice_that_settles_wins(small: OptimiseResult) -> None:
     assert best.fresh_share is not None and best.fresh_share.value >= small.share
 
 
+@pytest.mark.slow
 def test_the_front_rises_and_holds_the_recommended_design(small: OptimiseResult) -> None:
     costs, shares = [point.cost for point in small.front], [point.share for point in small.front]
     assert costs == sorted(costs)
@@ -32,6 +33,7 @@ def test_the_front_rises_and_holds_the_recommended_design(small: OptimiseResult)
     assert shares == sorted(shares)
 
 
+@pytest.mark.slow
 def test_a_sweep_of_the_written_file_has_the_fresh_samples(small: OptimiseResult, tmp_path: Path) -> None:
     machine = abu_calc.read(PRESET)
     file = tmp_path / "best.toml"

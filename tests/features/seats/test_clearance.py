@@ -26,6 +26,7 @@ def drawn(rng: np.random.Generator) -> list[np.ndarray]:
     return [rng.permutation(ndtri(places)) for _ in range(5)]
 
 
+@pytest.mark.slow
 def test_ends_and_means_of_random_joints_agree_with_monte_carlo():
     """Within 0.3 µm at the 0.135 % and 99.865 % ends; each raceway takes q·max(interference − losses, 0), q the ring's
     ratio as a plain tube, on solid steel shafts and in endless steel housings."""

@@ -51,6 +51,7 @@ def agrees(probability: float, loose: int) -> bool:
     return abs(loose - PAIRS * probability) <= max(3 * math.sqrt(PAIRS * probability * (1 - probability)), 3)
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(FITS)
 def test_any_fit_agrees_with_drawing_parts(fit):

@@ -163,6 +163,7 @@ def test_a_grade_without_a_passing_class_gives_way_to_the_usual_one():
     assert seats(shaft_fit="h7").shaft.recommended_fit == "m6"
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(
     size=st.sampled_from(["608", "6203", "6000", "6310", "6216", "30206", "32216"]),

@@ -257,6 +257,7 @@ def tightness(name: str) -> int:
     return LETTERS.index(name.rstrip("0123456789").lower())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", LIGHT_TO_HEAVY)
 def test_54_bearings_get_the_makers_row(ratio: float) -> None:
     """None is off by a class: the row governs where no loss is given."""
@@ -305,6 +306,7 @@ SERVICES: list[dict[str, Any]] = [
 ]
 
 
+@pytest.mark.slow
 def test_a_recommended_class_never_fails_a_check_of_its_seat() -> None:
     """Every bearing in every service, each under one of the loads."""
     for number, (name, service) in enumerate(itertools.product(NAMES, SERVICES)):

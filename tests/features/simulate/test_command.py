@@ -314,6 +314,7 @@ def test_any_number_of_balls(tmp_path: Path, balls: int) -> None:
 
 
 # machines
+@pytest.mark.slow
 def test_a_machine_is_simulated_as_it_is_sized() -> None:
     sized = once("size", "msh-230", "--json").document["result"]["simulation"][0]
     document = once("simulate", "msh-230", "--json").document

@@ -54,6 +54,7 @@ FEW = [SETS[0], *(pytest.param(*each, marks=pytest.mark.slow) for each in SETS[1
 """The first of them, and the others, which take as long, for slow runs."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("mass", "zeta", "drag"), FEW)
 def test_stuck_speeds_number_one_three_three_one_as_the_rotor_turns_faster(
     mass: float, zeta: float, drag: float
@@ -72,6 +73,7 @@ def test_stuck_speeds_number_one_three_three_one_as_the_rotor_turns_faster(
     assert seen == [(1, "below"), (3, "below"), (3, "above"), (1, "above")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("mass", "zeta", "drag"), FEW)
 def test_search_finds_the_stuck_speeds_that_energy_balance_gives(mass: float, zeta: float, drag: float) -> None:
     counts = []
@@ -156,6 +158,7 @@ def test_shares_add_up_and_a_printed_command_ends_the_same_way() -> None:
         assert again[0]["level_db"] == pytest.approx(group.level_db, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_machine_starts_as_its_printed_simulation_says() -> None:
     sets = ("autobalancer.rolling_drag_per_s=0.2",)
     result = abu_calc.stability(read_any("avtovaz-707-222", sets), attractors=True, starts=2)

@@ -159,6 +159,7 @@ def written(tmp_path: Path, text: str) -> str:
     return str(file)
 
 
+@pytest.mark.slow
 def test_a_swing_arm(tmp_path: Path) -> None:
     """The worked arm at Ω/ω₀ = 2: balanced with balls at ± 131.8°, multipliers, the damping of (24)."""
     document = abu("stability", written(tmp_path, ARM), "--speeds", "200:6000", "--json").document
@@ -183,6 +184,7 @@ def test_a_swing_arm_alone(tmp_path: Path) -> None:
     assert any("cannot carry" in told for told in seen.document["warnings"])
 
 
+@pytest.mark.slow
 def test_a_tilting_rotor(tmp_path: Path) -> None:
     file = written(tmp_path, TILTING)
     result = abu("stability", file, "--speeds", "1000:6000", "--json").document["result"]
@@ -203,6 +205,7 @@ def test_what_is_not_known_is_not_done(tmp_path: Path) -> None:
     assert "differs along x and y" in seen.document["checks"][0]["message"]
 
 
+@pytest.mark.slow
 def test_scenes_of_a_machine() -> None:
     tables = ["--set", "swing_arm.arm_length_mm=350.0"]
     for name in ("swing-arm-idle", "swing-arm-cutting"):
@@ -212,6 +215,7 @@ def test_scenes_of_a_machine() -> None:
     assert seen.status == 2 and "--scene" in seen.err and "swing-arm-idle" in seen.err
 
 
+@pytest.mark.slow
 def test_size_tells_the_true_region() -> None:
     frequency = once("size", "avtovaz-707-370", "--json").document["result"]["frequency"]
     (one,) = frequency["stability_boundaries_rpm"]

@@ -14,6 +14,7 @@ OFF = "autobalancer.race_eccentricity_mm=uniform(0.004,0.016)"
 CALM = ("--vary", "start.kind=choice(bunched)", "--workers", "1")
 
 
+@pytest.mark.slow
 def test_one_screen_and_the_document(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     store, csv = tmp_path / "members.sqlite", tmp_path / "found.csv"

@@ -74,6 +74,7 @@ def late(until: float) -> SweepStudy:
     return replace(planned(machine, ask, 0.01).study, until=until)
 
 
+@pytest.mark.slow
 def test_worker_processes_know_when_it_is_over() -> None:
     """A time long past, and one to come, in one process each."""
     found: dict[bool, list[Row]] = {True: [], False: []}

@@ -71,6 +71,7 @@ def test_the_share_told_for_the_worst_phase_holds_in_every_sample() -> None:
     assert lowest < 1.05 * told
 
 
+@pytest.mark.slow
 def test_every_simulated_phase_balances_as_the_worst_was_told() -> None:
     result = abu_calc.sweep(read_machine("pedestal-grinder"), [RANGE], runs=6, seed=3, accuracy=0.1)
     assert result.failed.members == 0
@@ -94,6 +95,7 @@ def test_tolerances_go_to_both_races_and_every_wheel() -> None:
         assert ours.design.autobalancer.race_radius == theirs.design.autobalancer.race_radius
 
 
+@pytest.mark.slow
 def test_a_known_phase_does_not_vary() -> None:
     machine = read_machine("pedestal-grinder", ["wheel.0.imbalance_angle_deg=0.0", "wheel.1.imbalance_angle_deg=130.0"])
     assert not [factor for factor in study_of(machine, RANGE).sample.factors if "phase" in factor.key]
@@ -107,6 +109,7 @@ def test_one_of_two_known_phases_leaves_the_other() -> None:
     assert keys == ["start.phase_1_deg"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "vary", ["start.phase_21_deg=uniform(0, 9)", "wheel.plane_mm=uniform(1, 2)", "autobalancer.nothing=uniform(1, 2)"]
 )

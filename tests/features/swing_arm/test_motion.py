@@ -246,6 +246,7 @@ def same_side(arm: Drawn) -> None:
     assert found.stable is not grows
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("arm", drawn(3, 1), ids=lambda arm: f"k{arm.ratio:.5f}")
 def test_floquet_and_simulation_agree_on_the_side(arm: Drawn) -> None:
     same_side(arm)

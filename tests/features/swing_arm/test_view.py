@@ -19,6 +19,7 @@ def words(text: str) -> str:
     return " ".join(text.split())
 
 
+@pytest.mark.slow
 def test_the_line_on_the_arm_comes_first() -> None:
     """Below the verdict; the bounds stand in their table, and in a sentence of the whole report; the screen is one."""
     seen = once("size", PRESET)

@@ -32,6 +32,7 @@ def design_of(*overrides: str) -> TwoRaceDesign:
     return choose_both(read_case(tables))
 
 
+@pytest.mark.slow
 def test_a_change_goes_into_both_tables() -> None:
     change = advice.changed(design_of(), {"rolling_drag_per_s": 30.0})
     assert change is not None
@@ -128,6 +129,7 @@ def test_both_ends_of_a_speed_range_are_started() -> None:
     assert speed_ends(design_of().case) == ()
 
 
+@pytest.mark.slow
 def test_a_run_at_an_end_is_that_of_a_machine_of_that_speed() -> None:
     design = design_of("machine.speed_range_rpm=[2850.0, 3600.0]")
     ranged = run_of(design, StartCase("spread", speed=120 * math.pi), 0.05)

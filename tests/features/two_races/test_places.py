@@ -47,6 +47,7 @@ def test_true_races_go_where_the_larger_capacity_is_least() -> None:
 WHEELS = ((0.26, 2500e-6), (-0.26, 1800e-6))
 
 
+@pytest.mark.slow
 def test_races_go_outside_the_places_that_must_be_still() -> None:
     """A handle at 400 mm: races at ±z leave it Δ·max(1, 0.4/z) off; at 400 mm and beyond no more than Δ."""
     handle = 'machine.handle=[{name="h", from_center_of_mass_mm=400.0}]'

@@ -172,6 +172,7 @@ def test_what_cannot_be_made_is_refused(overrides: tuple[str, ...], words: str) 
     assert words in str(caught.value)
 
 
+@pytest.mark.slow
 def test_an_imbalance_that_no_ball_carries_fails() -> None:
     tables = read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]).two_races
     assert tables is not None

@@ -169,6 +169,7 @@ def test_balls_that_carry_too_little_fail() -> None:
     assert statuses == [("ABU422", "fail"), ("ABU422", "pass"), ("ABU423", "not-done")]
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -184,6 +185,7 @@ def test_what_cannot_be_answered_is_refused(arguments: tuple[str, ...], words: t
     assert all(word in seen.err for word in words), seen.err
 
 
+@pytest.mark.slow
 def test_screen_and_page_fit(tmp_path: Any) -> None:
     """Of one wheel, each of whose start cases is simulated."""
     page = tmp_path / "work.html"

@@ -46,6 +46,7 @@ def test_presets_with_two_races_keep_what_they_expect(name: str) -> None:
     assert seen.status == 0 and name in seen.out, seen.out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TWO_RACES)
 def test_designs_of_two_races_keep_what_is_expected(name: str) -> None:
     """What needs no start case of what their files expect: balls, race, capacity, mass."""

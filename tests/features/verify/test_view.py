@@ -1,5 +1,7 @@
 """The report of `abu verify`: differing values in a table, files as expected in one line."""
 
+import pytest
+
 from abu_calc.features.verify.study import VerifiedFile, VerifyResult, _check, compare
 from abu_calc.features.verify.view import verify_blocks, verify_screen
 from abu_calc.reporting.blocks import Grid
@@ -32,6 +34,7 @@ def test_the_screen_names_files_as_expected_in_one_line() -> None:
     assert "FAIL: 1 of 2 files as expected" in some and "--update" in some
 
 
+@pytest.mark.slow
 def test_many_files_still_fit_one_screen() -> None:
     text = as_text(verify_screen(result(*({"a": 2.0} for _ in range(20)))), 80)
     assert len(text.splitlines()) <= 48

@@ -30,6 +30,7 @@ def floats(document: dict[str, Any]) -> list[tuple[str | int, ...]]:
     ]  # fmt: skip
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 def test_denormals_are_refused_by_their_keys(text: str, tmp_path: Path) -> None:
     file, wrong = tmp_path / "machine.toml", []

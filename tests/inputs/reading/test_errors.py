@@ -218,6 +218,7 @@ def test_no_number_may_be_anything_else(tmp_path: Path, place: tuple[str, str], 
     assert (error.place.key, error.place.line) == (path_of(*place), line)
 
 
+@pytest.mark.slow
 @settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(place=st.sampled_from(LISTS), bad=st.sampled_from(BAD), index=st.integers(0, 1))
 def test_no_number_of_a_list_may_be_anything_else(tmp_path: Path, place: tuple[str, str], bad: str, index: int) -> None:

@@ -80,6 +80,7 @@ def leaves(value: object, path: tuple[Part, ...] = ()) -> Iterator[tuple[Part, .
         yield path
 
 
+@pytest.mark.slow
 @settings(deadline=None, derandomize=True)
 @given(documents())
 def test_every_key_the_parser_sees_has_a_line_that_names_it(built: tuple[str, dict[str, int]]) -> None:

@@ -56,6 +56,7 @@ def _texts(file: str | bytes) -> list[str]:
     return ["".join(one.itertext()).strip() for one in root.iter(f"{SVG}text")]
 
 
+@pytest.mark.slow
 def test_size_has_these_figures_and_the_help_knows_them() -> None:
     assert sized().figures == NAMES
     told = " ".join(abu("size", "--help").out.split())
@@ -65,6 +66,7 @@ def test_size_has_these_figures_and_the_help_knows_them() -> None:
     }
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", NAMES)
 def test_svg_is_well_formed_alike_each_time_and_its_texts_are_texts(name: str) -> None:
     one = _figures()[name]
@@ -219,6 +221,7 @@ def test_commands_without_figures_have_no_such_option() -> None:
     assert "--figure" in seen.err
 
 
+@pytest.mark.slow
 def test_what_can_be_written_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     files = ("--figure", "zones-1=zones.png", "--figure", "interference-1=bars.pdf", "--output", "fit.json")

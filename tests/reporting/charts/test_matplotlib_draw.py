@@ -21,6 +21,7 @@ def _figures() -> dict[str, Figure]:
     return {one.name: one for one in figures_of(sized())}
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("name", "suffix", "begins"),
     [("settling", ".png", b"\x89PNG"), ("costs", ".pdf", b"%PDF"), ("section", ".pdf", b"%PDF")],

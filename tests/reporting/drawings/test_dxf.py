@@ -43,6 +43,7 @@ def _expected(one: SizeResult) -> dict[str, float]:
     return sizes
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", MACHINES)
 def test_cad_finds_nothing_to_mend(name: str) -> None:
     audit = document(name).audit()
@@ -65,6 +66,7 @@ def test_every_dimension_is_the_result_s(name: str) -> None:
         assert shown == each.dxf.text.replace("\\X", " ")
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", MACHINES)
 def test_tolerances_are_the_result_s(name: str) -> None:
     """On the sheet of the part that has the race, and the bore's on the assembly's, too."""

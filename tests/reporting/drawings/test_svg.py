@@ -43,6 +43,7 @@ def sheet(name: str) -> Drawing:
     return section_sheet(result(name))
 
 
+@pytest.mark.few(8)
 @pytest.mark.parametrize("name", MACHINES)
 def test_nothing_overlaps(name: str) -> None:
     check_clear(sheet(name))

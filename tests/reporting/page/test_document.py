@@ -31,6 +31,7 @@ ATLAS = ("atlas-",)
 NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w])")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PAGES)
 def test_page_is_well_formed_and_asks_no_network(name: str, written: Any) -> None:
     text, document, _ = written(name)
@@ -182,6 +183,7 @@ ALSO_WRITTEN = (
 )  # fmt: skip
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("words", ALSO_WRITTEN, ids=" ".join)
 def test_further_pages_advise_no_commands_and_no_options(words: tuple[str, ...], tmp_path: Path) -> None:
     target = tmp_path / "page.html"
@@ -245,6 +247,7 @@ def _ids(outcome: Outcome) -> list[str]:
     return [block.id for block in outcome.blocks if isinstance(block, Heading) and block.id]
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", [*(name for name in REPORTS if name not in COMMANDS), *PAGES])
 def test_each_figure_of_a_report_has_the_id_of_one_heading(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     outcome = _outcome(monkeypatch, *REPORTS[name])
@@ -257,6 +260,7 @@ def test_each_figure_of_a_report_has_the_id_of_one_heading(name: str, monkeypatc
     assert figures or name == "compare-seats"
 
 
+@pytest.mark.slow
 def test_sections_that_screens_leave_out_are_in_reports(monkeypatch: pytest.MonkeyPatch) -> None:
     stiffness, works = "grinding.contact_stiffness_N_per_m", ("grinding", "avtovaz-707-222", "--set")
     grinding = {one for value in ("2e4", "5e6") for one in _ids(_outcome(monkeypatch, *works, f"{stiffness}={value}"))}

@@ -100,6 +100,7 @@ def test_the_guard_is_judged_if_it_is_given() -> None:
     assert check(sized("guard_thickness_mm=0.01"), "ABU310").status == "fail"
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("hot", [20.0, 60.0, 80.0, 120.0])
 def test_the_ring_stays_tight_in_aluminium_at_every_temperature(hot: float) -> None:
     """Smallest interference of the limits, less 2.5 µm of smoothing and 11.5e-6/K over the diameter and the warming."""
@@ -115,6 +116,7 @@ def test_too_wide_a_range_of_temperature_overstresses_the_body() -> None:
     assert check(sized("design=light", "temperature_range_C=[-40, 200]"), "ABU311").status == "fail"
 
 
+@pytest.mark.slow
 def test_a_ring_of_a_bearing_does_not_pass_a_thread_of_its_own_diameter() -> None:
     """The core of M62 × 0.5 is 62 − 1.08·0.5 = 61.5 mm wide, the ring 62 mm."""
     screwed = check(sized("design=bearing-ring", "closure=screwed"), "ABU307")

@@ -129,6 +129,7 @@ def test_a_bore_outside_the_tables_is_not_evaluated() -> None:
     assert standard_fits(0.7) == ()
 
 
+@pytest.mark.slow
 def test_a_bearings_ring_brings_its_own_run_out() -> None:
     """Ø62: 25, 13, 8 µm in the classes 0, 6, 5 (ISO 492); 10 µm leave room for class 5 alone."""
     design = sized("autobalancer.design=bearing-ring")

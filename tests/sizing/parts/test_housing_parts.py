@@ -21,6 +21,7 @@ def parts_of(design: str) -> tuple[HousingParts, float]:
     return housing_parts(designed.case, designed.autobalancer), designed.autobalancer.mass
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("design", DESIGNS)
 def test_profiles_close_and_go_round_counter_clockwise(design: str) -> None:
     for part in parts_of(design)[0].turned:
