@@ -193,11 +193,12 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
         return False
     about, until = counts(equations, tolerance), min(TRIAL * scene.revolution, scene.duration)
     implicit = (about.scipy + EVENT * about.events) / RUNS * until / scene.duration
-    choice, most = quickest_loop(equations, tolerance), math.ceil(implicit / COMPILED_TIME)
+    choice, decision = quickest_loop(equations, tolerance), decision_work(equations)
+    most = max(math.ceil(implicit / COMPILED_TIME), (LEAST_DECISIONS + 1) * decision)
     try:
         choice.integrate(equations, tolerance, [until], most)
     except TooMuchWorkError as error:
-        decisions = (most - error.evaluations - LOOP_EVENT * error.events) / decision_work(equations)
+        decisions = (most - error.evaluations - LOOP_EVENT * error.events) / decision
         same = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decisions
         return decisions >= LEAST_DECISIONS and same > implicit
     except NotTrustworthyError:  # the whole run tells what is wrong
