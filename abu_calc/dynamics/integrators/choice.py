@@ -42,7 +42,7 @@ LOOP_WORK: Final = 1 / 5
 """Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
 on it either: compiled it takes a hundredth of SciPy's time, in plain Python some times as long."""
 
-FEW, MANY = 6, 1.3
+FEW, MANY = 6, 1.15
 """Number of balls up to which an evaluation in the loop counts LOOP_WORK. With more it counts as this power of their
 number: the code no longer fits into what is nearest to the processor. An evaluation of SciPy's hardly depends on them.
 """
