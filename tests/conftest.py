@@ -24,7 +24,7 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Of a test marked `few(n)` all cases but the first n are slow."""
+    """Of a test marked `few(n)` all cases but the first n are slow; what is hard is not slow as well."""
     cases = Counter[str]()
     for item in items:
         if (few := item.get_closest_marker("few")) is not None:
@@ -32,6 +32,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             cases[test] += 1
             if cases[test] > few.args[0]:
                 item.add_marker(pytest.mark.slow)
+        if item.get_closest_marker("hard") is not None:
+            item.own_markers[:] = [mark for mark in item.own_markers if mark.name != "slow"]
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -38,7 +38,7 @@ def failing(file: str, text: str) -> Iterator[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [pytest.param("avtovaz-707-305", marks=pytest.mark.slow), "swing-arm-grinder"])
+@pytest.mark.parametrize("name", ["avtovaz-707-305", "swing-arm-grinder"])
 def test_commands_advised_for_presets_run(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     text = " ".join(reports(name, ("size",)))

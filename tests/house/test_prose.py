@@ -34,7 +34,6 @@ def test_rules(text: str, rules: list[str]) -> None:
     assert [each.rule for each in violations(text, "here")] == rules
 
 
-@pytest.mark.slow
 def test_help_explanations_schemas_templates_and_presets() -> None:
     assert found_in(static_texts()) == []
 

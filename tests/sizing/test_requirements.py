@@ -146,7 +146,7 @@ def both(preset: str) -> TwoRaceDesign:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("preset", [TWO_RACES[0], pytest.param(TWO_RACES[1], marks=pytest.mark.slow)])
+@pytest.mark.parametrize("preset", TWO_RACES)
 def test_two_races_take_their_checks_by_the_same_rule(preset: str, request: pytest.FixtureRequest) -> None:
     before = both(preset)
     request.getfixturevalue("informing")
