@@ -55,11 +55,15 @@ def both_courses(scene: Scene, accuracy: float) -> tuple[Course, Course]:
     return with_balls or [], course(without_balls(scene), planes, accuracy) or []
 
 
+MOST_WORK: Final = 1_000_000
+"""Work of a run-up that is only drawn: five seconds of compiled code, more with many balls."""
+
+
 def course(scene: Scene, planes: Sequence[float], accuracy: float) -> Course | None:
     """Speed and largest amplitude of each group of revolutions; None if the run cannot be trusted."""
     times = np.arange(0.0, scene.duration, scene.revolution / PER_TURN)
     try:
-        run = simulate(scene, accuracy, times)
+        run = simulate(scene, accuracy, times, MOST_WORK)
     except NotTrustworthyError:
         return None
     states = run.trajectory.at(times)

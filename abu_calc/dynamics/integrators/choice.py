@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
-from abu_calc.dynamics.integrators.run import DECISION, EVENT, LOOP_EVENT, TooMuchWorkError, work
+from abu_calc.dynamics.integrators.run import EVENT, LOOP_EVENT, TooMuchWorkError, decision_work, work
 from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
@@ -42,9 +42,10 @@ LOOP_WORK: Final = 1 / 5
 """Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
 on it either: compiled it takes a hundredth of SciPy's time, in plain Python some times as long."""
 
-FEW: Final = 6
-"""Number of balls up to which an evaluation in the loop counts LOOP_WORK. With more it counts in proportion to the
-equations; an evaluation of SciPy's hardly depends on them."""
+FEW, MANY = 6, 1.15
+"""Number of balls up to which an evaluation in the loop counts LOOP_WORK. With more it counts as this power of their
+number: the code no longer fits into what is nearest to the processor. An evaluation of SciPy's hardly depends on them.
+"""
 
 COMPILED_TIME: Final = 1 / 100
 """Time of a compiled evaluation in units of one of SciPy's, at most: three balls with friction take 1/300."""
@@ -162,7 +163,7 @@ def _loop_of(
     scene = "a tight tolerance" if method == "dop853" else "a scene that switches"
     order = f"order {5 if method == 'rk45' else 8} for {scene if watches(equations) else 'a smooth scene'}"
     why = f"the loop{'' if compiled else ' as plain Python'}, {order}{more}"
-    share = LOOP_WORK * max(1.0, (1 + len(equations.scene.ball_masses)) / (1 + FEW))
+    share = LOOP_WORK * max(1.0, (1 + len(equations.scene.ball_masses)) / (1 + FEW)) ** MANY
     return IntegratorChoice(name, why, partial(_through, compiled=compiled, long=long), share, LOOP_EVENT)
 
 
@@ -193,11 +194,12 @@ def _loop_copes(equations: Equations, tolerance: float) -> bool:
         return False
     about, until = counts(equations, tolerance), min(TRIAL * scene.revolution, scene.duration)
     implicit = (about.scipy + EVENT * about.events) / RUNS * until / scene.duration
-    choice, most = quickest_loop(equations, tolerance), math.ceil(implicit / COMPILED_TIME)
+    choice, decision = quickest_loop(equations, tolerance), decision_work(equations)
+    most = max(math.ceil(implicit / COMPILED_TIME), (LEAST_DECISIONS + 1) * decision)
     try:
         choice.integrate(equations, tolerance, [until], most)
     except TooMuchWorkError as error:
-        decisions = (most - error.evaluations - LOOP_EVENT * error.events) / DECISION
+        decisions = math.ceil((most - error.evaluations - LOOP_EVENT * error.events) / decision)
         same = about.scipy / RUNS * error.reached / scene.duration + IMPLICIT_EVENT * decisions
         return decisions >= LEAST_DECISIONS and same > implicit
     except NotTrustworthyError:  # the whole run tells what is wrong

@@ -102,12 +102,22 @@ EVENT, LOOP_EVENT = 50, 2
 """Evaluations that the work of an event is worth beside its own: modes are settled, and the integrator starts anew. In
 the loop, compiled or not, that is next to nothing."""
 
-DECISION = 2500
-"""Evaluations of the loop that an event is worth whose modes Python decides: some milliseconds."""
+DECISION, DECISION_BALLS = 2500, 3
+"""Evaluations of the loop that an event is worth whose modes Python decides: some milliseconds. And the number of balls
+up to which that holds; more take as much longer, and twice as long where they move across their race.
+"""
 
 CROWDED = 100
 """Events of each ball, and of the axis, in a revolution or a cycle of what oscillates faster: beyond, balls chatter,
 and nothing that is found of them can be trusted. Presets have a dozen."""
+
+
+def decision_work(equations: Equations) -> int:
+    """Evaluations of the loop that a decision of Python is worth."""
+    scene = equations.scene
+    share = max(1.0, (1 + len(scene.ball_masses)) / (1 + DECISION_BALLS))
+    return int(DECISION * share * (2 if scene.ball_states else 1))
+
 
 NOT_FINITE = "a state is no longer finite"
 

@@ -74,7 +74,7 @@ def changed(
         friction_arm=design.bare.friction_arm if friction is None else to_si(friction, "mm"),
     )
     try:
-        sized = choose_both(case)
+        sized = choose_both(case, advised=False)
     except InputError:
         return None
     if not missed(sized) <= (missed(design) if allowed is None else allowed):

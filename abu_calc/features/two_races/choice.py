@@ -9,6 +9,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing import RaceDesign, size_race
 from abu_calc.sizing.track import Track
+from abu_calc.sizing.trials import left_out
 
 ROUNDS = 3
 """Rounds in which the masses of the autobalancers and what the races ask for are found together."""
@@ -61,23 +62,27 @@ class TwoRaceDesign:
         return self.bare.rotor.mass + sum(race.design.autobalancer.mass for race in self.races)
 
 
-def choose_both(case: TwoRaceCase) -> TwoRaceDesign:
+def choose_both(case: TwoRaceCase, *, advised: bool = True) -> TwoRaceDesign:
     """Balls and races for the worst phases; the larger of the two balls serves both races.
 
-    Raises InputError if no ball fits the room of a race.
+    `advised`: whether changes are tried where a race breaks a limit. Raises InputError if no ball fits the room of a
+    race.
     """
     masses, ball = (0.0, 0.0), None
-    for _ in range(ROUNDS):
-        loaded = case.carrying(masses)
-        races = _both(loaded, ball)
-        diameters = [race.design.autobalancer.ball_diameter for race in races]
-        if diameters[0] != diameters[1]:
-            ball = from_si(max(diameters), "mm")
+    with left_out():
+        for _ in range(ROUNDS):
+            loaded = case.carrying(masses)
             races = _both(loaded, ball)
-        first, second = (race.design.autobalancer.housing.mass for race in races)
-        if (first, second) == masses:
-            break
-        masses = (first, second)
+            diameters = [race.design.autobalancer.ball_diameter for race in races]
+            if diameters[0] != diameters[1]:
+                ball = from_si(max(diameters), "mm")
+                races = _both(loaded, ball)
+            first, second = (race.design.autobalancer.housing.mass for race in races)
+            if (first, second) == masses:
+                break
+            masses = (first, second)
+    if advised and any(check.status != "pass" for race in races for check in race.design.checks):
+        races = _both(loaded, ball)
     return TwoRaceDesign(case.carrying(masses), case, races)
 
 

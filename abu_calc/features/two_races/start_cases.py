@@ -55,9 +55,10 @@ PER_TURN: Final = 16
 """Samples of a revolution."""
 ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
-MOST_WORK, MOST_ONE, AT_ONCE = 8_000_000, 2_000_000, 4
-"""Work of all start cases together, most work of one, and how many begin before what is left is counted. The first is
-half a minute of compiled code, more where Python decides many events."""
+MOST_WORK, MOST_ONE, AT_ONCE, MOST_LOST = 8_000_000, 2_000_000, 4, 3
+"""Work of all start cases together, most work of one, how many begin before what is left is counted, and how many may
+run out of work until no others are tried. The first is half a minute of compiled code, more where Python decides many
+events."""
 DOUBTFUL: Final = 0.2
 """Largest difference of runs of a chaotic start case that counts all the same, all of which end balanced."""
 
@@ -280,16 +281,17 @@ def runs_of(
 
     What is left is counted after each few starts, so that the answer does not depend on how many run side by side.
     """
-    starts = list(start_cases(design))
+    starts, lost = list(start_cases(design)), 0
     counting = counted(progress, "{} of {} starts", len(starts))
     for first in range(0, len(starts), AT_ONCE):
         few = starts[first : first + AT_ONCE]
-        if work <= 0:
+        if work <= 0 or lost >= MOST_LOST:
             yield from (LostRun(start, "not tried", short=True) for start in few)
             continue
         tasks = [(design, start, accuracy, min(MOST_ONE, work)) for start in few]
         for run in side_by_side(run_of, tasks, workers, counting):
             work -= run.work
+            lost += isinstance(run, LostRun) and run.short
             yield LostRun(run.case, "the time of --patience was over") if patience.over() else run
 
 
