@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.records import OneRace, TwoRaceVibration
-from abu_calc.features.two_races.start_cases import LostRun, TwoRaceRun
+from abu_calc.features.two_races.start_cases import NOT_TRIED, LostRun, TwoRaceRun
 from abu_calc.formulas.two_races import two_races_balance
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
@@ -191,7 +191,8 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
     """How many start cases gave no answer and why, and what to do about each reason."""
     chaotic = [run for run in lost if "chaotic" in run.reason]
     hurried = [run for run in lost if "--patience" in run.reason]
-    laborious = [run for run in lost if run.short and run not in hurried]
+    untried = [run for run in lost if run.reason == NOT_TRIED]
+    laborious = [run for run in lost if run.short and run not in (*hurried, *untried)]
     others = [run for run in lost if not (run in chaotic or run in hurried or run.short)]
     reasons, actions = [], []
     if hurried:
@@ -206,6 +207,8 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
     if others:
         reasons.append(f"{len(others)} otherwise: {others[0].case.name}: {others[0].reason}")
         actions.append("Specify a coarser --accuracy.")
+    if untried:
+        reasons.append(f"{len(untried)} were not tried")
     if chaotic or others:
         actions.append("Narrow speed_range_rpm, or raise rolling_drag_per_s of both races (not tried).")
     return f"{len(lost)} of {count} start cases gave no answer. {'; '.join(reasons)}", " ".join(dict.fromkeys(actions))

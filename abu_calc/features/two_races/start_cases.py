@@ -57,8 +57,9 @@ ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
 MOST_WORK, MOST_ONE, AT_ONCE, MOST_LOST = 8_000_000, 2_000_000, 4, 2
 """Work of all start cases together, most work of one, how many begin before what is left is counted, and how many may
-run out of work until no others are tried. The first is half a minute of compiled code, more where Python decides many
+be lost until no others are tried. The first is half a minute of compiled code, more where Python decides many
 events."""
+NOT_TRIED: Final = "not tried, since others gave no answer"
 DOUBTFUL: Final = 0.2
 """Largest difference of runs of a chaotic start case that counts all the same, all of which end balanced."""
 
@@ -286,12 +287,12 @@ def runs_of(
     for first in range(0, len(starts), AT_ONCE):
         few = starts[first : first + AT_ONCE]
         if work <= 0 or lost >= MOST_LOST:
-            yield from (LostRun(start, "not tried", short=True) for start in few)
+            yield from (LostRun(start, NOT_TRIED, short=True) for start in few)
             continue
         tasks = [(design, start, accuracy, min(MOST_ONE, work)) for start in few]
         for run in side_by_side(run_of, tasks, workers, counting):
             work -= run.work
-            lost += isinstance(run, LostRun) and run.short
+            lost += isinstance(run, LostRun)
             yield LostRun(run.case, "the time of --patience was over") if patience.over() else run
 
 
