@@ -86,25 +86,21 @@ def settled_amplitudes(case: SpaceCase, places: dict[str, Vector], *, balls: boo
     C[4, 3] -= body.rotor_polar_inertia * Ω
     Tw, Tr = _way(case.wheel), _way(case.race)
     n, m, R = (case.count if balls else 0), case.ball_mass, case.pitch_radius
+    radial, tangent, forces = np.zeros((3, n)), np.zeros((3, n)), np.zeros(6 + n)
+    total = np.diag(np.full(6 + n, m * R**2 * J))
+    total[:6, :6] = M + n * m * Tr.T @ Tr
 
     def accelerations(t: float, q: Array, v: Array, γ: Array, dγ: Array) -> tuple[Array, Array]:
         """M q̈ = forces of the imbalance and of each ball, −m times the acceleration of its place; J γ̈ likewise."""
-        wheel = case.imbalance * Ω**2 * np.array([math.cos(Ω * t), math.sin(Ω * t), 0])
-        right = -K @ q - C @ v + Tw.T @ wheel
-        left = M.copy()
-        total = np.zeros((6 + n, 6 + n))
-        forces = np.zeros(6 + n)
-        centre = -case.eccentricity * Ω**2 * np.array([math.cos(Ω * t), math.sin(Ω * t), 0])
-        for k in range(n):
-            radial = np.array([math.cos(γ[k]), math.sin(γ[k]), 0])
-            tangent = np.array([-math.sin(γ[k]), math.cos(γ[k]), 0])
-            left += m * Tr.T @ Tr
-            right += -m * Tr.T @ (centre - R * dγ[k] ** 2 * radial)
-            total[:6, 6 + k] = m * R * Tr.T @ tangent
-            total[6 + k, :6] = m * R * tangent @ Tr
-            total[6 + k, 6 + k] = m * R**2 * J
-            forces[6 + k] = -m * R**2 * case.drag * (dγ[k] - Ω) - m * R * tangent @ centre
-        total[:6, :6], forces[:6] = left, right
+        turned = np.array([math.cos(Ω * t), math.sin(Ω * t), 0])
+        centre = -case.eccentricity * Ω**2 * turned
+        radial[:2] = cos, sin = np.cos(γ), np.sin(γ)
+        tangent[:2] = -sin, cos
+        total[:6, 6:] = m * R * Tr.T @ tangent
+        total[6:, :6] = total[:6, 6:].T
+        right = -K @ q - C @ v + case.imbalance * Ω**2 * Tw.T @ turned
+        forces[:6] = right - m * Tr.T @ (n * centre - R * radial @ dγ**2)
+        forces[6:] = -m * R**2 * case.drag * (dγ - Ω) - m * R * centre @ tangent
         found = np.linalg.solve(total, forces)
         return found[:6], found[6:]
 

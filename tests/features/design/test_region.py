@@ -156,7 +156,7 @@ def test_the_command_finds_the_boundary_of_the_region() -> None:
     boundaries = region_of(HANDS).boundaries
     assert boundaries is not None
     last = boundaries[1]
-    found = abu_calc.stability(abu_calc.read(HANDS), speeds_rpm=(9000.0, 12000.0))
+    found = abu_calc.stability(abu_calc.read(HANDS), speeds_rpm=(10500.0, 11300.0))
     assert found.boundaries_rpm is not None and not found.stable
     (limit,) = found.boundaries_rpm
     assert limit.speed_rpm == pytest.approx(from_si(last.speed, "rpm"), rel=1e-4)

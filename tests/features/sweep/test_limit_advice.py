@@ -97,7 +97,7 @@ def test_advice_of_a_closed_form_comes_true(monkeypatch: pytest.MonkeyPatch) -> 
 def test_the_value_that_decides_the_failed_limit_is_named() -> None:
     """The level fails by the eccentricity alone here: it decides the margin, and failures lie at its high values."""
     machine = abu_calc.read("avtovaz-707-222").changed(FAILING["level"][1])
-    sweep = abu_calc.sweep(machine, None, 60, tolerances=True, seed=3)
+    sweep = abu_calc.sweep(machine, None, 24, tolerances=True, seed=3)
     (failed,) = [each for each in sweep.failed_limits if each.limit == "meets_level"]
     assert (failed.decides[0].key, failed.decides[0].fails_at) == ("autobalancer.race_eccentricity_mm", "high values")
     assert failed.decides[0].total > 0.7
