@@ -34,21 +34,23 @@ RUNS = 60
 
 
 @pytest.mark.parametrize(
-    ("preset", "changes", "vary", "limit"),
+    ("preset", "changes", "vary", "limit", "runs"),
     [
-        pytest.param(*case, id=name, marks=pytest.mark.slow if name == "settling" else pytest.mark.hard)
-        for name, case in FAILING.items()
+        pytest.param(*FAILING["settling"], 30, id="settling", marks=pytest.mark.slow),
+        *(pytest.param(*case, RUNS, id=f"{name}-many", marks=pytest.mark.hard) for name, case in FAILING.items()),
     ],
 )
-def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str) -> None:
+def test_the_share_rises_as_told(
+    preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str, runs: int
+) -> None:
     machine = abu_calc.read(preset).changed(changes)
-    sweep = abu_calc.sweep(machine, vary, RUNS, tolerances=True, seed=3)
+    sweep = abu_calc.sweep(machine, vary, runs, tolerances=True, seed=3)
     assert limit in [failed.limit for failed in sweep.failed_limits]
     assert sweep.advice, "nothing helps"
     for advice in sweep.advice:
         assert advice.before == sweep.meets_limits.share < advice.after
         followed = machine.changed(advice.set_) if advice.set_ else machine
-        again = abu_calc.sweep(followed, {**vary, **advice.vary}, RUNS, tolerances=True, seed=3)
+        again = abu_calc.sweep(followed, {**vary, **advice.vary}, runs, tolerances=True, seed=3)
         assert again.meets_limits.share == pytest.approx(advice.after, abs=1e-12)
         for name, (_, after) in advice.limits.items():
             failing = again.meets_limits.each[name]
@@ -93,11 +95,11 @@ def test_advice_of_a_closed_form_comes_true(monkeypatch: pytest.MonkeyPatch) -> 
         assert before == failed.failed > after == again.meets_limits.of - again.meets_limits.each["meets_level"].met
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_value_that_decides_the_failed_limit_is_named() -> None:
     """The level fails by the eccentricity alone here: it decides the margin, and failures lie at its high values."""
     machine = abu_calc.read("avtovaz-707-222").changed(FAILING["level"][1])
-    sweep = abu_calc.sweep(machine, None, 24, tolerances=True, seed=3)
+    sweep = abu_calc.sweep(machine, None, RUNS, tolerances=True, seed=3)
     (failed,) = [each for each in sweep.failed_limits if each.limit == "meets_level"]
     assert (failed.decides[0].key, failed.decides[0].fails_at) == ("autobalancer.race_eccentricity_mm", "high values")
     assert failed.decides[0].total > 0.7
