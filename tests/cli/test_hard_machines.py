@@ -34,13 +34,16 @@ def _found(seen: Seen) -> tuple[int, dict, dict]:
     return seen.status, {check["code"]: check for check in document["checks"]}, document["result"]
 
 
-MORE_SOFT = [(0.1, 15), (0.1, 92), (0.25, 15), (0.25, 45), (0.9, 15)]
+SOFT, MORE_SOFT = [(0.9, 92), (0.1, 15), (0.25, 45)], [(0.1, 92), (0.25, 15), (0.9, 15)]
 """Damping and drag: the less damping, the longer the machine sways; without any, for ever."""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    ("damping", "drag"), [(0.9, 92), *(pytest.param(*each, marks=pytest.mark.slow) for each in MORE_SOFT)]
+    ("damping", "drag"),
+    [
+        *(pytest.param(*each, marks=pytest.mark.slow) for each in SOFT),
+        *(pytest.param(*each, marks=pytest.mark.hard) for each in MORE_SOFT),
+    ],
 )
 def test_soft_damping_of_hands_and_the_optimum_drag_pass(damping: float, drag: float) -> None:
     """The suspension's own sway may outlast the balls; they balance all the same, but for what race eccentricity keeps.
