@@ -4,7 +4,7 @@ import pytest
 
 from tests.studies.arrangements import ALLOWED, compared
 
-QUICK, OTHERS = (23, 30, 31, 32), (5, 9, 33, 34, 35)
+QUICK, OTHERS = (23, 31, 32), (5, 9, 30, 33, 34, 35)
 
 
 @pytest.mark.parametrize(
@@ -15,5 +15,5 @@ QUICK, OTHERS = (23, 30, 31, 32), (5, 9, 33, 34, 35)
     ],
 )
 def test_no_arrangement_is_missed(seed: int) -> None:
-    comparison = compared(seed, 60)
+    comparison = compared(seed, 60 if seed in OTHERS else 40)
     assert comparison.tried > 20 and comparison.missed <= ALLOWED and comparison.speeds_missed == 0

@@ -90,7 +90,7 @@ def test_a_store_goes_on_and_computes_nothing_twice(
 def test_an_impossible_share_gives_the_highest_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(front, "ENOUGH", 32)
     machine = abu_calc.read(PRESET).changed({"limits.vibration_level_db": 82.0})
-    result = abu_calc.optimise(machine, CHOICES, share=0.99, runs=100, samples=400)
+    result = abu_calc.optimise(machine, CHOICES, share=0.99, runs=100, samples=120)
     assert result.status == "fail"
     assert not result.recommended.proven
     assert result.recommended.set_[ECCENTRICITY] == 0.005
@@ -139,7 +139,7 @@ def test_a_value_that_scatters_cannot_be_chosen() -> None:
 def test_a_family_shares_balls_and_race(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(front, "ENOUGH", 16)
     machines = [abu_calc.read(PRESET), abu_calc.read(PRESET).changed({"machine.mass_kg": 6.5})]
-    result = abu_calc.optimise(machines, {DRAG: "choice(4, 20)"}, share=0.9, runs=100, samples=800)
+    result = abu_calc.optimise(machines, {DRAG: "choice(4, 20)"}, share=0.9, runs=100, samples=200)
     first, second = result.recommended.set_.values()
     for key in ("autobalancer.ball_diameter_mm", "autobalancer.race_radius_mm"):
         assert first[key] == second[key]
