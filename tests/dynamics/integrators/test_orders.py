@@ -80,7 +80,10 @@ def by_tolerance(scene, name: str) -> tuple[float, int]:
 
 
 @pytest.mark.few(2)
-@pytest.mark.parametrize(("scene", "name"), CASES)
+@pytest.mark.parametrize(
+    ("scene", "name"),
+    [pytest.param(*case, marks=[pytest.mark.hard] * (number % 2)) for number, case in enumerate(CASES)],
+)
 def test_errors_are_proportional_to_the_tolerance(scene, name):
     found, _ = by_tolerance(SMOOTH[scene], name)
     assert 0.7 < found < 1.3
@@ -95,9 +98,14 @@ def test_switches_leave_them_so(scene, name):
     assert 0.7 < found < 1.3
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", COSTLY)
-@pytest.mark.parametrize("scene", IMPLICIT)
+@pytest.mark.parametrize(
+    ("scene", "name"),
+    [
+        pytest.param(scene, name, marks=pytest.mark.hard if scene == "coupled" else pytest.mark.slow)
+        for scene in IMPLICIT
+        for name in COSTLY
+    ],
+)
 def test_implicit_methods_do_so(scene, name):
     found, events = by_tolerance(IMPLICIT[scene], name)
     assert (events > 0) is (scene in SWITCHING)

@@ -50,7 +50,7 @@ def _again(monkeypatch: pytest.MonkeyPatch, **more: Any) -> OptimiseResult:
     return abu_calc.optimise(abu_calc.read(PRESET), CHOICES, **OPTIONS, **more)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_any_executor_gives_the_same_answer(small: OptimiseResult, monkeypatch: pytest.MonkeyPatch) -> None:
     with ThreadPoolExecutor(3) as executor:
         assert _again(monkeypatch, executor=executor).to_dict() == small.to_dict()
@@ -139,7 +139,7 @@ def test_a_value_that_scatters_cannot_be_chosen() -> None:
 def test_a_family_shares_balls_and_race(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(front, "ENOUGH", 16)
     machines = [abu_calc.read(PRESET), abu_calc.read(PRESET).changed({"machine.mass_kg": 6.5})]
-    result = abu_calc.optimise(machines, {DRAG: "choice(4, 20)"}, share=0.9, runs=100, samples=200)
+    result = abu_calc.optimise(machines, {DRAG: "choice(4, 20)"}, share=0.9, runs=100, samples=800)
     first, second = result.recommended.set_.values()
     for key in ("autobalancer.ball_diameter_mm", "autobalancer.race_radius_mm"):
         assert first[key] == second[key]
