@@ -101,7 +101,7 @@ def test_switches_leave_them_so(scene, name):
 @pytest.mark.parametrize(
     ("scene", "name"),
     [
-        pytest.param(scene, name, marks=pytest.mark.hard if scene == "coupled" else pytest.mark.slow)
+        pytest.param(scene, name, marks=pytest.mark.hard if scene == "coupled" or "radau" in name else pytest.mark.slow)
         for scene in IMPLICIT
         for name in COSTLY
     ],
