@@ -80,10 +80,7 @@ def by_tolerance(scene, name: str) -> tuple[float, int]:
 
 
 @pytest.mark.few(2)
-@pytest.mark.parametrize(
-    ("scene", "name"),
-    [pytest.param(*case, marks=[pytest.mark.hard] * (number % 2)) for number, case in enumerate(CASES)],
-)
+@pytest.mark.parametrize(("scene", "name"), CASES)
 def test_errors_are_proportional_to_the_tolerance(scene, name):
     found, _ = by_tolerance(SMOOTH[scene], name)
     assert 0.7 < found < 1.3

@@ -253,7 +253,7 @@ STUDIES: dict[str, tuple[Callable[[], Result], set[str]]] = {
     "simulate": (lambda: abu_calc.simulate(_machine(run_up__time_s=0.3), "run-up"), set()),
     "stability": (lambda: abu_calc.stability(_machine(), speeds_rpm=(1000.0, 6000.0)), {"multipliers"}),
     "grinding": (lambda: recalled("grinding", _machine("avtovaz-707-222")), set()),
-    "accuracy": (lambda: abu_calc.accuracy(_machine(), budget_s=1.0), set()),
+    "accuracy": (lambda: abu_calc.accuracy(_machine(), budget_s=3.0), set()),
     "balance": (lambda: abu_calc.balance(abu_calc.read_readings("sapropel-screw-rig")), set()),
     "compare": (lambda: abu_calc.compare([_machine(), _machine(wheel__mass_kg=0.6)]), set()),
     "sweep": (lambda: abu_calc.sweep(_machine(), ["wheel.mass_kg=0.5,0.6"], 4), set()),
