@@ -206,11 +206,10 @@ def pairs() -> list[tuple[str, ...]]:
 
 
 def shared_out() -> list[Any]:
-    """Each of them on two supports in every run, on two by `-m slow`, on the others by hand: supports take turns."""
-    marks = [], [pytest.mark.slow], [pytest.mark.hard]
+    """Each of them on two supports in every run, and on the others by `-m slow`: every two supports take turns."""
     cases = [(k - place, support, names) for k, names in enumerate(pairs()) for place, support in enumerate(SUPPORTS)]
     return [
-        pytest.param(support, names, marks=marks[turn % 3], id=f"{' + '.join(names)}-{support}")
+        pytest.param(support, names, marks=[pytest.mark.slow] * (turn % 3 > 0), id=f"{' + '.join(names)}-{support}")
         for turn, support, names in cases
         if taken(support, *names)
     ]
