@@ -77,8 +77,10 @@ def test_bounces_at_the_start_are_gone_through_in_plain_code(monkeypatch: pytest
     assert {run["cost"]["integrator"] for run in result["simulation"]} <= {"plain-dop853", "plain-rk45"}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("drag", [0, *(pytest.param(each, marks=pytest.mark.slow) for each in (1, 1e5))])
+@pytest.mark.parametrize(
+    "drag",
+    [*(pytest.param(each, marks=pytest.mark.slow) for each in (0, 1)), pytest.param(1e5, marks=pytest.mark.hard)],
+)
 def test_a_drag_that_settles_nothing_leaves_the_design_standing(drag: float) -> None:
     status, checks, result = _hasty(
         STRAIGHT, f"autobalancer.rolling_drag_per_s={drag}", "autobalancer.rolling_friction_mm=0"
@@ -116,11 +118,8 @@ def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
 
 
 EDGES = [
-    ("machine.mass_kg=10000", "wheel.mass_kg=100"),
     ("autobalancer.corrector=roller",),
     ("grinding.cutting_coefficient=0",),
-    ("autobalancer.design=bearing-ring",),
-    ("wheel.runout_mm=10",),
     ("grinding.contact_stiffness_N_per_m=3e6",),
     ("autobalancer.rolling_friction_mm=1",),
     ("machine.background_level_db=110.9",),
@@ -134,6 +133,9 @@ HARD_EDGES = [
     ("suspension.natural_frequencies_hz=[96.6666666667, 96.6666666667]",),
     ("suspension.natural_frequencies_hz=[96.0, 97.0]", "suspension.damping_ratios=0"),
     ("autobalancer.ball_diameter_mm=2.0",),
+    ("machine.mass_kg=10000", "wheel.mass_kg=100"),
+    ("autobalancer.design=bearing-ring",),
+    ("wheel.runout_mm=10",),
     ("autobalancer.ball_diameter_mm=0.5",),
     ("autobalancer.max_outer_diameter_mm=3000", "autobalancer.max_width_mm=500"),
 ]
@@ -153,7 +155,7 @@ def test_edges_are_answered(entries: tuple[str, ...]) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("entries", HARD_EDGES[:7], ids=lambda entries: " ".join(entries)[:60])
+@pytest.mark.parametrize("entries", HARD_EDGES[1:7:2], ids=lambda entries: " ".join(entries)[:60])
 def test_edges_are_answered_before_their_start_cases_are(entries: tuple[str, ...]) -> None:
     status, checks, result = _hasty(STRAIGHT, *entries)
     assert status == 1 and checks["ABU704"]["status"] == "not-done" and result["autobalancer"]["ball_count"] > 1
@@ -162,8 +164,9 @@ def test_edges_are_answered_before_their_start_cases_are(entries: tuple[str, ...
 @pytest.mark.parametrize(
     ("angle", "codes", "look"),
     [
-        pytest.param(angle, codes, look, marks=mark)
-        for look, mark in ((_hasty, pytest.mark.slow), (_checks, pytest.mark.hard))
+        pytest.param(
+            angle, codes, look, marks=pytest.mark.slow if look is _hasty and angle < 180 else pytest.mark.hard)
+        for look in (_hasty, _checks)
         for angle, codes in (
             (5, {"ABU503", "ABU504", "ABU703"}), (0, {"ABU503"}), (180, {"ABU503"}), (90, set()),  # as in the preset
         )

@@ -20,7 +20,7 @@ from tests.studies.random_machines import family_of, machine_text
 
 PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
 MACHINES = [each for each in FILES_BY_HAND if "[machine]" in each.values[0].read_text(encoding="utf-8")]
-QUICK = {0, 2, 3, 6}
+QUICK = {0, 2, 3}
 RANDOM = [pytest.param(seed, marks=pytest.mark.slow if seed in QUICK else pytest.mark.hard) for seed in range(40)]
 
 TOLD = re.compile(

@@ -61,7 +61,7 @@ def simulated(source: Machine, row: SettlingOfStart) -> SimulateResult:
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=pytest.mark.hard if name in ("pause", "vertical") else pytest.mark.slow)
+        pytest.param(name, marks=pytest.mark.hard if name in ("pause", "vertical", "motor") else pytest.mark.slow)
         for name in (*PRESETS, *SETTINGS)
     ],
 )

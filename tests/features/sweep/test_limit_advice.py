@@ -35,10 +35,7 @@ RUNS = 60
 
 @pytest.mark.parametrize(
     ("preset", "changes", "vary", "limit"),
-    [
-        pytest.param(*case, id=name, marks=pytest.mark.slow if name == "settling" else pytest.mark.hard)
-        for name, case in FAILING.items()
-    ],
+    [pytest.param(*case, id=name, marks=pytest.mark.hard) for name, case in FAILING.items()],
 )
 def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str) -> None:
     machine = abu_calc.read(preset).changed(changes)
