@@ -63,9 +63,9 @@ def _report_of(command: str, changes: dict) -> tuple[str, str]:
     return f"abu {command} {options}", f"{seen.out}\n\n{seen.err}"
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @given(machines())
-@settings(max_examples=2, deadline=None, derandomize=True, phases=[Phase.generate])
+@settings(max_examples=8, deadline=None, derandomize=True, phases=[Phase.generate])
 def test_reports_of_random_machines(changes: dict) -> None:
     """Of small ones, whose balls are chosen soon."""
     for key, most in (("max_outer_diameter_mm", 80.0), ("bore_diameter_mm", 16.0)):
