@@ -7,7 +7,8 @@ import pytest
 FILES = sorted((Path(__file__).parent / "machines").glob("*.toml"))
 LONG = {
     "angle-grinder-hands", "arm-pulls-on-work", "friction-elsewhere", "hands-called-chaotic", "hanging-balls",
-    "late-run-up-hands", "late-settling", "motor-no-load-speed", "not-evaluated-for-work", "speed-range", "washing-machine",
+    "late-run-up-hands", "late-settling", "motor-no-load-speed", "not-evaluated-for-work", "speed-range",
+    "washing-machine",
 }  # fmt: skip
 """Sizing one of these takes some seconds, and so does all that a report of it advises."""
 FILES_BY_HAND = [
