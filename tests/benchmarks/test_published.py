@@ -94,7 +94,7 @@ def test_the_module_prints_json_and_refuses_what_it_does_not_know() -> None:
     assert wrong.returncode == 1 and "two-planes" in wrong.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_record_of_two_planes_is_made_again() -> None:
     record = json.loads(two_planes.RECORD.read_text("utf-8"))["largest"]["6.0"]
     assert two_planes.largest(6.0) == pytest.approx(record, rel=1e-4)

@@ -9,14 +9,12 @@ import pytest
 
 from abu_calc.cli.app import COMMANDS
 from tests.cli.runner import again, once
+from tests.hard_machines import FILES_BY_HAND
 
 ADVISED = re.compile(r"`abu ([^`]+)`")
 NAMED = re.compile(rf"(?<![`\w/-])abu (?:{'|'.join(COMMANDS)})\b(?!:)")
 """A command outside of backquotes; an error begins with its own command and a colon."""
 REPORTS = ("size", "simulate", "levels", "stability", "effects", "grinding")
-MACHINES = sorted((Path(__file__).parents[1] / "machines").glob("*.toml"))
-DRUM = "washing-machine"
-"""Of 42 balls: each command takes long, and what it advises stands in other reports, too."""
 PLACEHOLDERS = {"FILE", "MACHINE"}
 
 
@@ -57,8 +55,7 @@ def test_commands_advised_in_every_report_of_a_preset_run(
     assert ADVISED.findall(text) and NAMED.findall(text) == [] and list(failing(name, text)) == []
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("file", [file for file in MACHINES if file.stem != DRUM], ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", FILES_BY_HAND)
 def test_commands_advised_for_hard_machines_run(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     text = " ".join(reports(str(file)))

@@ -38,6 +38,7 @@ def test_every_cell_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     names: dict[str, Any] = {}
     for cell in cells():
         if cell["cell_type"] == "code":
-            exec(compile("".join(cell["source"]), cell["id"], "exec"), names)
-    assert names["result"].status == "pass" and len(names["sweep"].members) == 60
+            source = "".join(cell["source"]).replace("runs=60", "runs=12")
+            exec(compile(source, cell["id"], "exec"), names)
+    assert names["result"].status == "pass" and len(names["sweep"].members) == 12
     assert {path.name for path in tmp_path.iterdir()} >= {"design.html", "section.dxf", "section.svg"}

@@ -86,32 +86,26 @@ def settled_amplitudes(case: SpaceCase, places: dict[str, Vector], *, balls: boo
     C[4, 3] -= body.rotor_polar_inertia * Ω
     Tw, Tr = _way(case.wheel), _way(case.race)
     n, m, R = (case.count if balls else 0), case.ball_mass, case.pitch_radius
+    tangent, forces, held = np.zeros((2, n)), np.zeros(6 + n), np.hstack([K, C])
+    wheel, arm = case.imbalance * Ω**2 * Tw.T[:, :2], m * Tr.T[:, :2]
+    total = np.diag(np.full(6 + n, m * R**2 * J))
+    total[:6, :6] = M + n * m * Tr.T @ Tr
 
-    def accelerations(t: float, q: Array, v: Array, γ: Array, dγ: Array) -> tuple[Array, Array]:
+    def accelerations(t: float, moved: Array, γ: Array, dγ: Array) -> Array:
         """M q̈ = forces of the imbalance and of each ball, −m times the acceleration of its place; J γ̈ likewise."""
-        wheel = case.imbalance * Ω**2 * np.array([math.cos(Ω * t), math.sin(Ω * t), 0])
-        right = -K @ q - C @ v + Tw.T @ wheel
-        left = M.copy()
-        total = np.zeros((6 + n, 6 + n))
-        forces = np.zeros(6 + n)
-        centre = -case.eccentricity * Ω**2 * np.array([math.cos(Ω * t), math.sin(Ω * t), 0])
-        for k in range(n):
-            radial = np.array([math.cos(γ[k]), math.sin(γ[k]), 0])
-            tangent = np.array([-math.sin(γ[k]), math.cos(γ[k]), 0])
-            left += m * Tr.T @ Tr
-            right += -m * Tr.T @ (centre - R * dγ[k] ** 2 * radial)
-            total[:6, 6 + k] = m * R * Tr.T @ tangent
-            total[6 + k, :6] = m * R * tangent @ Tr
-            total[6 + k, 6 + k] = m * R**2 * J
-            forces[6 + k] = -m * R**2 * case.drag * (dγ[k] - Ω) - m * R * tangent @ centre
-        total[:6, :6], forces[:6] = left, right
-        found = np.linalg.solve(total, forces)
-        return found[:6], found[6:]
+        turned = np.array([math.cos(Ω * t), math.sin(Ω * t)])
+        centre, outwards = -case.eccentricity * Ω**2 * turned, R * dγ**2
+        tangent[0], tangent[1] = -np.sin(γ), np.cos(γ)
+        total[:6, 6:] = R * arm @ tangent
+        total[6:, :6] = total[:6, 6:].T
+        places = n * centre - np.array([tangent[1] @ outwards, -tangent[0] @ outwards])
+        forces[:6] = wheel @ turned - held @ moved - arm @ places
+        forces[6:] = -m * R**2 * case.drag * (dγ - Ω) - m * R * centre @ tangent
+        return np.linalg.solve(total, forces)
 
     def rate(t: float, state: Array) -> Array:
-        q, v, γ, dγ = np.split(state, [6, 12, 12 + n])
-        a, b = accelerations(t, q, v, γ, dγ)
-        return np.concatenate([v, a, dγ, b])
+        found = accelerations(t, state[:12], state[12 : 12 + n], state[12 + n :])
+        return np.concatenate([state[6:12], found[:6], state[12 + n :], found[6:]])
 
     steps = 40
     h = 2 * math.pi / Ω / steps

@@ -249,7 +249,7 @@ def test_six_degrees_of_freedom_without_balls() -> None:
 @pytest.mark.slow
 def test_six_degrees_of_freedom_with_balls() -> None:
     places = {**G230.handles, "race": G230.race}
-    integrated = settled_amplitudes(G230, places, balls=True, turns=700)
+    integrated = settled_amplitudes(G230, places, balls=True, turns=620)
     loads = settled(G230).loads
     for name, place in places.items():
         expected = velocity_rms(moving(G230).displacement(place, loads), G230.speed)

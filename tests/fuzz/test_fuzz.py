@@ -1,4 +1,4 @@
-"""200 inputs, the same each time, and all that once broke a command."""
+"""100 inputs, the same each time, and all that once broke a command."""
 
 import tempfile
 from pathlib import Path
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.fuzz.inputs import SOURCES, shared_out
 from tests.fuzz.judging import broken, described, seed
 
-INPUTS = 200
+INPUTS = 100
 SEEDS = sorted((Path(__file__).parent / "seeds").glob("*.json"))
 CALM = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example, HealthCheck.filter_too_much)
 

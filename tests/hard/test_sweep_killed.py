@@ -19,7 +19,7 @@ import abu_calc
 from abu_calc.features.sweep.batches import ENDED, Row, given, in_batches
 from abu_calc.features.sweep.time_limit import limited
 
-RUNS = 60
+RUNS, FEW = 60, 24
 SWEEP = [sys.executable, "-m", "abu_calc", "sweep", "avtovaz-707-222", "--tolerances", "--runs", str(RUNS), "--quiet"]
 
 
@@ -33,11 +33,15 @@ def rows(store: Path) -> list[Any]:
         database.close()
 
 
+def members(runs: int, store: Path) -> list[Any]:
+    """Of a sweep that nobody interrupts."""
+    abu_calc.sweep(abu_calc.read("avtovaz-707-222"), runs=runs, tolerances=True, store=store)
+    return rows(store)
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
-    store = tmp_path_factory.mktemp("whole") / "members.sqlite"
-    abu_calc.sweep(abu_calc.read("avtovaz-707-222"), runs=RUNS, tolerances=True, store=store)
-    return rows(store)
+    return members(RUNS, tmp_path_factory.mktemp("whole") / "members.sqlite")
 
 
 @pytest.mark.hard
@@ -64,9 +68,9 @@ def test_twenty_kills_leave_the_same_members(whole: list[Any], tmp_path: Path, w
 
 
 @pytest.mark.slow
-def test_ctrl_c_leaves_a_store_to_go_on_with(whole: list[Any], tmp_path: Path) -> None:
-    store = tmp_path / "members.sqlite"
-    command = [*SWEEP, "--store", str(store), "--workers", "2"]
+def test_ctrl_c_leaves_a_store_to_go_on_with(tmp_path: Path) -> None:
+    store, whole = tmp_path / "members.sqlite", members(FEW, tmp_path / "whole.sqlite")
+    command = [*SWEEP, "--runs", str(FEW), "--store", str(store), "--workers", "2"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     while not store.exists() or not rows(store):
         time.sleep(0.1)

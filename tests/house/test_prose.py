@@ -7,11 +7,10 @@ import pytest
 from hypothesis import Phase, given, seed, settings
 
 from tests.cli.runner import abu, once
+from tests.hard_machines import FILES_BY_HAND
 from tests.house.prose import error_texts, found_in, screens, static_texts, violations
 from tests.sizing.test_case import machines
 from tests.studies.random_machines import family_of, machine_text
-
-MACHINES = sorted((Path(__file__).parents[1] / "machines").glob("*.toml"))
 
 
 @pytest.mark.parametrize(
@@ -64,7 +63,7 @@ def _report_of(command: str, changes: dict) -> tuple[str, str]:
     return f"abu {command} {options}", f"{seen.out}\n\n{seen.err}"
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @given(machines())
 @settings(max_examples=8, deadline=None, derandomize=True, phases=[Phase.generate])
 def test_reports_of_random_machines(changes: dict) -> None:
@@ -106,8 +105,7 @@ def test_reports_of_plausible_machines(part: int, tmp_path: Path) -> None:
     assert len(texts) == 20 and found_in(texts) == []
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("file", MACHINES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", FILES_BY_HAND)
 def test_reports_of_hard_machines(file: Path) -> None:
     texts = []
     for words in (("size", str(file)), ("size", str(file), "--full")):

@@ -363,8 +363,7 @@ def test_a_pause_is_below_where_balls_hang() -> None:
     assert pauses(change.designs(found)[0], slip=0.55) == []
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("drag", [4.0, pytest.param(6.0, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("drag", [pytest.param(4.0, marks=pytest.mark.slow), pytest.param(6.0, marks=pytest.mark.hard)])
 def test_a_pause_lets_balls_that_hang_catch_up(drag: float) -> None:
     """Every start balances with one of those tried, which not every one does without.
 

@@ -15,7 +15,7 @@ MOST = 32e6
 """Evaluations of all runs together, of 86 states, 2 µs each in compiled code; 26.1 million were counted."""
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @pytest.mark.skipif(not installed(), reason="without a compiler it takes long")
 def test_every_check_of_a_drum_is_evaluated(monkeypatch: pytest.MonkeyPatch) -> None:
     evaluations: list[int] = []

@@ -27,6 +27,12 @@ RUNAWAYS = {81: "runs away", 130: "climbs out of its groove", 210: "runs away", 
 """Seeds of scenes that nothing can answer, and why."""
 
 
+def by_hand(seeds, few):
+    """The first of them for slow runs, the others by hand."""
+    marks = [pytest.mark.slow] * few + [pytest.mark.hard] * (len(seeds) - few)
+    return [pytest.param(seed, marks=mark) for seed, mark in zip(seeds, marks, strict=True)]
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What became of a scene: an answer or a reason."""
@@ -82,8 +88,7 @@ def test_cheap_scenes_are_answered(seed):
     check_answer(found.simulation)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", BOUNCING)
+@pytest.mark.parametrize("seed", by_hand(BOUNCING, 3))
 def test_bouncing_balls_come_to_an_end(seed):
     """Thousands of events at most, and an answer."""
     found = outcome(seed, "scipy")
@@ -91,8 +96,7 @@ def test_bouncing_balls_come_to_an_end(seed):
     check_answer(found.simulation)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", RUNAWAYS)
+@pytest.mark.parametrize("seed", by_hand(tuple(RUNAWAYS), 3))
 def test_what_runs_away_is_refused_for_that(seed):
     """Not because steps become too small."""
     found = outcome(seed, "scipy")

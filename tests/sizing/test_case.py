@@ -92,7 +92,7 @@ def _numbers(value: Any) -> list[float]:
 
 @pytest.mark.slow
 @given(machines())
-@settings(RANDOM, max_examples=3)
+@settings(RANDOM, max_examples=2)
 def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
     _check_sized(changes)
 

@@ -254,7 +254,7 @@ def integrated(design: Design, *, balls: bool) -> dict[str, Any]:
         {"front": (0, 0, FRONT / 1e3), "rear": (0, 0, REAR / 1e3)}, eccentricity=-case.race_eccentricity, count=count,
         start=tuple(0.3 + 0.7 * k for k in range(count)),
     )  # fmt: skip
-    return settled_amplitudes(whole, whole.handles, balls=balls, turns=600 if balls else 150)
+    return settled_amplitudes(whole, whole.handles, balls=balls, turns=350 if balls else 150)
 
 
 @pytest.mark.slow

@@ -23,7 +23,7 @@ from tests.sizing.machines import DRUM, check_of, machine
         pytest.param(
             "ABU301",
             {**DRUM, "machine__speed_rpm": 5000, "autobalancer__race_hardness_HRC": 58.0},
-            marks=pytest.mark.slow,
+            marks=pytest.mark.hard,
         ),
     ],
 )

@@ -95,9 +95,14 @@ def test_switches_leave_them_so(scene, name):
     assert 0.7 < found < 1.3
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", COSTLY)
-@pytest.mark.parametrize("scene", IMPLICIT)
+@pytest.mark.parametrize(
+    ("scene", "name"),
+    [
+        pytest.param(scene, name, marks=pytest.mark.hard if scene == "coupled" or "radau" in name else pytest.mark.slow)
+        for scene in IMPLICIT
+        for name in COSTLY
+    ],
+)
 def test_implicit_methods_do_so(scene, name):
     found, events = by_tolerance(IMPLICIT[scene], name)
     assert (events > 0) is (scene in SWITCHING)

@@ -42,8 +42,13 @@ def growth(scene: Scene, angles: np.ndarray) -> float:
     return decided(BalancedMotion(scene, tuple(angles.tolist())), scene.speed)[1]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [8, *(pytest.param(each, marks=pytest.mark.slow) for each in (19, 33, 39, 55, 59))])
+@pytest.mark.parametrize(
+    "seed",
+    [
+        *(pytest.param(each, marks=pytest.mark.slow) for each in (8, 39)),
+        *(pytest.param(each, marks=pytest.mark.hard) for each in (19, 33, 55, 59)),
+    ],
+)
 def test_no_random_arrangement_grows_faster(seed: int) -> None:
     """200 of them for each of six arms; the arrangements that are listed alone missed faster growth on four."""
     case, scene = on_arm(seed)
@@ -67,8 +72,7 @@ def test_the_list_alone_misses_a_growing_arrangement() -> None:
     assert stability(scene, case.half_angle).stable is False
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [19, pytest.param(55, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [pytest.param(19, marks=pytest.mark.slow), pytest.param(55, marks=pytest.mark.hard)])
 def test_growth_by_the_equations_themselves(seed: int) -> None:
     """ln|μ|/T of a revolution, by central differences of the full equations and Runge–Kutta's method."""
     case, scene = on_arm(seed)

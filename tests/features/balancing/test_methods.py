@@ -243,8 +243,8 @@ def test_one_plane_by_one_trial_mass(tmp_path: Path) -> None:
     assert "left" not in result.to_dict() and result.to_dict()["single_plane"]["add_at_deg"] == pytest.approx(310.0)
 
 
-COUNTS = [10, pytest.param(100, marks=pytest.mark.slow)]
-"""Of seeds: few by default, slow runs have the hundred of which 95 must hold."""
+COUNTS = [10, pytest.param(40, marks=pytest.mark.slow), pytest.param(100, marks=pytest.mark.hard)]
+"""Of seeds: few by default, runs by hand have the hundred of which 95 must hold."""
 
 FIELD = {
     "one sensor": (1, (1500.0,)),
@@ -316,7 +316,7 @@ def test_the_residual_of_two_planes_by_trials_is_within_the_uncertainty_told(tmp
     assert inside >= 0.95 * count
 
 
-@pytest.mark.parametrize("count", [8, pytest.param(40, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [8, pytest.param(20, marks=pytest.mark.slow)])
 def test_two_planes_at_two_speeds_are_within_the_uncertainty_told(tmp_path: Path, count: int) -> None:
     """The same rolls with trial runs at a second speed, too: surer than at one, and as good as told."""
     inside, surer = 0, 0

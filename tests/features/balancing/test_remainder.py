@@ -211,7 +211,7 @@ def test_a_wrong_angle_at_one_speed_is_found_where_the_planes_suffice() -> None:
     assert grades(wrong)["ABU1006"] in ("warn", "fail") and grades(wrong)["ABU1013"] == "pass"
 
 
-@pytest.mark.parametrize("count", [30, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [30, pytest.param(100, marks=pytest.mark.hard)])
 def test_what_remains_is_at_most_what_was_told(count: int) -> None:
     """Three sensors, one plane, every number off by its error: each bound may be exceeded once in twenty."""
     rng, beyond, squares = np.random.default_rng(8), 0, []

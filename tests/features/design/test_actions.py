@@ -14,16 +14,14 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine, machine_from, read_machine
 from abu_calc.inputs.reading.overrides import following, parse_overrides
 from abu_calc.simulation.ensemble_checks import IN_ALL_OILS
+from tests.hard_machines import FILES_BY_HAND
 from tests.remembered import recalled
 from tests.studies.random_machines import family_of, machine_text
 
 PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
-MACHINES = [
-    file
-    for file in sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))
-    if "[machine]" in file.read_text(encoding="utf-8")
-]
-RANDOM = [pytest.param(seed, marks=pytest.mark.slow if seed < 8 else pytest.mark.hard) for seed in range(40)]
+MACHINES = [each for each in FILES_BY_HAND if "[machine]" in each.values[0].read_text(encoding="utf-8")]
+QUICK = {0, 2, 3}
+RANDOM = [pytest.param(seed, marks=pytest.mark.slow if seed in QUICK else pytest.mark.hard) for seed in range(40)]
 
 TOLD = re.compile(
     r"(?P<what>[a-z][^:;.]*?) (?:falls|rises) from (?P<before>\S+) to (?P<after>[-\d.]+)(?P<unit> \S+)? \("
@@ -116,8 +114,7 @@ def test_every_action_of_the_presets_comes_true(name: str) -> None:
     assert list(faults(name, machine, recalled("size", machine))) == []
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("file", MACHINES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", MACHINES)
 def test_every_action_of_the_hard_machines_comes_true(file: Path) -> None:
     machine = abu_calc.read(str(file))
     assert list(faults(file.stem, machine, recalled("size", machine))) == []

@@ -40,8 +40,8 @@ def changed(machine: Machine, sized: SizeResult, **entries: object) -> SizeResul
     ("name", "end"),
     [
         ("race_eccentricity_mm", 1),
-        pytest.param("race_eccentricity_mm", 0, marks=pytest.mark.slow),
-        pytest.param("rolling_friction_mm", 0, marks=pytest.mark.slow),
+        pytest.param("race_eccentricity_mm", 0, marks=pytest.mark.hard),
+        pytest.param("rolling_friction_mm", 0, marks=pytest.mark.hard),
         ("rolling_friction_mm", 1),
     ],
 )

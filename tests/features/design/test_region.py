@@ -151,13 +151,22 @@ def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
     assert true_region(design_of(HANDS, f"autobalancer.rolling_drag_per_s={drag}")).check.status == "pass"
 
 
-@pytest.mark.slow
-def test_the_command_finds_the_boundary_of_the_region() -> None:
-    boundaries = region_of(HANDS).boundaries
+@pytest.mark.parametrize(
+    ("hands", "speeds"),
+    [
+        pytest.param(False, (1600.0, 2000.0), marks=pytest.mark.slow),
+        pytest.param(True, (9000.0, 12000.0), marks=pytest.mark.hard),
+    ],
+)
+def test_the_command_finds_the_boundary_of_the_region(
+    hands: bool, speeds: tuple[float, float], tmp_path: Path
+) -> None:  # fmt: skip
+    file = HANDS if hands else written(tmp_path)
+    boundaries = region_of(file).boundaries
     assert boundaries is not None
-    last = boundaries[1]
-    found = abu_calc.stability(abu_calc.read(HANDS), speeds_rpm=(9000.0, 12000.0))
-    assert found.boundaries_rpm is not None and not found.stable
+    last = boundaries[-1]
+    found = abu_calc.stability(abu_calc.read(file), speeds_rpm=speeds)
+    assert found.boundaries_rpm is not None and found.stable is not hands
     (limit,) = found.boundaries_rpm
     assert limit.speed_rpm == pytest.approx(from_si(last.speed, "rpm"), rel=1e-4)
 

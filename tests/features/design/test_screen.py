@@ -69,7 +69,7 @@ def test_presets(command: tuple[str, ...]) -> None:
         ("simulate", "avtovaz-707-222", "--scene", "grinding"),
         ("simulate", "swing-arm-grinder", "--scene", "swing-arm-cutting"),
         pytest.param(
-            ("stability", "swing-arm-grinder", "--scene", "swing-arm-idle", "--speeds", "100:9000"),
+            ("stability", "swing-arm-grinder", "--scene", "swing-arm-idle", "--speeds", "2000:9000"),
             marks=pytest.mark.slow,
         ),
         ("accuracy", "msh-230", "--budget", "0.5"),

@@ -265,7 +265,7 @@ def test_a_late_start_is_found_among_more_parts_if_rare_ones_seem_late() -> None
 
 @pytest.mark.slow
 def test_machines_that_were_undone_for_work_are_judged() -> None:
-    found = abu_calc.size(abu_calc.read(str(MACHINES / "not-evaluated-for-work.toml")))
+    found = recalled("size", abu_calc.read(str(MACHINES / "not-evaluated-for-work.toml")))
     assert not [check.code for check in found.checks if check.requested and check.status in ("not-done", "fail")]
 
 

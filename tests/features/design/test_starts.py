@@ -58,8 +58,13 @@ def simulated(source: Machine, row: SettlingOfStart) -> SimulateResult:
     )  # fmt: skip
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.hard if name in ("pause", "vertical", "motor") else pytest.mark.slow)
+        for name in (*PRESETS, *SETTINGS)
+    ],
+)
 def test_simulate_repeats_the_settling_times_of_size(name: str) -> None:
     source, result = sized(name)
     assert result.ensemble is not None

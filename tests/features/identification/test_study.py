@@ -108,7 +108,7 @@ def test_a_scene_without_run_up_or_balls_is_refused(tmp_path: Path) -> None:
         abu_calc.identify(read_any(str(path)), files)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_values_of_a_machine_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Three standard deviations of eight starts: 5 % of the drag, and 0.17 in the logarithm of the lever arm.
 

@@ -47,7 +47,7 @@ def known() -> int:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seeds", [3, pytest.param(20, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", [3, pytest.param(20, marks=pytest.mark.hard)])
 def test_the_same_winner_for_every_seed_with_a_tenth_of_the_work(known: int, seeds: int) -> None:
     races = [raced(seed) for seed in range(seeds)]
     assert [run(race) for race in races] == [known] * seeds

@@ -50,7 +50,7 @@ def _again(monkeypatch: pytest.MonkeyPatch, **more: Any) -> OptimiseResult:
     return abu_calc.optimise(abu_calc.read(PRESET), CHOICES, **OPTIONS, **more)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_any_executor_gives_the_same_answer(small: OptimiseResult, monkeypatch: pytest.MonkeyPatch) -> None:
     with ThreadPoolExecutor(3) as executor:
         assert _again(monkeypatch, executor=executor).to_dict() == small.to_dict()
@@ -86,7 +86,7 @@ def test_a_store_goes_on_and_computes_nothing_twice(
         _again(monkeypatch, store=store, resume=True, seed=5)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_an_impossible_share_gives_the_highest_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(front, "ENOUGH", 32)
     machine = abu_calc.read(PRESET).changed({"limits.vibration_level_db": 82.0})

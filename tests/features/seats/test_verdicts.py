@@ -313,8 +313,13 @@ def test_a_recommended_class_never_fails_a_check_of_its_seat() -> None:
         keeps_its_checks(name, service, [LOADS[number % len(LOADS)]])
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.hard if number % 2 else pytest.mark.slow)
+        for number, name in enumerate(NAMES)
+    ],
+)
 def test_a_recommended_class_never_fails_under_any_load(name: str) -> None:
     for service in SERVICES:
         keeps_its_checks(name, service, LOADS)

@@ -35,10 +35,7 @@ RUNS = 60
 
 @pytest.mark.parametrize(
     ("preset", "changes", "vary", "limit"),
-    [
-        pytest.param(*case, id=name, marks=pytest.mark.slow if name == "settling" else pytest.mark.hard)
-        for name, case in FAILING.items()
-    ],
+    [pytest.param(*case, id=name, marks=pytest.mark.hard) for name, case in FAILING.items()],
 )
 def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dict[str, str], limit: str) -> None:
     machine = abu_calc.read(preset).changed(changes)
@@ -93,11 +90,11 @@ def test_advice_of_a_closed_form_comes_true(monkeypatch: pytest.MonkeyPatch) -> 
         assert before == failed.failed > after == again.meets_limits.of - again.meets_limits.each["meets_level"].met
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_value_that_decides_the_failed_limit_is_named() -> None:
     """The level fails by the eccentricity alone here: it decides the margin, and failures lie at its high values."""
     machine = abu_calc.read("avtovaz-707-222").changed(FAILING["level"][1])
-    sweep = abu_calc.sweep(machine, None, 60, tolerances=True, seed=3)
+    sweep = abu_calc.sweep(machine, None, RUNS, tolerances=True, seed=3)
     (failed,) = [each for each in sweep.failed_limits if each.limit == "meets_level"]
     assert (failed.decides[0].key, failed.decides[0].fails_at) == ("autobalancer.race_eccentricity_mm", "high values")
     assert failed.decides[0].total > 0.7

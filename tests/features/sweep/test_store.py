@@ -300,14 +300,14 @@ def test_a_limit_on_the_size_of_files_is_told(tmp_path: Path) -> None:
         "--workers",
         "1",
         "--runs",
-        "400",
+        "40",
     ]
     ended = subprocess.run(
         [*command, "--store", str(store)],
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000)),
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000)),
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert ended.returncode == 2 and "bug" not in ended.stderr and "limit on the size of files" in ended.stderr
     assert str(store) in ended.stderr
     subprocess.run([*command, "--store", str(store), "--resume", "--quiet"], check=True)
-    assert len(rows(store)) == 400
+    assert len(rows(store)) == 40

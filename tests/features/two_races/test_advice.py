@@ -84,7 +84,7 @@ def test_the_sturdier_change_holds_when_followed() -> None:
     assert {check.status for check in checks} == {"pass"}
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_late_start_is_mended_as_told() -> None:
     overrides = ("limits.settling_time_s=1.0",)
     result = abu_calc.size(read_machine("pedestal-grinder", overrides))

@@ -181,7 +181,7 @@ def test_an_imbalance_that_no_ball_carries_fails() -> None:
     assert region_check(design, None).status == "fail"
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_an_imbalance_that_no_ball_carries_fails_as_a_whole() -> None:
     result = abu_calc.size(read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]))
     failed = {check.code for check in result.checks if check.status == "fail"}

@@ -3,9 +3,11 @@
 import pytest
 
 import abu_calc
+from abu_calc.features.compare import study
 from abu_calc.features.compare.study import compare
 from abu_calc.foundation.errors import InputError
 from tests.cli.runner import abu
+from tests.remembered import recalled
 
 PRESET = "pedestal-grinder"
 
@@ -40,8 +42,10 @@ def test_what_two_races_do_not_have_is_refused(keys: dict[str, object], words: s
 
 
 @pytest.mark.slow
-def test_a_heavier_wheel_stands_beside_the_preset() -> None:
+def test_a_heavier_wheel_stands_beside_the_preset(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The design of the preset stands for both."""
     machine = abu_calc.read(PRESET)
+    monkeypatch.setattr(study, "size", lambda *_, **__: recalled("size", machine))
     result = compare([machine, machine.changed({"wheel.0.imbalance_g_mm": 2000.0})])
     rows = {row.path: row.values for row in result.differences}
     assert rows["wheel[0].imbalance_g_mm"] == (2500.0, 2000.0)

@@ -22,6 +22,7 @@ from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.rotor_view import RotorView
 from tests.cli.runner import abu
+from tests.remembered import recalled
 from tests.reporting.page.sized import sized
 
 pytest.importorskip("matplotlib")
@@ -251,8 +252,8 @@ def _machine(name: str = "msh-230", **values: object) -> abu_calc.Machine:
 STUDIES: dict[str, tuple[Callable[[], Result], set[str]]] = {
     "simulate": (lambda: abu_calc.simulate(_machine(run_up__time_s=0.3), "run-up"), set()),
     "stability": (lambda: abu_calc.stability(_machine(), speeds_rpm=(1000.0, 6000.0)), {"multipliers"}),
-    "grinding": (lambda: abu_calc.grinding(_machine("avtovaz-707-222")), set()),
-    "accuracy": (lambda: abu_calc.accuracy(_machine()), set()),
+    "grinding": (lambda: recalled("grinding", _machine("avtovaz-707-222")), set()),
+    "accuracy": (lambda: abu_calc.accuracy(_machine(), budget_s=3.0), set()),
     "balance": (lambda: abu_calc.balance(abu_calc.read_readings("sapropel-screw-rig")), set()),
     "compare": (lambda: abu_calc.compare([_machine(), _machine(wheel__mass_kg=0.6)]), set()),
     "sweep": (lambda: abu_calc.sweep(_machine(), ["wheel.mass_kg=0.5,0.6"], 4), set()),

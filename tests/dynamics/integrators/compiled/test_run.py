@@ -112,7 +112,7 @@ def test_large_angles_do_not_loosen_the_tolerance() -> None:
 
 
 @pytest.mark.parametrize(
-    "revolutions", [pytest.param(10_000, marks=pytest.mark.slow), pytest.param(100_000, marks=pytest.mark.hard)]
+    "revolutions", [pytest.param(2_000, marks=pytest.mark.slow), pytest.param(100_000, marks=pytest.mark.hard)]
 )
 def test_many_revolutions_without_drift(revolutions: int) -> None:
     """An undamped rotor whose balls swing about the places where they balance it keeps its integral of motion.
@@ -121,7 +121,7 @@ def test_many_revolutions_without_drift(revolutions: int) -> None:
     and balls that swing go on swinging as far.
     """
     scene = dimensionless(2.0, 0.05, 0.02, 0.0, 0.0, (1.8, -1.75), math.pi * revolutions)
-    times = np.linspace(0, scene.duration, 10_001)
+    times = np.linspace(0, scene.duration, min(10_000, 2 * revolutions) + 1)
     y = compiled.integrate(assemble(scene), 1e-12, times, most_evaluations=10**10, method="dop853").y
     integral = np.array([jacobi(scene, t, column) for t, column in zip(times, y.T, strict=True)])
     np.testing.assert_allclose(integral, integral[0], rtol=0, atol=1e-9 * abs(integral[0]))
