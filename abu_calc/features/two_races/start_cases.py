@@ -289,7 +289,7 @@ def runs_of(
         if work <= 0 or lost >= MOST_LOST:
             yield from (LostRun(start, NOT_TRIED, short=True) for start in few)
             continue
-        tasks = [(design, start, accuracy, min(MOST_ONE, work // len(few))) for start in few]
+        tasks = [(design, start, accuracy, min(MOST_ONE, work // 2)) for start in few]
         for run in side_by_side(run_of, tasks, workers, counting):
             work -= run.work
             lost += isinstance(run, LostRun)

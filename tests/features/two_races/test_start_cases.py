@@ -202,10 +202,12 @@ def test_start_cases_end_where_all_together_have_taken_the_work(monkeypatch: pyt
 
     monkeypatch.setattr(start_cases_module, "run_of", dear)
     runs = list(runs_of(design, 0.05, silent, 1, 2 * MOST_ONE))
-    assert [run.case for run in runs] == starts and given == [MOST_ONE // 2] * 4
+    assert [run.case for run in runs] == starts and given == [MOST_ONE] * 4
     assert list(runs_of(design, 0.05, silent, 3, 2 * MOST_ONE)) == runs
     text, action = _lost_in_words([run for run in runs if isinstance(run, LostRun)], len(runs))
-    assert f"4 would take more work than allowed; {len(starts) - 4} were not tried" in text and "--patience 600" in action
+    assert (
+        f"4 would take more work than allowed; {len(starts) - 4} were not tried" in text and "--patience 600" in action
+    )
 
 
 def test_patience_lifts_the_bound_of_work() -> None:
