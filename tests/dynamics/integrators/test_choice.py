@@ -15,7 +15,7 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.integrators.choice import LOOP, choose, loop_method, verifiers
 from abu_calc.dynamics.integrators.compiled import code
-from abu_calc.dynamics.integrators.run import TooMuchWorkError, work
+from abu_calc.dynamics.integrators.run import DECISION, TooMuchWorkError, decision_work, work
 from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import coupled_scene, straight_grinder, with_effects
@@ -155,6 +155,21 @@ def test_a_stiff_scene_with_more_events_than_counted_stays_in_the_loop():
     equations = assemble(scene_with_every_effect(23))
     assert stiff(equations) and choose(equations, "scipy", 2e-4).name == "scipy-radau"
     assert choose(equations, "auto", 2e-4).name in LOOP
+
+
+def test_a_decision_counts_as_long_as_python_takes():
+    """Six balls that move across their race take seven quarters of the time of three, twice over."""
+
+    def grinder(balls):
+        scene = straight_grinder()
+        every = {"ball_masses": (0.016,) * balls, "start_angles": tuple(range(balls)), "start_speeds": (0.0,) * balls}
+        return replace(scene, races=(replace(scene.races[0], **every),))
+
+    six = grinder(6)
+    assert decision_work(assemble(grinder(3))) == DECISION
+    assert decision_work(assemble(six)) == DECISION * 7 // 4
+    across = with_effects(six, TransverseMotionEffect(0.0237, 0.008, 1e-4))
+    assert decision_work(assemble(across)) == 2 * decision_work(assemble(six))
 
 
 def test_what_is_asked_for_is_taken():
