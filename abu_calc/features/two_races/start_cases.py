@@ -55,7 +55,7 @@ PER_TURN: Final = 16
 """Samples of a revolution."""
 ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
-MOST_WORK, MOST_ONE, AT_ONCE, MOST_LOST = 8_000_000, 2_000_000, 4, 2
+MOST_WORK, MOST_ONE, AT_ONCE, MOST_LOST = 7_000_000, 2_000_000, 4, 2
 """Work of all start cases together, most work of one, how many begin before what is left is counted, and how many may
 be lost until no others are tried. The first is half a minute of compiled code, more where Python decides many
 events."""
