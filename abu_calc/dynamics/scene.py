@@ -25,6 +25,8 @@ class Scene(Circumstances):
     """One simulation: circumstances, and the effects that act in them, in the order of their registry."""
 
     effects: tuple[Effect, ...] = ()
+    quiet_velocity: float | None = None
+    """Rms velocity [m/s] of the axis, in a turn, up to which the machine is quiet; None: 1 dB above that of the end."""
 
     @property
     def rotor(self) -> Rotation:

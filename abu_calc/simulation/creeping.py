@@ -71,11 +71,18 @@ def harmless_way(
     way = BalancePath(abs(left) - least, most - abs(left))
     outcome = outcome_at(way.down)
     kept = (
-        outcome.settling_time_or_inf <= SOON * case.table.limits.settling_time_s
+        outcome.quiet_time_or_inf <= SOON * case.table.limits.settling_time_s
         and balances(most, outcome.allowed, outcome.slip)
         and outcome.level + 20 * math.log10(most / abs(left)) <= case.level_limit - MARGIN
+        and kept_quiet(scene, outcome, 20 * math.log10(most / abs(left)))
     )
     return way if kept else None
+
+
+def kept_quiet(scene: Scene, outcome: StartOutcome, louder: float) -> bool:
+    """True if the machine stays quiet, by `MARGIN`, though its level rises by so much [dB]."""
+    quiet = scene.quiet_velocity
+    return quiet is None or outcome.velocity * 10 ** ((louder + MARGIN) / 20) <= quiet
 
 
 def _balanced(design: Design, scene: Scene) -> complex:

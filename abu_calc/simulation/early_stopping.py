@@ -12,8 +12,8 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Until, merged
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.simulation.quiet import PER_TURN
 from abu_calc.simulation.response import (
-    HISTORY_SAMPLES_PER_REVOLUTION,
     Course,
     Response,
     amplitude_window,
@@ -130,13 +130,21 @@ class Early:
         way = self.harmless(samples)
         if way is not None:
             earliest, latest = self.response(samples, -min(creep, way.up)), self.response(samples, way.down)
-            return self._alike(earliest.settling_time, latest.settling_time)
+            return self._same_times(earliest, latest)
         if creep > CREEP * reference_imbalance(self.scene) or not -FALL <= rise <= RISE:
             return False
         latest, earliest = self.response(samples, creep), self.response(samples, -creep)
-        if not self._alike(earliest.settling_time, latest.settling_time):
+        if not self._same_times(earliest, latest):
             return False
         return self.decided(latest, creep, self.rising(samples))
+
+    def _same_times(self, earliest: Response, latest: Response) -> bool:
+        """True if the times of two responses agree, and the balls no longer creep."""
+        return (
+            not latest.creeping
+            and self._alike(earliest.settling_time, latest.settling_time)
+            and self._alike(earliest.rest_time, latest.rest_time)
+        )
 
     def _alike(self, earliest: float | None, latest: float | None) -> bool:
         """True if two settling times [s] agree, or both are None."""
@@ -200,7 +208,7 @@ class Early:
 
     def _moving(self, samples: Samples, end: float) -> tuple[float, float]:
         times, seen = self._late(end), SEEN * (end - self.at_speed)
-        if len(times) < 4 * HISTORY_SAMPLES_PER_REVOLUTION:
+        if len(times) < 4 * PER_TURN:
             return math.inf, math.inf
         states = samples.at(times)
         left, speed = _over_turns(self._left(states)), _over_turns((self.scene.axis_velocity(states) ** 2).sum(axis=0))
@@ -217,4 +225,4 @@ class Early:
 
 def _over_turns(values: np.ndarray) -> np.ndarray:
     """Means over one turn each."""
-    return np.convolve(values, np.full(HISTORY_SAMPLES_PER_REVOLUTION, 1 / HISTORY_SAMPLES_PER_REVOLUTION), "valid")
+    return np.convolve(values, np.full(PER_TURN, 1 / PER_TURN), "valid")

@@ -22,7 +22,7 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent, within
-from abu_calc.simulation.creeping import MARGIN, felt_mass, harmless_way, linger
+from abu_calc.simulation.creeping import MARGIN, felt_mass, harmless_way, kept_quiet, linger
 from abu_calc.simulation.early_stopping import BalancePath, Early
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
@@ -58,8 +58,10 @@ run may take as much."""
 STARTS = 30
 """About how many starts and closer runs a machine has."""
 
-LONGEST_SETTLING = 3.0
-"""Settling times permitted: for so long at full speed a start is followed whose balls are not at rest before."""
+LONGEST_LINGERING, LONGEST_CREEPING = 3.0, 10.0
+"""Quiet times permitted: for so long at full speed a start is followed whose balls linger where they do not balance,
+and one whose balls still creep.
+"""
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
@@ -172,13 +174,13 @@ def run_of_start(
     longer: their run is done again, as long as settling may matter.
     """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
-    first, longest = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
-    if longest is None:
-        return first
-    longer = replace(scene, duration=longest)
-    again, _ = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
-    whole = replace(again.outcome, work=first.outcome.work + again.outcome.work, duration=longest)
-    return again._replace(outcome=whole)
+    run, longest = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
+    while longest is not None:
+        spent, duration = run.outcome.work, longest
+        longer = replace(scene, duration=duration)
+        run, longest = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
+        run = run._replace(outcome=replace(run.outcome, work=spent + run.outcome.work, duration=duration))
+    return run
 
 
 def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: Early, run: Samples) -> float | None:
@@ -187,11 +189,15 @@ def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: 
     None, too, if their way to where they balance changes no verdict.
     """
     limit = design.case.table.limits.settling_time_s
-    longest = scene.full_speed + LONGEST_SETTLING * limit
-    late = outcome.hanging or (outcome.settling_time or 0.0) > limit
-    if late or longest <= scene.duration or not (early.goes_on(run) or linger(design, scene, outcome)):
+    creeping = outcome.creeping and not outcome.hanging
+    longest = scene.full_speed + (LONGEST_CREEPING if creeping else LONGEST_LINGERING) * limit
+    late = outcome.hanging or (outcome.quiet_time or 0.0) > limit
+    if late or longest <= scene.duration:
         return None
-    return longest if early.harmless(run) is None else None
+    if creeping:
+        return longest
+    moving = early.goes_on(run) or linger(design, scene, outcome)
+    return longest if moving and early.harmless(run) is None else None
 
 
 def followed_until(design: Design, scene: Scene, response: Response, samples: Samples) -> float | None:
@@ -237,11 +243,11 @@ def _decided(
         return False
     if (
         not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip)
-        or outcome.settling_time_or_inf > limits.settling_time_s
+        or outcome.quiet_time_or_inf > limits.settling_time_s
     ):
         return False
     louder = max(rise, 20 * math.log10(1 + creep / outcome.imbalance)) if outcome.imbalance else math.inf
-    return outcome.level + louder <= design.case.level_limit - MARGIN
+    return outcome.level + louder <= design.case.level_limit - MARGIN and kept_quiet(scene, outcome, louder)
 
 
 def _found(
@@ -309,6 +315,9 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
     return StartOutcome(
         member=member,
         settling_time=response.settling_time,
+        quiet_time=response.quiet_time,
+        rest_time=response.rest_time,
+        creeping=response.creeping,
         residual=response.axis_amplitude,
         level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),

@@ -179,31 +179,31 @@ def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, ea
 
 def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, earlier: str | None) -> Check:
     limit = design.case.table.limits.settling_time_s
-    status = _grade(ensemble, lambda outcome: outcome.settling_time_or_inf <= limit)
+    status = _grade(ensemble, lambda outcome: outcome.quiet_time_or_inf <= limit)
     if status == "fail" and balanced_well(design) and all(outcome.balanced for outcome in ensemble.given):
         message = (
             "The wheel is balanced so well that the balls creep to their places. No start case leaves more than is "
             "allowed"
         )
         return coded("ABU702", "warn", message, None, limit, "s")
-    late = max(ensemble.given, key=lambda outcome: outcome.settling_time_or_inf, default=None)
-    latest = max(ensemble.outcomes, key=lambda outcome: outcome.settling_time_or_inf, default=None)
+    late = max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
+    latest = max(ensemble.outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
     sentences = ["No start case gave an answer" if late is None else f"Slowest start case: {_time(late, ensemble)}"]
-    if status == "warn" and latest and latest.settling_time_or_inf > limit:
+    if status == "warn" and latest and latest.quiet_time_or_inf > limit:
         sentences.append(f"Slowest at another drag rate: {_time(latest, ensemble)}")
     if guided(design, 0.0).pause:
         sentences.append("Settling counts from full speed, after the temporary speed reduction")
     elif any(outcome.member.run_up for outcome in ensemble.given):
         sentences.append("Settling counts from full speed, after the run-up")
-    value = None if late is None or math.isinf(late.settling_time_or_inf) else late.settling_time_or_inf
+    value = None if late is None or math.isinf(late.quiet_time_or_inf) else late.quiet_time_or_inf
     action: Action | str | None = _see(earlier)
     if action is None and change is not None:
-        action = change.action(SLOWEST, lambda outcome: outcome.settling_time_or_inf, "s", limit)
+        action = change.action(SLOWEST, lambda outcome: outcome.quiet_time_or_inf, "s", limit)
     return coded("ABU702", status, ". ".join(sentences), value, limit, "s", None if status == "pass" else action)
 
 
 def _time(outcome: StartOutcome, ensemble: Ensemble) -> str:
-    time = outcome.settling_time_or_inf
+    time = outcome.quiet_time_or_inf
     return f"{_named(outcome, ensemble)}, {'never' if math.isinf(time) else f'{time:#.3g} s'}"
 
 

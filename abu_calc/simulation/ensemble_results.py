@@ -17,12 +17,16 @@ from abu_calc.simulation.start_cases import Member
 class StartOutcome:
     """Outcome of one start case.
 
-    `settling_time` [s] from full speed on, None: never; `residual`: axis amplitude [m]; `level` [dB] at the
+    `quiet_time`, `rest_time` and `settling_time` [s] from full speed on, None: never; `creeping`: balls still drift at
+    the end; `residual`: axis amplitude [m]; `level` [dB] at the
     loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
     """
 
     member: Member
     settling_time: float | None
+    quiet_time: float | None
+    rest_time: float | None
+    creeping: bool
     residual: float
     level: float
     slip: float
@@ -53,6 +57,11 @@ class StartOutcome:
     def settling_time_or_inf(self) -> float:
         """Until it settled where it balances [s]; infinite if never."""
         return self.settling_time if self.settling_time is not None and self.balanced else math.inf
+
+    @property
+    def quiet_time_or_inf(self) -> float:
+        """From when it is quiet [s]; infinite if never."""
+        return math.inf if self.quiet_time is None else self.quiet_time
 
     @property
     def loudest(self) -> float:
@@ -142,7 +151,7 @@ applies to the confirming run: the level is that at the very end, the settling t
 ORDERS: tuple[Order, ...] = (
     (attrgetter("badness"), SLACK, False),
     (lambda outcome: (outcome.level,), SLACK, False),
-    (lambda outcome: (outcome.settling_time_or_inf,), 0.0, True),
+    (lambda outcome: (outcome.quiet_time_or_inf,), 0.0, True),
 )
 
 

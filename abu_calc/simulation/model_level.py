@@ -19,14 +19,15 @@ from abu_calc.dynamics.averaging.envelope import (
 )
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.resting import resting_angles
-from abu_calc.dynamics.supports.steady_motion import reference_imbalance, weighing_amplitude
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Times, Trajectory
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.formulas.slow_motion import decay_rate
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.simulation.nonconvergence import difference
-from abu_calc.simulation.response import settling_count, settling_time
+from abu_calc.simulation.quiet import TimeRange, last_crossing, range_of
+from abu_calc.simulation.response import ABOVE_END, settling_count
 
 LEADING, SLOWNESS = 0.5, 10.0
 """Weights in the error of the envelope: of what its last order changes, and of (rate of the balls/gap)². Calibrated
@@ -52,6 +53,8 @@ class ModelEstimate:
     axis_amplitude: float
     velocity_rms: float
     settling_time: float | None
+    quiet: TimeRange
+    rest: TimeRange
     ball_angles: tuple[float, ...]
     evaluations: int = 0
     steps: int = 0
@@ -88,12 +91,24 @@ def closed_form(scene: Scene) -> ModelEstimate:
         raise InputError("the averaged motion does not come to rest in balance")
     start = abs(complex(scene.total_imbalance(np.array(scene.start_angles)[:, None])[0]))
     limit = SETTLED * reference_imbalance(scene)
-    time = max(math.log(start / limit) / rate, 0.0) if start > limit else 0.0
     amplitude = abs(model.offset)
+    velocity = amplitude * scene.speed / math.sqrt(2)
+    most = ABOVE_END * velocity if scene.quiet_velocity is None else scene.quiet_velocity
+    loud = unbalanced_amplitude(scene, start) * scene.speed / math.sqrt(2)
+
+    def dies_out(value: float, least: float) -> TimeRange:
+        """Time in which a value falls to another at the slowest rate."""
+        time = math.inf if least <= 0 else max(math.log(value / least) / rate, 0.0) if value > least else 0.0
+        found = time if time <= 0.95 * scene.duration else None
+        return TimeRange(found, found, found)
+
+    rests = dies_out(start, limit)
     return ModelEstimate(
         axis_amplitude=amplitude,
-        velocity_rms=amplitude * scene.speed / math.sqrt(2),
-        settling_time=time if time <= 0.95 * scene.duration else None,
+        velocity_rms=velocity,
+        settling_time=rests.time,
+        quiet=dies_out(loud, most - velocity),
+        rest=rests,
         ball_angles=rest,
     )
 
@@ -107,11 +122,20 @@ def averaged(scene: Scene, tolerance: float, order: int = 2) -> ModelEstimate:
     residuals = np.abs(scene.total_imbalance(slow.theta))
     window = times >= _window(scene)
     limit = float(residuals[window].mean()) + SETTLED * reference_imbalance(scene)
-    X, Y = (scene.small_motion.frame @ whirl(scene, slow.theta[:, window], slow.rate[:, window])[0])[:2]
+    whirls = (scene.small_motion.frame @ whirl(scene, slow.theta, slow.rate)[0])[:2]
+    velocities = scene.speed / math.sqrt(2) * np.abs(whirls).max(axis=0)
+    most = scene.quiet_velocity
+    if most is None:
+        most = ABOVE_END * float(np.sqrt((velocities[window] ** 2).mean()))
+    left = scene.total_imbalance(slow.theta)
+    away = np.abs(left - left[window].mean())
+    X, Y = whirls[:, window]
     return ModelEstimate(
         axis_amplitude=float((np.abs(X + 1j * Y) + np.abs(X - 1j * Y)).max()) / 2,
         velocity_rms=scene.speed / math.sqrt(2) * math.sqrt(max((np.abs(X) ** 2).mean(), (np.abs(Y) ** 2).mean())),
-        settling_time=settling_time(times, residuals, limit),
+        settling_time=last_crossing(times, residuals, limit),
+        quiet=range_of(times, velocities, most, 0.0),
+        rest=range_of(times, away, SETTLED * reference_imbalance(scene), 0.0),
         ball_angles=tuple(slow.theta[:, -1].tolist()),
         evaluations=slow.evaluations,
         steps=slow.steps,

@@ -18,6 +18,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.steady_motion import weighing_amplitude
 from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.simulation.quiet import TimeRange
 from abu_calc.simulation.response import Course, Response, evaluate, sampling
 
 
@@ -37,13 +38,21 @@ class Measures(Protocol):
         """Settling time, from full speed [s]; None if later than the run."""
 
     @property
+    def quiet(self) -> TimeRange:
+        """Quiet time, from full speed [s]."""
+
+    @property
+    def rest(self) -> TimeRange:
+        """Rest time, from full speed [s]."""
+
+    @property
     def ball_angles(self) -> tuple[float, ...]:
         """Ball angles at the end [rad]."""
 
 
 def difference(scene: Scene, coarse: Measures, fine: Measures) -> float:
-    """The largest of the differences in amplitude, settling time and ball angles."""
-    return max(measure(scene, coarse, fine) for measure in (amplitude, settling, angles))
+    """The largest of the differences in amplitude, times and ball angles."""
+    return max(measure(scene, coarse, fine) for measure in (amplitude, settling, quiet, rest, angles))
 
 
 def amplitude(scene: Scene, coarse: Measures, fine: Measures) -> float:
@@ -68,6 +77,16 @@ def settling(scene: Scene, coarse: Measures, fine: Measures) -> float:
     return abs(a - b) / max(b, scene.revolution)
 
 
+def quiet(scene: Scene, coarse: Measures, fine: Measures) -> float:
+    """Of the quiet times, likewise; 0 where each lies in the range of the other."""
+    return coarse.quiet.apart(fine.quiet, scene.revolution)
+
+
+def rest(scene: Scene, coarse: Measures, fine: Measures) -> float:
+    """Of the rest times, likewise."""
+    return coarse.rest.apart(fine.rest, scene.revolution)
+
+
 def angles(scene: Scene, coarse: Measures, fine: Measures) -> float:
     """Largest difference on the circle [rad]; balls of one mass on one race may have changed places."""
     a, b, worst, first = np.array(coarse.ball_angles), np.array(fine.ball_angles), 0.0, 0
@@ -84,6 +103,8 @@ QUANTITIES: Final[dict[str, Callable[[Scene, Measures, Measures], float]]] = {
     "amplitude": amplitude,
     "level": level,
     "settling": settling,
+    "quiet": quiet,
+    "rest": rest,
     "angles": angles,
 }
 """Quantities for which the error of a computation can be requested."""
@@ -114,7 +135,10 @@ SENSITIVE: Final = 1e5
 FELT: Final = 0.1
 """Share of the requested accuracy that the grown error must exceed for a motion to be called chaotic."""
 
-COMPARED: Final = {"amplitude": "amplitude", "settling": "settling time", "angles": "ball angles"}
+COMPARED: Final = {
+    "amplitude": "amplitude", "settling": "settling time", "quiet": "quiet time", "rest": "rest time",
+    "angles": "ball angles",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -17,24 +17,26 @@ from abu_calc.formulas.motion import SETTLED
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
+from abu_calc.simulation.quiet import PER_TURN, TimeRange, last_crossing, range_of, turn_velocities
 
-HISTORY_SAMPLES_PER_REVOLUTION = 16
-"""Settling samples per revolution, over the whole run.
+ABOVE_END = 10 ** (1 / 20)
+"""Without a limit a machine is quiet 1 dB above the level of its end."""
 
-The residual imbalance ripples with the speed, and a crest may be the last value above the limit.
-"""
+NEVER = TimeRange(None, None, None)
 
 
 class Course:
-    """Residual imbalance [kg m] and the axis's place x, y [m] at the settling times of a run; a reader of its samples.
+    """Imbalance in the rotor [kg m], the axis's place x, y [m] and its velocity at the settling times of a run.
+
+    A reader of its samples.
 
     `lost`: what to raise for a motion that left what its support stands for.
     """
 
     def __init__(self, scene: Scene) -> None:
         self.scene, self.count = scene, settling_count(scene)
-        self.residuals = np.empty(self.count + 1)
-        self.places = np.empty((2, self.count + 1))
+        self.imbalances = np.empty(self.count + 1, dtype=complex)
+        self.places, self.velocities = np.empty((2, 2, self.count + 1))
         self.lost: NotTrustworthyError | None = None
 
     @property
@@ -42,11 +44,18 @@ class Course:
         """Settling times [s] that have been read or will be read."""
         return settling_times(self.scene)[: self.count + 1]
 
+    @property
+    def residuals(self) -> Array:
+        """Residual imbalance [kg m]."""
+        return np.abs(self.imbalances)
+
     def until(self, t: float) -> "Course":
         """The same up to one of its times."""
         short = copy(self)
         short.count = round(t / (self.scene.duration / self.count))
-        short.residuals, short.places = self.residuals[: short.count + 1], self.places[:, : short.count + 1]
+        known = slice(short.count + 1)
+        short.imbalances, short.places = self.imbalances[known], self.places[:, known]
+        short.velocities = self.velocities[:, known]
         return short
 
     def __call__(self, samples: Samples) -> None:
@@ -57,13 +66,13 @@ class Course:
         index = np.rint(samples.t / step).astype(np.intp)
         here = (index * step == samples.t) | (samples.t == scene.duration)
         index, states = index[here], samples.y[:, here]
-        self.residuals[index] = np.abs(scene.total_imbalance(states[2 * size : 2 * size + len(scene.ball_masses)]))
-        self.places[:, index] = scene.axis_place(states)
+        self.imbalances[index] = scene.total_imbalance(states[2 * size : 2 * size + len(scene.ball_masses)])
+        self.places[:, index], self.velocities[:, index] = scene.axis_place(states), scene.axis_velocity(states)
 
 
 def settling_count(scene: Scene) -> int:
     """Number of intervals between settling times."""
-    return math.ceil(scene.duration / scene.revolution * HISTORY_SAMPLES_PER_REVOLUTION)
+    return math.ceil(scene.duration / scene.revolution * PER_TURN)
 
 
 def settling_times(scene: Scene) -> Array:
@@ -137,6 +146,8 @@ class Response:
     settling_time: float | None
     settled_imbalance: float
     """Mean imbalance left in the amplitude window [kg m], from which settling counts."""
+    end_imbalance: complex
+    """Mean of the imbalance there, in the rotor [kg m], from which rest counts."""
     residual_imbalance: float
     axis_amplitude: float
     velocity_rms: float
@@ -147,7 +158,23 @@ class Response:
     bearing_amplitudes: tuple[float, ...]
     """Amplitudes, defined like `axis_amplitude`, at each bearing of a support that tilts."""
     final: FinalState
+    quiet: TimeRange
+    """From when the level stays at or below the one that is asked for, see `Scene.quiet_velocity`."""
+    rest: TimeRange
+    """From when the imbalance in the rotor stays near that of the end."""
+    creeping: bool = False
+    """True if the balls still drift at the end, so that they have no time of rest."""
     full_speed: float = 0.0
+
+    @property
+    def quiet_time(self) -> float | None:
+        """Quiet time [s] from full speed; the latest where the threshold is grazed; None: never."""
+        return self.quiet.time
+
+    @property
+    def rest_time(self) -> float | None:
+        """Rest time [s] from full speed; None: the balls still creep, or come to rest too late."""
+        return self.rest.time
 
     @property
     def ball_angles(self) -> tuple[float, ...]:
@@ -204,7 +231,9 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
     place = scene.axis_place(states)
     mean = _mean(scene.axis_place(whole))
     rms = float(np.sqrt(_mean(scene.axis_velocity(whole) ** 2)).max())
-    settled = float(_mean(np.abs(scene.total_imbalance(whole[balls])))[0])
+    left = scene.total_imbalance(whole[balls])
+    settled, end = float(_mean(np.abs(left))[0]), complex(left[:-1].mean())
+    creeping = _drift(scene, course) > SETTLED * reference_imbalance(scene)
     theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
     return Response(
@@ -212,6 +241,7 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
         duration=scene.duration,
         settling_time=_settled_in(scene, course, settled),
         settled_imbalance=settled,
+        end_imbalance=end,
         residual_imbalance=float(course.residuals[-1]),
         axis_amplitude=_largest_radius(place, mean),
         velocity_rms=rms,
@@ -221,18 +251,55 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
         bearing_amplitudes=_bearing_amplitudes(scene, states, whole),
         # The mean of a speed is the way made; exact, whatever the samples.
         final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
+        quiet=_quiet_in(scene, course),
+        rest=NEVER if creeping else _rest_in(scene, course, end, 0.0),
+        creeping=creeping,
         full_speed=scene.full_speed,
     )
 
 
 def with_creep(response: Response, scene: Scene, course: Course, creep: float) -> Response:
-    """The response of a course if the imbalance left may yet fall by `creep` [kg m]: its settling time is another."""
-    return replace(response, settling_time=_settled_in(scene, course, response.settled_imbalance - creep))
+    """The response of a course if the imbalance left may yet change by `creep` [kg m], less where that is negative:
+    its settling time and its time of rest are others.
+    """
+    return replace(
+        response,
+        settling_time=_settled_in(scene, course, response.settled_imbalance - creep),
+        rest=NEVER if response.creeping else _rest_in(scene, course, response.end_imbalance, creep),
+    )
+
+
+def _quiet_in(scene: Scene, course: Course) -> TimeRange:
+    """Quiet time from full speed on: below the velocity that the scene asks for, else 1 dB above that of the end."""
+    velocities, first = turn_velocities(course.velocities), np.searchsorted(course.times, scene.full_speed)
+    limit = scene.quiet_velocity
+    if limit is None:
+        last = max(len(velocities) // 20, PER_TURN)
+        limit = ABOVE_END * float(np.sqrt((velocities[-last:] ** 2).mean()))
+    velocities[:first] = 0.0
+    return range_of(course.times, velocities, limit, scene.full_speed)
+
+
+def _rest_in(scene: Scene, course: Course, end: complex, creep: float) -> TimeRange:
+    """Time of rest from full speed on, the imbalance left [kg m] ending there or `creep` farther off."""
+    band = SETTLED * reference_imbalance(scene) - creep
+    away = np.abs(course.imbalances - end)
+    away[: np.searchsorted(course.times, scene.full_speed)] = 0.0
+    return range_of(course.times, away, band, scene.full_speed)
+
+
+def _drift(scene: Scene, course: Course) -> float:
+    """Change of the imbalance left [kg m] at its pace between the last two windows, over the time at full speed."""
+    turns = max(course.count // 20 // PER_TURN, 1) * PER_TURN
+    if course.count < 2 * turns:
+        return 0.0
+    last, before = course.imbalances[-turns:].mean(), course.imbalances[-2 * turns : -turns].mean()
+    return float(abs(last - before)) * (scene.duration - scene.full_speed) / (turns * scene.duration / course.count)
 
 
 def _settled_in(scene: Scene, course: Course, settled: float) -> float | None:
     """Settling time [s] from full speed on, where so much imbalance [kg m] is left; None: not in time."""
-    time = settling_time(course.times, course.residuals, settled + SETTLED * reference_imbalance(scene))
+    time = last_crossing(course.times, course.residuals, settled + SETTLED * reference_imbalance(scene))
     return None if time is None else max(time - scene.full_speed, 0.0)
 
 
@@ -259,30 +326,6 @@ def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalSta
 def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
     places = scene.support.bearings
     return tuple(_largest_radius(scene.axis_place(states, z), _mean(scene.axis_place(whole, z))) for z in places)
-
-
-def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
-    """The earliest time [s] of a run after which the residual stays below the limit; None if after 95 % of the run.
-
-    Between two samples it is read from the quintic through the six about them.
-    """
-    above = np.flatnonzero(residuals > limit)
-    if not len(above):
-        return 0.0
-    last = int(above[-1])
-    if last == len(t) - 1:
-        return None
-    time = _crossing(t, residuals, limit, last)
-    return time if time <= 0.95 * t[-1] else None
-
-
-def _crossing(t: Array, values: Array, limit: float, last: int) -> float:
-    """Time at which values fall to the limit, after the sample `last`, the last one above it."""
-    near, low, high = slice(max(last - 2, 0), last + 4), float(t[last]), float(t[last + 1])
-    curve = np.linalg.solve(np.vander((t[near] - low) / (high - low)), values[near] - limit)
-    inside = [root.real for root in np.roots(curve).tolist() if root.imag == 0 and 0 <= root.real <= 1]
-    # Rounding may move a root that is a sample itself out of the interval.
-    return low + (high - low) * max(inside, default=1.0)
 
 
 def _mean(values: Array) -> Array:

@@ -31,6 +31,7 @@ from abu_calc.foundation.validity import Range
 from abu_calc.inputs.duty import Motor as MotorTable
 from abu_calc.inputs.machine import SwingArm as SwingArmTable
 from abu_calc.simulation.durations import settling_duration, slowest_in_hand, slowest_rate
+from abu_calc.simulation.quiet_level import quiet_velocity
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import read_arm
@@ -98,6 +99,9 @@ WORST = math.pi
 Sizing takes the same angle.
 """
 
+QUIET: Final = frozenset({"idle", "run-up", "swing-arm-idle"})
+"""Scenes that the limits of a file are for."""
+
 LAGS = 3.0
 """Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
 
@@ -153,6 +157,8 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
     stands = which in ("idle", "swing-arm-idle") and start == "standstill"
     longer = _taking_up(design) if which == "run-up" or stands else 0.0
     scene = replace(scene, duration=settling + scene.full_speed + longer)
+    if which in QUIET:
+        scene = replace(scene, quiet_velocity=quiet_velocity(design, scene))
     return scene if which == "run-up" else placed(scene)
 
 

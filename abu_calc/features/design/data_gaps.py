@@ -117,7 +117,7 @@ def data_gaps(design: Design, ensemble: Ensemble | None, accuracy: float) -> tup
     """The three assumed values that most move the verdict, the first one most; none if the balls do not balance."""
     if ensemble is None or not ensemble.given or not design.frequency.balancing_possible:
         return ()
-    gaps, slowest = list[DataGap](), max(ensemble.given, key=lambda outcome: outcome.settling_time_or_inf)
+    gaps, slowest = list[DataGap](), max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf)
     for key, usual in assumed_values(design.case.table):
         if slowest.member.on_arm and key.startswith("suspension"):
             continue
@@ -150,16 +150,16 @@ def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: f
     levels, moves = design.speed_levels, RANGES[key].moves_levels
     level = level_of(after, worst=False) if moves or levels is None else levels.highest.level_after
     friction = level_of(after, worst=True) if moves or levels is None else levels.arranged.level_after
-    slowest = max(ensemble.given, key=lambda outcome: outcome.settling_time_or_inf)
+    slowest = max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf)
     if key == DRAG:
         time = max(
-            (outcome.settling_time_or_inf for outcome in ensemble.outcomes if math.isclose(outcome.member.drag, value)),
+            (outcome.quiet_time_or_inf for outcome in ensemble.outcomes if math.isclose(outcome.member.drag, value)),
             default=math.nan,
         )
     elif RANGES[key].moves_settling:
         time = settling_time_with(design, slowest, entries, accuracy)
     else:
-        time = slowest.settling_time_or_inf
+        time = slowest.quiet_time_or_inf
     limits = design.case.table.limits
     holds = (
         sound(after.case, after.candidate)
@@ -184,4 +184,4 @@ def settling_time_with(design: Design, slowest: StartOutcome, entries: Mapping[s
 
 def _time_of_start(design: Design, start: StartOutcome, accuracy: float) -> float:
     run = run_of_start(design, start.member, accuracy, first_tolerance(design), early_end=True)
-    return run.outcome.settling_time_or_inf
+    return run.outcome.quiet_time_or_inf

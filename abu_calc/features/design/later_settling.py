@@ -21,8 +21,8 @@ def with_later_settling(check: Check, tried: Proven, accuracy: float) -> Check:
                if key in MOVING}  # fmt: skip
     others = [outcome for outcome in ensemble.outcomes if outcome not in ensemble.given]
     for outcomes, grade in ((ensemble.given, "fails"), (others, "warns")):
-        slowest = max(outcomes, key=lambda outcome: outcome.settling_time_or_inf, default=None)
-        if not entries or slowest is None or slowest.settling_time_or_inf > limit:
+        slowest = max(outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
+        if not entries or slowest is None or slowest.quiet_time_or_inf > limit:
             continue
         time = settling_time_with(tried.design, slowest, entries, accuracy)
         if time > limit:

@@ -77,7 +77,7 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
         share = (
             f"By the slowest of {len(searched.drawn)} start cases, one of {1 / RARE:.0f} takes "
             f"{searched.foreseen:.3g} s (limit {limit:g} s). The slowest further start case settles in "
-            f"{worst.settling_time_or_inf:.3g} s"
+            f"{worst.quiet_time_or_inf:.3g} s"
         )
     return replace(check, status="warn", message=f"{check.message}. {share}", remedy=check.remedy or NOT_TRIED)
 
@@ -95,7 +95,7 @@ def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str,
 
 
 def _late(outcome: StartOutcome, design: Design) -> bool:
-    return outcome.settling_time_or_inf > design.case.table.limits.settling_time_s
+    return outcome.quiet_time_or_inf > design.case.table.limits.settling_time_s
 
 
 def _loud(outcome: StartOutcome, design: Design) -> bool:
@@ -106,8 +106,8 @@ def _loud(outcome: StartOutcome, design: Design) -> bool:
 def _time_in_words(outcome: StartOutcome) -> str:
     return (
         "never settle"
-        if math.isinf(outcome.settling_time_or_inf)
-        else f"settle too late, the slowest in {outcome.settling_time_or_inf:.3g} s"
+        if math.isinf(outcome.quiet_time_or_inf)
+        else f"settle too late, the slowest in {outcome.quiet_time_or_inf:.3g} s"
     )
 
 

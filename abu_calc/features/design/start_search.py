@@ -102,7 +102,7 @@ class SearchResult:
 
         Starts near the slowest would count its part of the race many times, those near the loudest another.
         """
-        return exceeded([outcome.settling_time_or_inf for outcome in self.drawn], RARE)
+        return exceeded([outcome.quiet_time_or_inf for outcome in self.drawn], RARE)
 
 
 def exceeded(times: Sequence[float], share: float) -> float:
@@ -196,13 +196,13 @@ def search(
 
 def _doubtful(outcome: StartOutcome, design: Design) -> bool:
     """True if a start case near this one might exceed a limit."""
-    late = outcome.settling_time_or_inf > HALF * design.case.table.limits.settling_time_s
+    late = outcome.quiet_time_or_inf > HALF * design.case.table.limits.settling_time_s
     return late or outcome.loudest > design.case.level_limit - MARGIN
 
 
 def slowness(outcome: StartOutcome) -> float:
     """Settling time [s]; infinite if the balls never settle."""
-    return outcome.settling_time_or_inf
+    return outcome.quiet_time_or_inf
 
 
 def loudness(outcome: StartOutcome) -> float:

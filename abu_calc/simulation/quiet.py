@@ -1,0 +1,98 @@
+"""Two times of a run: from when the machine is quiet, and from when its balls rest.
+
+Quiet: the level of vibration stays at or below the one that is asked for. Rest: the imbalance in the rotor stays near
+that of the end. Both count from full speed, and neither exists where the last crossing lies in the last 5 % of a run.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.foundation.frozen import dataclass
+
+Array = NDArray[np.float64]
+
+PER_TURN = 16
+"""Samples of a revolution, over the whole run: what ripples with the speed may have its crest anywhere."""
+
+LAST = 0.95
+"""Share of a run by which it must have become quiet or come to rest."""
+
+GRAZE = 0.01
+"""Relative change of a threshold within which a crossing counts as uncertain: 0.09 dB of a velocity."""
+
+
+@dataclass(frozen=True)
+class TimeRange:
+    """A time [s] from full speed, None: never; and the same if the threshold were higher and lower by `GRAZE`."""
+
+    time: float | None
+    earliest: float | None
+    latest: float | None
+
+    def apart(self, other: "TimeRange", least: float) -> float:
+        """Difference relative to the other time, but at least to `least` [s].
+
+        0 where each lies in the range of the other: the threshold is grazed, and the answer is a range. Infinite where
+        only one exists.
+        """
+        if self._holds(other.time) and other._holds(self.time):
+            return 0.0
+        if self.time is None or other.time is None:
+            return 0.0 if self.time is other.time else np.inf
+        return abs(self.time - other.time) / max(other.time, least)
+
+    def _holds(self, time: float | None) -> bool:
+        low, middle, high = (np.inf if each is None else each for each in (self.earliest, time, self.latest))
+        return bool(low <= middle <= high)
+
+
+def range_of(times: Array, values: Array, limit: float, began: float) -> TimeRange:
+    """From when on values stay at or below a limit, in a run that is at full speed from `began` [s] on."""
+
+    def at(threshold: float) -> float | None:
+        """The same for one threshold."""
+        time = last_crossing(times, values, threshold)
+        return None if time is None else max(time - began, 0.0)
+
+    return TimeRange(at(limit), at((1 + GRAZE) * limit), at((1 - GRAZE) * limit))
+
+
+def last_crossing(t: Array, values: Array, limit: float) -> float | None:
+    """The earliest time [s] of a run after which values stay below the limit; None if after 95 % of the run.
+
+    Between two samples it is read from the quintic through the six about them.
+    """
+    above = np.flatnonzero(values > limit)
+    if not len(above):
+        return 0.0
+    last = int(above[-1])
+    if last == len(t) - 1:
+        return None
+    time = _crossing(t, values, limit, last)
+    return time if time <= LAST * t[-1] else None
+
+
+def _crossing(t: Array, values: Array, limit: float, last: int) -> float:
+    """Time at which values fall to the limit, after the sample `last`, the last one above it."""
+    near, low, high = slice(max(last - 2, 0), last + 4), float(t[last]), float(t[last + 1])
+    curve = np.linalg.solve(np.vander((t[near] - low) / (high - low)), values[near] - limit)
+    inside = [root.real for root in np.roots(curve).tolist() if root.imag == 0 and 0 <= root.real <= 1]
+    # Rounding may move a root that is a sample itself out of the interval.
+    return low + (high - low) * max(inside, default=1.0)
+
+
+def turn_velocities(velocities: Array) -> Array:
+    """Rms velocity [m/s] of the turn that ends at each sample, of the larger axis, [axis, sample] at `PER_TURN`.
+
+    The mean of the turn is taken off, and its trend: the change since the same place a turn before. So neither a rotor
+    that turns steadily nor one whose suspension still swings out seems to do anything else. The first turn is none yet
+    and has the value of the first whole one.
+    """
+    if velocities.shape[1] <= PER_TURN:
+        return np.full(velocities.shape[1], np.sqrt(velocities.var(axis=1).max()))
+    slope = (velocities[:, PER_TURN:] - velocities[:, :-PER_TURN]) / PER_TURN
+    turns = np.lib.stride_tricks.sliding_window_view(velocities, PER_TURN, axis=1)[:, 1:]
+    place = np.arange(PER_TURN) - (PER_TURN - 1) / 2
+    squares = turns.var(axis=-1) - 2 * slope * (turns @ place) / PER_TURN + slope**2 * (place**2).mean()
+    whole = np.sqrt(np.maximum(squares, 0.0).max(axis=0))
+    return np.concatenate([np.full(PER_TURN, whole[0]), whole])
