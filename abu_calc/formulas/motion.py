@@ -44,7 +44,7 @@ EQUATIONS = register(Formula(
 
 SETTLING_TIME = register(Formula(
     "formulas.motion:settling_time",
-    "Settling time, from full speed to the time after which the residual imbalance stays near its final value",
+    "Settling time as published ones, to the time after which the residual imbalance stays near its final value",
     f"|U(t)| ≤ mean |U| of the last turns + {SETTLED:g}·max(m₀e, 1 % of Σ m·R_p)",
     "s",
     where=(
@@ -52,6 +52,34 @@ SETTLING_TIME = register(Formula(
         "counts from t = 0. If the balls settle during the run-up, the settling time is 0. If they settle in the last "
         "5 % of the run, there is none. A quintic through six samples (16 per revolution) gives the time between two "
         "samples."
+    ),
+    source="own definition",
+))  # fmt: skip
+
+QUIET_TIME = register(Formula(
+    "formulas.motion:quiet_time",
+    "Quiet time, from full speed to the time after which the level stays low",
+    "L(t) ≤ min(limit, level without balls)",
+    "s",
+    where=(
+        "L(t) is by the rms velocity of the turn that ends at t, less its mean and its trend. The larger of both axes "
+        "counts, at the loudest place that is limited. The level without balls is that of the file's imbalance at this "
+        "speed. Without a limit, 1 dB above the level of the end counts. There is no quiet time if the last crossing "
+        "lies in the last 5 % of the run. If a change of the threshold by 1 % moves the time by more than a tenth, "
+        "a range is told."
+    ),
+    source="own definition",
+))  # fmt: skip
+
+REST_TIME = register(Formula(
+    "formulas.motion:rest_time",
+    "Rest time, from full speed to the time after which the balls keep their places",
+    f"|U(t) − U_end| ≤ {SETTLED:g}·max(m₀e, 1 % of Σ m·R_p)",
+    "s",
+    where=(
+        "U is the imbalance of rotor and balls in the rotor, with its direction. U_end is its mean over the last "
+        "twentieth. Balls that would move U by more than this band in a time as long as the run still creep. They have "
+        "no rest time."
     ),
     source="own definition",
 ))  # fmt: skip
@@ -64,8 +92,8 @@ SIMULATE = register(Formula(
     ),
     where=(
         "The tolerance of the integration is tightened until the error is below the accuracy. The error of the "
-        "equations is the difference between two runs a decade of tolerance apart, in amplitude, settling time and "
-        "ball angles. There is no answer if the permitted computing work does not suffice, or if no tolerance reaches "
+        "equations is the difference between two runs a decade of tolerance apart, in amplitude, times and ball "
+        "angles. There is no answer if the permitted computing work does not suffice, or if no tolerance reaches "
         "the accuracy. The motion is then chaotic, or rounding errors decide it."
     ),
     checked=(ACCURACY,),

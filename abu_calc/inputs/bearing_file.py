@@ -1,9 +1,9 @@
 """A file for bearing seats alone, and the tables it shares with a whole machine's."""
 
 import sys
-from typing import Annotated, Final, Protocol
+from typing import Annotated, Final, Protocol, Self
 
-from pydantic import AfterValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.inputs.reading.text import BARE_KEY, is_number, shown_short
@@ -131,14 +131,59 @@ class Limits(Table):
         le=1000,
         json_schema_extra=usual(0.5, 30),
     )
-    settling_time_s: float = Field(
+    quiet_time_s: float = Field(
         default=1.0,
-        description="Longest permitted time for the balls to settle [s]; {range}. Default: {default}, as measured on "
-        "hand grinders (Kladiev 1996: under 1 s).",
+        description="Longest permitted quiet time [s]: from full speed until the machine stays as quiet as it must be; "
+        "{range}. Default: {default}, as measured on hand grinders (Kladiev 1996: under 1 s).",
         gt=0,
         le=3600,
         json_schema_extra=usual(0.05, 30),
     )
+    settling_time_s: float | None = Field(
+        default=None,
+        description="Another name of quiet_time_s [s]; {range}.",
+        gt=0,
+        le=3600,
+        json_schema_extra=usual(0.05, 30),
+    )
+    rest_time_s: float | None = Field(
+        default=None,
+        description="Longest permitted rest time [s]: from full speed until the balls keep their places; {range}. When "
+        "given, it is checked.",
+        examples=[2.0],
+        gt=0,
+        le=3600,
+        json_schema_extra=usual(0.05, 30),
+    )
+
+    @property
+    def longest_quiet_time(self) -> float:
+        """Longest permitted quiet time [s], by whichever of its names."""
+        return self.quiet_time_s if self.settling_time_s is None else self.settling_time_s
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """One name takes the place of the other."""
+        return tuple(name for name in QUIET_TIMES if key in QUIET_TIMES and name != key)
+
+    def unused(self) -> frozenset[str]:
+        """The default, where the other name has a value."""
+        return frozenset() if self.settling_time_s is None else frozenset({"quiet_time_s"})
+
+    @model_validator(mode="after")
+    def _one_name(self) -> Self:
+        if self.model_fields_set.issuperset(QUIET_TIMES):
+            raise problem(
+                "two names of one limit",
+                "settling_time_s",
+                found="both quiet_time_s and settling_time_s",
+                allowed="one of them",
+                remedy="keep quiet_time_s",
+            )
+        return self
+
+
+QUIET_TIMES: Final = ("quiet_time_s", "settling_time_s")
 
 
 class BearingFile(Table):

@@ -71,7 +71,7 @@ def harmless_way(
     way = BalancePath(abs(left) - least, most - abs(left))
     outcome = outcome_at(way.down)
     kept = (
-        outcome.quiet_time_or_inf <= SOON * case.table.limits.settling_time_s
+        outcome.quiet_time_or_inf <= SOON * case.table.limits.longest_quiet_time
         and balances(most, outcome.allowed, outcome.slip)
         and outcome.level + 20 * math.log10(most / abs(left)) <= case.level_limit - MARGIN
         and kept_quiet(scene, outcome, 20 * math.log10(most / abs(left)))

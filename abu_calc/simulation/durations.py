@@ -33,7 +33,7 @@ def settling_duration(design: Design, support: Support, race: Race, ball_rate: f
     revolution = 2 * math.pi / case.speed
     sway, fastest = free_rates(support, race, case.speed)
     wanted = max(DECAY_TIMES / rate if rate > 0 else math.inf for rate in (ball_rate, sway))
-    longest = max(LONGEST_REVOLUTIONS * revolution, 3 * case.table.limits.settling_time_s)
+    longest = max(LONGEST_REVOLUTIONS * revolution, 3 * case.table.limits.longest_quiet_time)
     cap = max(MOST_CYCLES * 2 * math.pi / max(case.speed, fastest), 2 * revolution)
     return min(max(wanted, LEAST_REVOLUTIONS * revolution), longest, cap)
 

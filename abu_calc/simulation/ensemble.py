@@ -188,7 +188,7 @@ def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: 
 
     None, too, if their way to where they balance changes no verdict.
     """
-    limit = design.case.table.limits.settling_time_s
+    limit = design.case.table.limits.longest_quiet_time
     creeping = outcome.creeping and not outcome.hanging
     longest = scene.full_speed + (LONGEST_CREEPING if creeping else LONGEST_LINGERING) * limit
     late = outcome.hanging or (outcome.quiet_time or 0.0) > limit
@@ -243,7 +243,7 @@ def _decided(
         return False
     if (
         not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip)
-        or outcome.quiet_time_or_inf > limits.settling_time_s
+        or outcome.quiet_time_or_inf > limits.longest_quiet_time
     ):
         return False
     louder = max(rise, 20 * math.log10(1 + creep / outcome.imbalance)) if outcome.imbalance else math.inf

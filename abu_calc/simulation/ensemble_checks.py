@@ -178,8 +178,15 @@ def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, ea
 
 
 def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, earlier: str | None) -> Check:
-    limit = design.case.table.limits.settling_time_s
-    status = _grade(ensemble, lambda outcome: outcome.quiet_time_or_inf <= limit)
+    limits = design.case.table.limits
+    limit = limits.longest_quiet_time
+    longest = math.inf if limits.rest_time_s is None else limits.rest_time_s
+
+    def in_time(outcome: StartOutcome) -> bool:
+        """True if both times keep their limits."""
+        return outcome.quiet_time_or_inf <= limit and (math.isinf(longest) or outcome.rest_time_or_inf <= longest)
+
+    status = _grade(ensemble, in_time)
     if status == "fail" and balanced_well(design) and all(outcome.balanced for outcome in ensemble.given):
         message = (
             "The wheel is balanced so well that the balls creep to their places. No start case leaves more than is "
@@ -192,9 +199,17 @@ def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, ear
     if status == "warn" and latest and latest.quiet_time_or_inf > limit:
         sentences.append(f"Slowest at another drag rate: {_time(latest, ensemble)}")
     if guided(design, 0.0).pause:
-        sentences.append("Settling counts from full speed, after the temporary speed reduction")
+        sentences.append("Times count from full speed, after the temporary speed reduction")
     elif any(outcome.member.run_up for outcome in ensemble.given):
-        sentences.append("Settling counts from full speed, after the run-up")
+        sentences.append("Times count from full speed, after the run-up")
+    creeping = [outcome for outcome in ensemble.outcomes if outcome.creeping and not outcome.hanging]
+    rested = max(ensemble.given, key=lambda outcome: outcome.rest_time_or_inf, default=None)
+    if creeping:
+        sentences.append(f"The balls still creep at the end of {_starts(len(creeping))}: {_first(creeping, ensemble)}")
+        status = "warn" if status == "pass" else status
+    elif rested is not None and rested.rest_time is not None:
+        allowed = "" if math.isinf(longest) else f" (limit {longest:g} s)"
+        sentences.append(f"The balls rest after {rested.rest_time:#.3g} s at the latest{allowed}")
     value = None if late is None or math.isinf(late.quiet_time_or_inf) else late.quiet_time_or_inf
     action: Action | str | None = _see(earlier)
     if action is None and change is not None:

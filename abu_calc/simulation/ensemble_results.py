@@ -18,8 +18,8 @@ class StartOutcome:
     """Outcome of one start case.
 
     `quiet_time`, `rest_time` and `settling_time` [s] from full speed on, None: never; `creeping`: balls still drift at
-    the end; `residual`: axis amplitude [m]; `level` [dB] at the
-    loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
+    the end; `residual`: axis amplitude [m]; `level` [dB] at the loudest place; `slip`: the largest mean speed of a ball
+    against its race over the rotor's.
     """
 
     member: Member
@@ -62,6 +62,11 @@ class StartOutcome:
     def quiet_time_or_inf(self) -> float:
         """From when it is quiet [s]; infinite if never."""
         return math.inf if self.quiet_time is None else self.quiet_time
+
+    @property
+    def rest_time_or_inf(self) -> float:
+        """From when the balls rest [s]; infinite if never."""
+        return math.inf if self.rest_time is None else self.rest_time
 
     @property
     def loudest(self) -> float:

@@ -4,6 +4,8 @@ Quiet: the level of vibration stays at or below the one that is asked for. Rest:
 that of the end. Both count from full speed, and neither exists where the last crossing lies in the last 5 % of a run.
 """
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,6 +23,10 @@ GRAZE = 0.01
 """Relative change of a threshold within which a crossing counts as uncertain: 0.09 dB of a velocity."""
 
 
+GRAZED = 0.1
+"""Relative width of a range of times from which it is told: below, the crossing is steep."""
+
+
 @dataclass(frozen=True)
 class TimeRange:
     """A time [s] from full speed, None: never; and the same if the threshold were higher and lower by `GRAZE`."""
@@ -28,6 +34,13 @@ class TimeRange:
     time: float | None
     earliest: float | None
     latest: float | None
+
+    def grazed(self, least: float) -> tuple[float | None, float | None] | None:
+        """Both ends, where they differ by more than a tenth of the time and `least` [s]; else None."""
+        low, high = (np.inf if each is None else each for each in (self.earliest, self.latest))
+        if low == high or high - low <= max(GRAZED * low, least):
+            return None
+        return self.earliest, self.latest
 
     def apart(self, other: "TimeRange", least: float) -> float:
         """Difference relative to the other time, but at least to `least` [s].
@@ -57,7 +70,7 @@ def range_of(times: Array, values: Array, limit: float, began: float) -> TimeRan
     return TimeRange(at(limit), at((1 + GRAZE) * limit), at((1 - GRAZE) * limit))
 
 
-def last_crossing(t: Array, values: Array, limit: float) -> float | None:
+def last_crossing(t: NDArray[Any], values: Array, limit: float) -> float | None:
     """The earliest time [s] of a run after which values stay below the limit; None if after 95 % of the run.
 
     Between two samples it is read from the quintic through the six about them.

@@ -7,6 +7,7 @@ from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.handles import total_of
 from abu_calc.sizing.places import level_at_loudest, settled_levels
 
 
@@ -32,15 +33,21 @@ def quiet_velocity(design: Design, scene: Scene) -> float:
 
 
 def velocity_of_level(design: Design, wanted: float) -> float:
-    """Rms velocity [m/s] of the axis at the race with that level [dB] at the loudest place; 0 if it is louder at rest.
+    """Rms velocity [m/s] of the axis at the race with that level [dB] at the loudest place, or with the limit of a_hv;
+    0 if it is louder at rest.
 
     Found by bisection of its logarithm: the level rises with the velocity, whatever place is loudest.
     """
     case = design.case
 
+    most = case.table.limits.a_hv_m_per_s2
+
     def louder(velocity: float) -> bool:
-        """Whether a velocity has more than the level wanted."""
-        return level_at_loudest(case, design.autobalancer, math.sqrt(2) * velocity / case.speed) > wanted
+        """Whether a velocity has more than the level wanted, or than the acceleration permitted at the handles."""
+        moved = math.sqrt(2) * velocity / case.speed
+        if level_at_loudest(case, design.autobalancer, moved) > wanted:
+            return True
+        return most is not None and total_of(case, design.imbalance.value, design.autobalancer, moved) > most
 
     low, high = -30.0, math.log(1e3 * velocity_from_level(wanted))
     if louder(math.exp(low)):

@@ -166,24 +166,36 @@ class SimulatedLevel(Record):
 
 @record
 class SettlingEstimate(Record):
-    """Settling at another drag: that of the same start in the ensemble, the slower of both sides of the race."""
+    """Times at another drag: those of the same start in the ensemble, the slower of both sides of the race."""
 
     drag_per_s: Annotated[float, Quantity("rolling drag", "h₀", 3)]
+    quiet_time_s: Annotated[float | None, Quantity("quiet time", "", 3)]
+    rest_time_s: Annotated[float | None, Quantity("rest time", "", 3)]
     settling_time_s: Annotated[float | None, Quantity("settling time", "", 3)]
 
 
 @record
 class SimulatedScene(Record):
-    """One scene: how it ended, when it settled, what was left out, what it cost, how far it may be off."""
+    """One scene: how it ended, when it was quiet, what was left out, what it cost, how far it may be off."""
 
     optional: ClassVar[frozenset[str]] = frozenset(
-        {"bearing_amplitudes_mm", "full_speed_s", "settling_estimates", "audit"}
-    )
+        {"bearing_amplitudes_mm", "full_speed_s", "settling_estimates", "audit", "quiet_time_range_s",
+         "rest_time_range_s"}
+    )  # fmt: skip
 
     scene: Annotated[str, Quantity("scene")]
     duration_s: Annotated[float, Quantity("simulated time", "", 3)]
+    quiet_time_s: Annotated[
+        float | None,
+        Quantity("quiet time", "", 3, "from full speed until the level stays low; None if later than 95 % of the run"),
+    ]
+    rest_time_s: Annotated[
+        float | None,
+        Quantity("rest time", "", 3, "from full speed until the balls keep their places; None if they still creep"),
+    ]
+    creeping: Annotated[bool, Quantity("balls still creep at the end")]
     settling_time_s: Annotated[
-        float | None, Quantity("settling time", "", 3, "from full speed; None if later than 95 % of the run")
+        float | None, Quantity("settling time", "", 3, "as published ones: until |imbalance| stays near its end")
     ]
     residual_imbalance_g_mm: Annotated[float, Quantity("imbalance left", "", 3, "|m₀e + Σ m·R_p·e^{iθ}| at the end")]
     axis_amplitude_mm: Annotated[
@@ -205,6 +217,12 @@ class SimulatedScene(Record):
     full_speed_s: Annotated[float | None, Quantity("full speed reached after", "", 3, "None: at the start")] = None
     settling_estimates: tuple[SettlingEstimate, ...] | None = None
     audit: Audit | None = None
+    quiet_time_range_s: Annotated[
+        tuple[float | None, float | None] | None, Quantity("quiet time, with a threshold that is grazed", "", 3)
+    ] = None
+    rest_time_range_s: Annotated[
+        tuple[float | None, float | None] | None, Quantity("rest time, with a threshold that is grazed", "", 3)
+    ] = None
 
     @classmethod
     def of(
@@ -229,6 +247,8 @@ class SimulatedScene(Record):
             full_speed_s=response.full_speed or None,
             settling_estimates=settling_estimates,
             audit=None if audit is None else Audit.read(audit),
+            quiet_time_range_s=response.quiet.grazed(simulation.scene.revolution),
+            rest_time_range_s=response.rest.grazed(simulation.scene.revolution),
         )
 
 

@@ -251,7 +251,8 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
         bearing_amplitudes=_bearing_amplitudes(scene, states, whole),
         # The mean of a speed is the way made; exact, whatever the samples.
         final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
-        quiet=_quiet_in(scene, course),
+        # Where nothing says how loud a machine may be, one whose balls still creep is not quiet.
+        quiet=NEVER if creeping and scene.quiet_velocity is None else _quiet_in(scene, course),
         rest=NEVER if creeping else _rest_in(scene, course, end, 0.0),
         creeping=creeping,
         full_speed=scene.full_speed,

@@ -8,6 +8,7 @@ from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.checks import Check, coded, overall, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.simulation.quiet import LAST
 from abu_calc.simulation.residual_criteria import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.simulation.response import Response
 from abu_calc.sizing.budget import displacement_level
@@ -20,8 +21,6 @@ LIMITED: Final = frozenset({"idle", "run-up"})
 """Scenes that the limits of a file are for; under load a level is information."""
 Level = Callable[[float], float]
 """Function from the rms velocity of the axis [m/s] to the level [dB]."""
-LAST: Final = 0.95
-"""Share of a run by which balls must have settled to count as settled."""
 TRIES: Final = "`abu size FILE` simulates changes that help."
 
 
@@ -90,38 +89,38 @@ def _level_of(design: Design, response: Response, place: Vector) -> Level:
 def one_run_checks(
     design: Design, response: Response, start: str, error: float = 0.0, *, asked: bool = False
 ) -> tuple[Check, ...]:
-    """Check that the balls balance, settle in time and keep the level.
+    """Check that the balls balance, the machine is quiet in time and keeps the level.
 
     Only scenes that idle at full speed are checked. `start`: the start case in words; `error`: of the run,
     relative; `asked`: the user set its duration. If such a run ends too soon to judge, the checks are NOT
-    EVALUATED. After a run-up, settling counts from full speed.
+    EVALUATED. After a run-up, times count from full speed.
     """
     if response.scene not in LIMITED:
         return ()
-    ramp, limit = response.full_speed, design.case.table.limits.settling_time_s
-    counted = f". Settling counts from full speed, after {ramp:.3g} s" if ramp else ""
+    ramp, limit = response.full_speed, design.case.table.limits.longest_quiet_time
+    counted = f". It counts from full speed, after {ramp:.3g} s" if ramp else ""
     motor = (check for check in design.checks if check.code == "ABU104")
     checks = (*motor, *_balancing(design, response, f"Start: {start}{counted}"), _level(design, response, error))
     if asked and LAST * response.duration < ramp + limit and overall(checks) == "fail":
-        reason = f"The run ends after {response.duration:.3g} s, before the limit of the settling time"
+        reason = f"The run ends after {response.duration:.3g} s, before the limit of the quiet time"
         remedy = "Specify a longer run (--duration, Python: duration_s=)."
         return tuple(coded(check.code, "not-done", reason, remedy=remedy) for check in checks)
     return checks
 
 
 def _balancing(design: Design, response: Response, start: str) -> tuple[Check, ...]:
-    """Check that the balls balance, and in time.
+    """Check that the balls balance, that the machine is quiet in time, and that its balls rest in time if asked for.
 
     NOT EVALUATED if balls side by side cannot carry the imbalance.
     """
-    autobalancer, limit = design.autobalancer, design.case.table.limits.settling_time_s
+    autobalancer = design.autobalancer
     moved = design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
     if autobalancer.capacity < moved:
         reason = "The balls, side by side, cannot carry the imbalance"
         return tuple(
             coded(code, "not-done", reason, remedy="Add balls or specify larger ones.") for code in ("ABU701", "ABU702")
         )
-    left, allowed, time = response.residual_imbalance, allowed_imbalance(design, moved), response.settling_time
+    left, allowed = response.residual_imbalance, allowed_imbalance(design, moved)
     slipping = slip(response, abs(response.final.speed) or design.case.speed)
     balanced = balances(left, allowed, slipping)
     message = "The balls end opposite the imbalance"
@@ -131,13 +130,28 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
         worse = "The balls gather on the heavy side and increase the imbalance"
         message = worse if left > moved else "The balls reduce the imbalance, but do not balance it"
     message += ". The value is the imbalance left"
-    soon = balanced and time is not None and time <= limit
-    remedy = None if balanced and soon else TRIES
-    settled = start if balanced else "The balls settle where they do not balance"
     return (
-        coded("ABU701", verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm", remedy),
-        coded("ABU702", verdict(soon), settled, time, limit, "s", remedy),
-    )
+        coded("ABU701", verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm",
+              None if balanced else TRIES),
+        _quiet(design, response, start),
+    )  # fmt: skip
+
+
+def _quiet(design: Design, response: Response, start: str) -> Check:
+    """The quiet time against its limit, and the rest time where the file limits it."""
+    limits = design.case.table.limits
+    quiet, rest, longest = response.quiet_time, response.rest_time, limits.rest_time_s
+    soon = quiet is not None and quiet <= limits.longest_quiet_time
+    rests = longest is None or (rest is not None and rest <= longest)
+    rested = "The balls still creep at the end" if response.creeping else f"The balls rest after {_seconds(rest)}"
+    message = f"{start}. {rested}" + ("" if longest is None else f" (limit {longest:g} s)")
+    good = soon and rests
+    return coded("ABU702", verdict(good, good and not response.creeping), message, quiet, limits.longest_quiet_time,
+                 "s", None if good else TRIES)  # fmt: skip
+
+
+def _seconds(time: float | None) -> str:
+    return "more than the run" if time is None else f"{time:#.3g} s"
 
 
 def _level(design: Design, response: Response, error: float) -> Check:

@@ -165,7 +165,7 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
 def _taking_up(design: Design) -> float:
     """Time [s] in which balls that stand still take up the speed of the race: at most the settling time permitted."""
     case = design.case
-    longest = case.table.limits.settling_time_s
+    longest = case.table.limits.longest_quiet_time
     return min(LAGS * case.inertia_factor / case.drag, longest) if case.drag else longest
 
 

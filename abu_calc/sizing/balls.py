@@ -234,8 +234,8 @@ class AutobalancerChoice:
         "The criteria rank in this order: capacity, strength, roundness of the race, residual-displacement budget, "
         "mass fraction, at most a dozen balls, least mass. At equal mass the smaller ball ranks first. For each "
         "diameter and number, only the smallest sufficient race is ranked, because a larger one is heavier. A "
-        "runner-up that keeps the limits of vibration is preferred to a lighter candidate that exceeds one, if only in "
-        "the worst friction case. It has four balls or more unless gravity shakes all friction out."
+        "runner-up that keeps the limits of vibration is preferred to a lighter candidate that exceeds one. It has "
+        "four balls or more unless gravity shakes all friction out."
     ),
 )
 def choose(case: Case, imbalance: float) -> AutobalancerChoice:

@@ -13,9 +13,9 @@ from abu_calc.sizing.vibration import measurably_lower
 LEVEL, ACCELERATION = "level", "acceleration at the handles"
 EXPECTED: Final = frozenset({LEVEL, ACCELERATION})
 """Limits of vibration, as expected."""
-FRICTION, INERTIA = " in the worst friction case", " by the band of the estimated inertia"
-DOUBTFUL: Final = frozenset(limit + state for limit in EXPECTED for state in (FRICTION, INERTIA))
-"""The same limits in the worst friction case, and at the end of the band that an estimated inertia leaves."""
+INERTIA: Final = " by the band of the estimated inertia"
+DOUBTFUL: Final = frozenset(limit + INERTIA for limit in EXPECTED)
+"""The same limits at the end of the band that an estimated inertia leaves."""
 
 
 def missed(design: Design) -> frozenset[str]:
@@ -58,11 +58,9 @@ def _vibration(design: Design) -> Iterator[tuple[str, bool]]:
     levels, totals, bands, limit = design.speed_levels, design.totals, design.bands, design.case.level_limit
     if levels is not None:
         yield LEVEL, levels.highest.level_after <= limit
-        yield LEVEL + FRICTION, levels.arranged.level_after <= limit
         yield LEVEL + INERTIA, bands is None or bands.level is None or bands.level[1] <= limit
     permitted = design.case.table.limits.a_hv_m_per_s2
-    if permitted is not None and totals is not None and totals.expected and totals.arranged:
+    if permitted is not None and totals is not None and totals.expected:
         end = band_end(totals.expected, bands, design.case)
         yield ACCELERATION, totals.expected.total <= permitted
-        yield ACCELERATION + FRICTION, totals.arranged.total <= permitted
         yield ACCELERATION + INERTIA, end is None or end <= permitted

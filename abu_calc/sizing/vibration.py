@@ -256,8 +256,8 @@ def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possibl
 
 SHARES = (0.5, 0.25)
 """Shares of the race's eccentricity and of the friction's lever arm that are tried."""
-EXPECTED, FRICTION = "the expected level", "the worst friction case"
-"""Cases of the idle level that sizing calculates, as actions name them."""
+EXPECTED: Final = "the expected level"
+"""The idle level that sizing calculates, as actions name it."""
 
 
 def vibration_checks(
@@ -318,47 +318,47 @@ def decibels(level: float, limit: float) -> str:
 def _level_check(
     case: Case, candidate: Candidate, levels: SpeedLevels, place: str, band: tuple[float, float] | None
 ) -> Check:
-    """Fails on the level as expected where it is highest, warns on that of the worst friction case.
+    """Fails on the level as expected where it is highest; the bound of friction is told.
 
     On a horizontal spindle gravity shakes out friction that holds the balls. Hand tools get turned, so that the message
-    gives the case with the spindle vertical, too.
+    gives the bound with the spindle vertical, too.
     """
     limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
-    kept, safe = highest.level_after <= limit, arranged.level_after <= limit
+    kept = highest.level_after <= limit
     of_range = "" if len(levels.by_speed) == 1 else ", the loudest speed of the range"
     there = "" if arranged.speed == highest.speed else f" at {_rpm(arranged)}"
     message = (
         f"{place}, {_rpm(highest)}{of_range}: expected {decibels(highest.level_after, limit)} (limit {limit:g} dB). "
-        f"Worst friction case{there}: {decibels(arranged.level_after, limit)} (limit {limit:g} dB)"
+        f"Bound of friction{there}: {decibels(arranged.level_after, limit)}"
     )
     upright = levels.louder_upright
     if upright is not None:
         message += f". With the spindle held vertical: {decibels(upright.level_after, limit)}"
-    action: Action | None = None if kept and safe else _truer_race(case, candidate, levels, worst=kept)
+    action: Action | None = None if kept else _truer_race(case, candidate, levels)
     within = band is None or band[1] <= limit
     if band is not None:
         low, high = (decibels(level, limit) for level in band)
         message += f". The estimated inertia leaves {low.removesuffix(' dB')} … {high} as expected"
-    if kept and safe and not within:
+    if kept and not within:
         action = Action("Measure the inertia: the band of the estimate crosses the limit.")
-    return coded("ABU401", verdict(kept, safe and within), message, highest.level_after, limit, "dB", action)
+    return coded("ABU401", verdict(kept, within), message, highest.level_after, limit, "dB", action)
 
 
-def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst: bool) -> Action:
-    """The least truer race that keeps the limit, followed literally; `worst`: in the worst friction case."""
+def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels) -> Action:
+    """The least truer race that keeps the limit, followed literally."""
     background, limit = case.background_level, case.level_limit
     if background is not None and background >= limit:
         return Action(
             f"The background alone is {background:.4g} dB (limit {limit:g} dB), and no autobalancer lowers it. Use a "
             "quieter machine, or change limits.vibration_level_db."
         )
-    before, least = (levels.arranged if worst else levels.highest).level_after, math.inf
+    before, least = levels.highest.level_after, math.inf
     for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
-        level = math.inf if after is None else level_of(after, worst=worst)
+        level = math.inf if after is None else level_of(after, worst=False)
         least = min(least, level)
         if after is not None and level <= limit:
-            moved = Moved(FRICTION if worst else EXPECTED, before, level, "dB", limit)
+            moved = Moved(EXPECTED, before, level, "dB", limit)
             return set_action(entries, after.candidate, moved, more=_beyond_practice(entries))
     return Action(
         f"No change was found: a quarter of the race's eccentricity and rolling friction leaves "
@@ -381,7 +381,7 @@ def _beyond_practice(entries: Mapping[str, object]) -> str:
 
 
 def level_of(after: Followed, *, worst: bool) -> float:
-    """Highest level [dB] over the speed range, as expected or in the worst friction case."""
+    """Highest level [dB] over the speed range, as expected or by the bound of friction."""
     residuals = worst_residuals(*after) if worst else ()
     levels = speed_levels(*after, residuals, possible=True)
     if levels is None:

@@ -1,4 +1,4 @@
-"""The numbers that decide a comparison: levels and settling times, case by case, one column for each machine."""
+"""The numbers that decide a comparison: levels and quiet times, case by case, one column for each machine."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -13,7 +13,7 @@ DECIBELS: Final = (
     ("ensemble.predicted_level_db", "Idle, with: median of the start cases"),
     ("vibration.level_after_db", "  expected, manufacture and friction"),
     ("ensemble.level_db.worst", "  loudest start case, any oil"),
-    ("vibration.worst_arrangement.level_after_db", "  worst friction case"),
+    ("vibration.worst_arrangement.level_after_db", "  bound of friction"),
     ("measured_after.measured_level_db", "  measured"),
 )
 """Levels of the idle machine, by their paths in the results; labels as on the screen of `abu size`."""
@@ -25,8 +25,8 @@ LOADED: Final = (
 )
 """Levels at the workpiece."""
 STARTS: Final = "ensemble.settling_by_start"
-MEDIAN: Final = "ensemble.settling_time_s.typical"
-SLOWEST: Final = "ensemble.settling_time_s.worst"
+MEDIAN: Final = "ensemble.quiet_time_s.typical"
+SLOWEST: Final = "ensemble.quiet_time_s.worst"
 DRAG: Final = "autobalancer.rolling_drag_per_s"
 """Key of the files: the drag rate in force: as given, or its default."""
 COUNT: Final = "ensemble.members"
@@ -44,12 +44,12 @@ class _NumbersLine(NamedTuple):
 
 
 def main_blocks(result: CompareResult) -> list[Block]:
-    """Levels and settling times, those that are equal too; nothing if no machine has an autobalancer."""
+    """Levels and quiet times, those that are equal too; nothing if no machine has an autobalancer."""
     rows = (*result.differences, *result.alike)
     designs = {row.path: row.values for row in rows if row.part == "design" or row.path == DRAG}
     titles = (
         (f"Vibration, dB re 5e-8 m/s{_one_limit(result, 'ABU401')}", _levels(result, designs)),
-        (f"Settling time, s{_one_limit(result, 'ABU702')}", _settling(result, designs)),
+        (f"Quiet time, s{_one_limit(result, 'ABU702')}", _settling(result, designs)),
     )
     letters = tuple(file.letter for file in result.files)
     right = frozenset(range(1, len(letters) + 1))
@@ -98,13 +98,13 @@ def _settling(result: CompareResult, designs: Designs) -> list[_NumbersLine]:
 
 
 def _slowest_as_given(designs: Designs, machine: int) -> float | None:
-    """Longest settling time [s] of one machine at its own drag rate; None: a start case never settles."""
+    """Longest quiet time [s] of one machine at its own drag rate; None: a start case is never quiet."""
     times = list[float]()
     drags = {path: values[machine] for path, values in designs.items()
              if path.startswith(STARTS) and path.endswith(".drag_per_s")}  # fmt: skip
     for path, drag in drags.items():
         if drag is not None and drag == designs[DRAG][machine]:
-            time = designs[path.replace(".drag_per_s", ".settling_time_s")][machine]
+            time = designs[path.replace(".drag_per_s", ".quiet_time_s")][machine]
             times.append(math.inf if time is None else time)
     longest = max(times, default=math.inf)
     return None if math.isinf(longest) else longest

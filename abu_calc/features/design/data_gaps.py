@@ -27,10 +27,10 @@ MOST: Final = 3
 """Assumed values that are listed."""
 
 MOST_WORK: Final = 20_000
-"""Evaluations of the slowest start case above which settling at the ends is not simulated."""
+"""Evaluations of the slowest start case above which its quiet time at the ends is not simulated."""
 
 ALIKE_DB, ALIKE_FACTOR = 3.0, 2.0
-"""A level that moves by so much and a settling time that changes by this factor rank alike."""
+"""A level that moves by so much and a quiet time that changes by this factor rank alike."""
 
 DRAG: Final = "autobalancer.rolling_drag_per_s"
 
@@ -42,8 +42,8 @@ class UsualRange(NamedTuple):
     low: float
     high: float
     moves_levels: bool = True
-    moves_settling: bool = True
-    """True if the calculated idle levels, and the settling times, depend on it."""
+    moves_times: bool = True
+    """True if the calculated idle levels, and the quiet times, depend on it."""
 
 
 RANGES: Final[Mapping[str, UsualRange]] = {
@@ -52,8 +52,8 @@ RANGES: Final[Mapping[str, UsualRange]] = {
     DRAG: UsualRange(15.0, 5.0, 45.0, moves_levels=False),
     "suspension.natural_frequencies_hz": UsualRange(2.5, 1.6, 2.6),
     "suspension.damping_ratios": UsualRange(0.5, 0.25, 0.9),
-    "grinding.cutting_coefficient": UsualRange(0.35, 0.3, 0.5, moves_levels=False, moves_settling=False),
-    "grinding.contact_stiffness_N_per_m": UsualRange(2e5, 2e4, 1e6, moves_levels=False, moves_settling=False),
+    "grinding.cutting_coefficient": UsualRange(0.35, 0.3, 0.5, moves_levels=False, moves_times=False),
+    "grinding.contact_stiffness_N_per_m": UsualRange(2e5, 2e4, 1e6, moves_levels=False, moves_times=False),
 }
 """Usual ranges by engineering practice (unverified). Drag rates are those of hot and cold oil; the springs stand for
 two hands (ISO 10068:2012)."""
@@ -61,15 +61,15 @@ two hands (ISO 10068:2012)."""
 
 @dataclass(frozen=True)
 class RangeEnd:
-    """The design at one end of a usual range; levels [dB] and the settling time [s] of the slowest start case,
-    infinite: it never settles, NaN: that was not simulated.
+    """The design at one end of a usual range; levels [dB] and the quiet time [s] of the slowest start case,
+    infinite: it is never quiet, NaN: that was not simulated.
 
-    `holds`: whether the autobalancer meets every requirement of sizing and both levels their limit, and settling its.
+    `holds`: whether the autobalancer meets every requirement of sizing and level and quiet time their limits.
     """
 
     level: float
     friction_level: float
-    settling_time: float
+    quiet_time: float
     holds: bool
 
 
@@ -77,9 +77,9 @@ class RangeEnd:
 class DataGap(Record):
     """An assumed value, and the results at both ends of its usual range: balls and race as designed.
 
-    `decides`: at one end alone the design meets every requirement, the level limit in the worst friction case and the
-    settling limit. `settling_time_s` is that of the start case which is the slowest as the file stands; at the ends of
-    the drag rate, of the slowest one there. An end of None: it never settles. None: it was not simulated.
+    `decides`: at one end alone the design meets every requirement, and level and quiet time keep their limits.
+    `quiet_time_s` is that of the start case which is the slowest as the file stands; at the ends of the drag rate, of
+    the slowest one there. An end of None: it is never quiet. None: it was not simulated.
     """
 
     key: Annotated[str, Quantity("key")]
@@ -87,28 +87,29 @@ class DataGap(Record):
     usual_range: Annotated[tuple[float, float], Quantity("usual range", "", 3)]
     decides: Annotated[bool, Quantity("decides the verdict")]
     level_db: Annotated[tuple[float, float], Quantity("expected level at both ends", "L")]
-    worst_friction_level_db: Annotated[tuple[float, float], Quantity("worst friction case at both ends", "L")]
-    settling_time_s: Annotated[
+    worst_friction_level_db: Annotated[tuple[float, float], Quantity("bound of friction at both ends", "L")]
+    quiet_time_s: Annotated[
         tuple[float | None, float | None] | None,
-        Quantity("settling time at both ends of the start case that is slowest now", "t_s", 3),
+        Quantity("quiet time at both ends of the start case that is slowest now", "t_q", 3),
     ]
 
     @classmethod
     def of(cls, key: str, usual: UsualRange, ends: tuple[RangeEnd, RangeEnd]) -> Self:
         """Record of both ends."""
         low, high = ends
-        times = low.settling_time, high.settling_time
+        low_time, high_time = low.quiet_time, high.quiet_time
+        times = None if math.isnan(low_time + high_time) else (finite(low_time), finite(high_time))
         return cls(
             key=key, value=usual.assumed, usual_range=(usual.low, usual.high), decides=low.holds != high.holds,
             level_db=(low.level, high.level), worst_friction_level_db=(low.friction_level, high.friction_level),
-            settling_time_s=None if any(map(math.isnan, times)) else (finite(times[0]), finite(times[1])),
+            quiet_time_s=times,
         )  # fmt: skip
 
     @property
     def movement(self) -> float:
         """Movement of the result that moves most between the ends: 1 for 3 dB or a factor of 2."""
         levels = [abs(high - low) / ALIKE_DB for low, high in (self.level_db, self.worst_friction_level_db)]
-        low_time, high_time = self.settling_time_s or (None, None)
+        low_time, high_time = self.quiet_time_s or (None, None)
         ratio = math.log(high_time / low_time) / math.log(ALIKE_FACTOR) if low_time and high_time else 0.0
         return max(*levels, abs(ratio))
 
@@ -156,27 +157,25 @@ def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: f
             (outcome.quiet_time_or_inf for outcome in ensemble.outcomes if math.isclose(outcome.member.drag, value)),
             default=math.nan,
         )
-    elif RANGES[key].moves_settling:
-        time = settling_time_with(design, slowest, entries, accuracy)
+    elif RANGES[key].moves_times:
+        time = quiet_time_with(design, slowest, entries, accuracy)
     else:
         time = slowest.quiet_time_or_inf
     limits = design.case.table.limits
     holds = (
-        sound(after.case, after.candidate)
-        and max(level, friction) <= after.case.level_limit
-        and not time > limits.settling_time_s
+        sound(after.case, after.candidate) and level <= after.case.level_limit and not time > limits.longest_quiet_time
     )
     return RangeEnd(level, friction, time, holds)
 
 
-def settling_time_with(design: Design, slowest: StartOutcome, entries: Mapping[str, object], accuracy: float) -> float:
-    """Settling time [s] of the slowest start case with entries replaced; infinite: never; NaN: not known."""
+def quiet_time_with(design: Design, slowest: StartOutcome, entries: Mapping[str, object], accuracy: float) -> float:
+    """Quiet time [s] of the slowest start case with entries replaced; infinite: never; NaN: not known."""
     other = None if slowest.work > MOST_WORK or patience.over() else design_with(design, entries)
     if other is None:
         return math.nan
     try:
         time = _time_of_start(other, slowest, accuracy)
-        # The worst friction case allows more to be left; it takes long to find, so it is asked where that may decide.
+        # The bound of friction allows more to be left; it takes long to find, so it is asked where that may decide.
         return time if math.isfinite(time) else _time_of_start(with_worst(other), slowest, accuracy)
     except NotTrustworthyError:
         return math.nan

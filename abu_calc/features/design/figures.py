@@ -225,13 +225,13 @@ def start_label(start: StartView) -> str:
     if start.why == "worst" and start.balanced:
         reason = ", the loudest"
     elif start.why == "typical":
-        reason = ", median settling time"
-    ends = _settles(start.settling_time_s) if start.balanced else "does not balance"
+        reason = ", median quiet time"
+    ends = _quiet(start.quiet_time_s) if start.balanced else "does not balance"
     return f"{_upper(case)}{reason}: {'balls stall' if start.stalled else ends}, {db(start.level_db)}"
 
 
-def _settles(time: float | None) -> str:
-    return "balances" if time is None else f"settles in {number(time, 2)} s"
+def _quiet(time: float | None) -> str:
+    return "never quiet" if time is None else f"quiet after {number(time, 2)} s"
 
 
 def _upper(text: str) -> str:
@@ -243,8 +243,7 @@ def _idle_label(result: SizeResult) -> str:
     scene = next((scene for scene in result.simulation if scene.scene == "idle"), None)
     if scene is None or scene.level_db is None:
         return _upper(idle_case(result))
-    ends = "does not settle" if scene.settling_time_s is None else _settles(scene.settling_time_s)
-    return f"{_upper(idle_case(result))}: {ends}, {db(scene.level_db)}"
+    return f"{_upper(idle_case(result))}: {_quiet(scene.quiet_time_s)}, {db(scene.level_db)}"
 
 
 def _settling(result: SizeResult) -> Iterator[Figure]:

@@ -3,6 +3,8 @@
 The section holds every length that its drawing shows, and the outlines.
 """
 
+import math
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
@@ -30,7 +32,7 @@ from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
+from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels, idle_vibration
 
 
 @record
@@ -133,10 +135,11 @@ class AccuracyBudget(Record):
     speed_rpm: Annotated[float, Quantity("at the least favourable speed", "Ω", 6)]
     rolling_friction_um: Annotated[float | None, Quantity("dry friction, balls evenly spread", "w_f/cos(γ_g/2)", 3)]
     rolling_friction_worst_um: Annotated[
-        float | None, Quantity("dry friction, worst friction case", "", 3, "over all arrangements of the balls")
+        float | None, Quantity("dry friction, bound", "", 3, "over all arrangements of the balls")
     ]
     rolling_friction_vertical_um: Annotated[
-        float | None, Quantity("worst friction case with the spindle vertical", "", 3, "without gravity along the race")
+        float | None,
+        Quantity("the same with the spindle vertical", "", 3, "without gravity along the race"),
     ]
     friction_number: Annotated[
         float | None, Quantity("friction over gravity", "Λ", 3, "below 1 gravity shakes friction out")
@@ -250,6 +253,56 @@ class IdleSpeedLevels(Record):
             level_after_db=levels.after,
             reduction_db=levels.reduction,
         )
+
+
+@record
+class FrictionBound(Record):
+    """The highest level that friction can leave by holding the balls, and how many simulated starts come near it."""
+
+    level_db: Annotated[float, Quantity("bound of friction", "L")]
+    reached_within_1_db: Annotated[int, Quantity("simulated starts within 1 dB of it")]
+    runs: Annotated[int, Quantity("simulated starts")]
+
+    @classmethod
+    def of(cls, design: Design, levels: Iterable[float]) -> Self | None:
+        """Record beside the levels [dB] of all simulated starts; None where balls cannot balance."""
+        if design.speed_levels is None:
+            return None
+        bound, found = design.speed_levels.arranged.level_after, list(levels)
+        return cls(level_db=bound, reached_within_1_db=sum(level > bound - 1 for level in found), runs=len(found))
+
+
+@record
+class NewWheel(Record):
+    """The imbalance at which the level with the autobalancer, as expected, is that without; below, the balls make it
+    louder, which is no fault.
+    """
+
+    break_even_imbalance_g_mm: Annotated[float, Quantity("break-even imbalance", "m₀e", 3)]
+    level_db: Annotated[float, Quantity("level there", "L")]
+
+    @classmethod
+    def of(cls, design: Design) -> Self | None:
+        """Found by bisection of the logarithm, up to the capacity; None where balls cannot balance, or never help."""
+        case, balls, most = design.case, design.autobalancer, design.autobalancer.static_moment
+
+        def levels(imbalance: float) -> tuple[float, float]:
+            """Levels [dB] without and with the balls at an imbalance [kg m]."""
+            worst = idle_vibration(case, imbalance, balls, design.frequency.balancing_possible).worst
+            return worst.before or math.inf, math.inf if worst.after is None else worst.after
+
+        def helps(imbalance: float) -> bool:
+            """True if the balls lower the level."""
+            without, with_balls = levels(imbalance)
+            return without > with_balls
+
+        if not most or not helps(most):
+            return None
+        low, high = 1e-6 * most, most
+        while high > 1.001 * low:
+            middle = math.sqrt(low * high)
+            low, high = (low, middle) if helps(middle) else (middle, high)
+        return cls(break_even_imbalance_g_mm=from_si(high, "g_mm"), level_db=levels(high)[0])
 
 
 @record

@@ -1,4 +1,4 @@
-"""First screen of `abu size`: verdict, what to make, levels, settling times, actions, data gap, next commands."""
+"""First screen of `abu size`: verdict, what to make, levels, quiet times, actions, data gap, next commands."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -180,7 +180,7 @@ def _most(result: SizeResult, code: str) -> str:
 
 
 def numbers_that_matter(result: SizeResult) -> list[Block]:
-    """Levels and settling times, case by case, with limit and grade."""
+    """Levels and quiet times, case by case, with limit and grade."""
     numbers = {check.code: k for k, alike in enumerate(unlike(result.checks), 1) for check in alike}
     checks = {check.code: check for check in result.checks}
     levels, settling = _levels(result, checks, numbers), _settling(result, checks, numbers)
@@ -188,7 +188,7 @@ def numbers_that_matter(result: SizeResult) -> list[Block]:
     vibration = _table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels)
     tables = [_with_weighted(vibration, result.vibration), *handle_tables(result, numbers)]
     if settling:
-        tables.append(_table("Settling time, s", "time", settling))
+        tables.append(_table("Quiet time, s", "time", settling))
     return [block for table in tables for block in (BLANK, table)]
 
 
@@ -313,11 +313,15 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
         label = f"  loudest of {many(further.members, 'further start case')}"
         cases.append(judged(label, further.level_db, decides=False))
     if vibration.worst_arrangement is not None:
-        label = "  worst friction case"
+        told = result.friction_bound
+        label = "  bound of friction" + (f": {told.reached_within_1_db} of {told.runs} runs near" if told else "")
         worst, upright = vibration.worst_arrangement, vibration.worst_arrangement_vertical
-        cases.append(judged(label, worst.level_after_db, decides=False))
+        cases.append(TableCase(label, _db(worst.level_after_db)))
         if upright is not None and upright.level_after_db >= worst.level_after_db + TENTH:
             cases.append(TableCase("    spindle held vertical", _db(upright.level_after_db)))
+    if (new := result.new_wheel) is not None:
+        least = number(new.break_even_imbalance_g_mm, 3)
+        cases.append(TableCase(f"New wheel: balls help above {least} g·mm", _db(new.level_db)))
     return [*cases, *_at_idle_speed(result), *_measured(result), *_under_load(result.vibration_loaded)]
 
 
@@ -378,7 +382,7 @@ def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[
     def judged(label: str, time: float | None, *, decides: bool) -> TableCase:
         return TableCase(label, _seconds(time), *_graded(time, check, numbers, decides=decides))
 
-    cases = [judged("Median of the start cases", many_starts.settling_time_s.typical, decides=True)]
+    cases = [judged("Median of the start cases", many_starts.quiet_time_s.typical, decides=True)]
     by_drag: dict[float, list[SettlingOfStart]] = {}
     for entry in many_starts.settling_by_start:
         by_drag.setdefault(entry.drag_per_s, []).append(entry)
@@ -393,10 +397,13 @@ def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[
         slowest = slowest_by_drag[drag]
         oil = oils[0] if drag == given else oils[1] if drag < given else oils[2]
         label = f"Slowest, drag rate {number(drag, 3)} 1/s {oil}: {slowest.start}"
-        cases.append(judged(label, slowest.settling_time_s, decides=drag == given))
+        cases.append(judged(label, slowest.quiet_time_s, decides=drag == given))
     return [
         *cases,
         *(judged(label, time, decides=False) for label, time in _late_ones(many_starts.further_starts, check)),
+        TableCase(
+            "Rest time: the balls keep their places, slowest start case", _seconds(many_starts.rest_time_s.worst)
+        ),
     ]
 
 
@@ -409,16 +416,16 @@ def _oils(result: SizeResult, given: str) -> tuple[str, str, str]:
 
 
 def _late_ones(further: FurtherStarts | None, check: Check | None) -> list[tuple[str, float | None]]:
-    """Settling times of further start cases that are over the limit, with their labels."""
+    """Quiet times of further start cases that are over the limit, with their labels."""
     if further is None or check is None or check.limit is None:
         return []
-    cases = [(f"Slowest of {many(further.members, 'further start case')}", further.settling_time_s),
-             ("One start case of 1000, estimated", further.rare_settling_time_s)]  # fmt: skip
+    cases = [(f"Slowest of {many(further.members, 'further start case')}", further.quiet_time_s),
+             ("One start case of 1000, estimated", further.rare_quiet_time_s)]  # fmt: skip
     return [(label, time) for label, time in cases if time is None or time > check.limit][:1]
 
 
 def _time_of(entry: SettlingOfStart) -> float:
-    return math.inf if entry.settling_time_s is None else entry.settling_time_s
+    return math.inf if entry.quiet_time_s is None else entry.quiet_time_s
 
 
 def action_groups(checks: Sequence[Check], in_tables: frozenset[int]) -> list[list[Paragraph]]:
@@ -446,16 +453,16 @@ def action_groups(checks: Sequence[Check], in_tables: frozenset[int]) -> list[li
 
 
 def gap_table(gaps: Sequence[DataGap]) -> list[Block]:
-    """Assumed values, ranked, with levels and settling at both ends of their usual range; nothing without any."""
+    """Assumed values, ranked, with levels and quiet times at both ends of their usual range; nothing without any."""
     if not gaps:
         return []
-    head = ("Data gap and its usual range", "expected, dB", "friction, dB", "settling, s")
+    head = ("Data gap and its usual range", "expected, dB", "friction, dB", "quiet time, s")
     rows = tuple(
         (
             f"{gap.key.rpartition('.')[2]} {_ends(gap.usual_range, '{:g}')}",
             _ends(gap.level_db, "{:.1f}"),
             _ends(gap.worst_friction_level_db, "{:.1f}"),
-            "" if gap.settling_time_s is None else _ends(gap.settling_time_s, "{:.2f}"),
+            "" if gap.quiet_time_s is None else _ends(gap.quiet_time_s, "{:.2f}"),
         )
         for gap in gaps
     )

@@ -67,7 +67,7 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
         return replace(
             check, status="warn", message=f"{check.message}. Further start cases without answer: {searched.lost}"
         )
-    limit = design.case.table.limits.settling_time_s
+    limit = design.case.table.limits.longest_quiet_time
     rare = check.code == "ABU702" and searched.outcomes and searched.foreseen > limit
     if not broken and not rare:
         return check
@@ -76,7 +76,7 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
     if not broken:
         share = (
             f"By the slowest of {len(searched.drawn)} start cases, one of {1 / RARE:.0f} takes "
-            f"{searched.foreseen:.3g} s (limit {limit:g} s). The slowest further start case settles in "
+            f"{searched.foreseen:.3g} s (limit {limit:g} s). The slowest further start case is quiet after "
             f"{worst.quiet_time_or_inf:.3g} s"
         )
     return replace(check, status="warn", message=f"{check.message}. {share}", remedy=check.remedy or NOT_TRIED)
@@ -85,9 +85,9 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
 def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str, str, str]]:
     """Code of each check that further start cases break or come near to, the worst case in words, options to repeat it.
 
-    The options are those of `abu simulate`. Settling times count, too, if one start case of 1000 would be late.
+    The options are those of `abu simulate`. Quiet times count, too, if one start case of 1000 would be late.
     """
-    limit = design.case.table.limits.settling_time_s
+    limit = design.case.table.limits.longest_quiet_time
     for code, (breaks, order, _) in BROKEN.items():
         broken = [outcome for outcome in searched.outcomes if breaks(outcome, design)]
         if broken or (code == "ABU702" and searched.outcomes and searched.foreseen > limit):
@@ -95,7 +95,7 @@ def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str,
 
 
 def _late(outcome: StartOutcome, design: Design) -> bool:
-    return outcome.quiet_time_or_inf > design.case.table.limits.settling_time_s
+    return outcome.quiet_time_or_inf > design.case.table.limits.longest_quiet_time
 
 
 def _loud(outcome: StartOutcome, design: Design) -> bool:
@@ -105,9 +105,9 @@ def _loud(outcome: StartOutcome, design: Design) -> bool:
 
 def _time_in_words(outcome: StartOutcome) -> str:
     return (
-        "never settle"
+        "are never quiet"
         if math.isinf(outcome.quiet_time_or_inf)
-        else f"settle too late, the slowest in {outcome.quiet_time_or_inf:.3g} s"
+        else f"are quiet too late, the slowest after {outcome.quiet_time_or_inf:.3g} s"
     )
 
 

@@ -170,7 +170,7 @@ def search(
         return _run(design, starts, accuracy, progress, workers)
 
     starts = list(design_part(design, 0))
-    found, asked, limit = run(starts), len(starts), design.case.table.limits.settling_time_s
+    found, asked, limit = run(starts), len(starts), design.case.table.limits.longest_quiet_time
     none_late = max(map(slowness, found), default=math.inf) <= limit
     seems_late = limit < SearchResult(found, listed=listed).foreseen <= NEAR * limit
     if none_late and (seems_late or every_part):
@@ -196,7 +196,7 @@ def search(
 
 def _doubtful(outcome: StartOutcome, design: Design) -> bool:
     """True if a start case near this one might exceed a limit."""
-    late = outcome.quiet_time_or_inf > HALF * design.case.table.limits.settling_time_s
+    late = outcome.quiet_time_or_inf > HALF * design.case.table.limits.longest_quiet_time
     return late or outcome.loudest > design.case.level_limit - MARGIN
 
 

@@ -47,8 +47,8 @@ def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
     """
     choices = [] if ensemble.worst is None else [("worst", ensemble.worst)]
     settled = sorted(
-        (start for start in ensemble.rated if math.isfinite(start.settling_time_or_inf)),
-        key=lambda start: start.settling_time_or_inf,
+        (start for start in ensemble.rated if start.balanced and math.isfinite(start.quiet_time_or_inf)),
+        key=lambda start: start.quiet_time_or_inf,
     )
     if settled:
         choices.append(("typical", settled[len(settled) // 2]))
@@ -62,7 +62,7 @@ def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
 
 
 def _slow(outcome: StartOutcome) -> tuple[bool, bool, float]:
-    return outcome.hanging, not outcome.balanced, outcome.settling_time_or_inf
+    return outcome.hanging, not outcome.balanced, outcome.quiet_time_or_inf
 
 
 def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[ReplayedStart]:
@@ -105,7 +105,7 @@ SAMPLES: Final = 250
 class StartView:
     """One start case as seen in the rotor.
 
-    `why`: worst, typical or nothing. `settling_time_s`: None if the balls do not settle. `stalled`: whether balls do.
+    `why`: worst, typical or nothing. `quiet_time_s`: None if it is never quiet. `stalled`: whether balls do.
     `angles_deg`: angles of the balls from the imbalance, if the file or the search places them.
     """
 
@@ -114,7 +114,7 @@ class StartView:
     drag_per_s: float
     race_centre_deg: float
     angles_deg: tuple[float, ...]
-    settling_time_s: float | None
+    quiet_time_s: float | None
     level_db: float
     balanced: bool
     stalled: bool
@@ -154,7 +154,7 @@ def _view(design: Design, start: ReplayedStart) -> StartView | None:
         drag_per_s=outcome.member.drag,
         race_centre_deg=outcome.member.race_centre_deg,
         angles_deg=tuple(from_si(angle, "deg") % 360 for angle in outcome.member.angles),
-        settling_time_s=outcome.settling_time if outcome.balanced else None,
+        quiet_time_s=outcome.quiet_time,
         level_db=outcome.level,
         balanced=outcome.balanced,
         stalled=outcome.hanging,
@@ -195,13 +195,15 @@ class WorstMember(Record):
 
 @record
 class SettlingOfStart(Record):
-    """Settling time of one kind of start at one drag, from full speed: with the race off to the slower side.
+    """Times of one kind of start at one drag, from full speed: with the race off to the slower side.
 
-    `race_centre_deg`: that side, the angle of the race's centre from the imbalance. None: it never settles.
+    `race_centre_deg`: that side, the angle of the race's centre from the imbalance. None: never.
     """
 
     start: Annotated[str, Quantity("start")]
     drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
+    quiet_time_s: Annotated[float | None, Quantity("quiet time", "t_q", 3)]
+    rest_time_s: Annotated[float | None, Quantity("rest time", "t_r", 3)]
     settling_time_s: Annotated[float | None, Quantity("settling time", "t_s", 3)]
     race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
@@ -211,11 +213,11 @@ class SettlingOfStart(Record):
         slowest: dict[tuple[str, float], StartOutcome] = {}
         for outcome in ensemble.outcomes:
             key = outcome.member.name, outcome.member.drag
-            slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("settling_time_or_inf"))
+            slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("quiet_time_or_inf"))
         return tuple(
             cls(
-                start=start, drag_per_s=drag, settling_time_s=finite(outcome.settling_time_or_inf),
-                race_centre_deg=outcome.member.race_centre_deg,
+                start=start, drag_per_s=drag, quiet_time_s=outcome.quiet_time, rest_time_s=outcome.rest_time,
+                settling_time_s=finite(outcome.settling_time_or_inf), race_centre_deg=outcome.member.race_centre_deg,
             )
             for (start, drag), outcome in slowest.items()
         )  # fmt: skip
@@ -234,13 +236,15 @@ class RepeatedStart(Record):
 class FurtherStarts(Record):
     """Start cases at the given drag rate beside the listed ones, looked for where they are worst; they only warn.
 
-    A time of None: it never settles. `rare_settling_time_s`: one start case of 1000 takes longer, by the tail of the
-    settling times of those that no result chose.
+    A time of None: never. `rare_quiet_time_s`: one start case of 1000 takes longer, by the tail of the quiet times of
+    those that no result chose.
     """
 
     members: Annotated[int, Quantity("further start cases")]
-    settling_time_s: Annotated[float | None, Quantity("slowest of them", "t_s", 3)]
-    rare_settling_time_s: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_s", 3)]
+    quiet_time_s: Annotated[float | None, Quantity("slowest of them", "t_q", 3)]
+    rest_time_s: Annotated[float | None, Quantity("longest rest time of them", "t_r", 3)]
+    settling_time_s: Annotated[float | None, Quantity("longest settling time of them", "t_s", 3)]
+    rare_quiet_time_s: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_q", 3)]
     level_db: Annotated[float, Quantity("loudest of them", "L")]
     repeats: tuple[RepeatedStart, ...] = ()
 
@@ -251,8 +255,10 @@ class FurtherStarts(Record):
             return None
         return cls(
             members=len(searched.outcomes),
+            quiet_time_s=finite(max(outcome.quiet_time_or_inf for outcome in searched.outcomes)),
+            rest_time_s=finite(max(outcome.rest_time_or_inf for outcome in searched.outcomes)),
             settling_time_s=finite(max(outcome.settling_time_or_inf for outcome in searched.outcomes)),
-            rare_settling_time_s=finite(searched.foreseen),
+            rare_quiet_time_s=finite(searched.foreseen),
             level_db=max(outcome.loudest for outcome in searched.outcomes),
             repeats=tuple(
                 RepeatedStart(check=code, which=which, options=options)
@@ -268,6 +274,8 @@ class EnsembleResult(Record):
     members: Annotated[int, Quantity("start cases")]
     balanced: Annotated[int, Quantity("that balance")]
     hanging: Annotated[int, Quantity("with stalled balls")]
+    quiet_time_s: Annotated[Spread, Quantity("quiet time", "t_q")]
+    rest_time_s: Annotated[Spread, Quantity("rest time", "t_r")]
     settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
     level_db: Annotated[Spread, Quantity("level", "L")]
     residual_um: Annotated[Spread, Quantity("residual", "w")]
@@ -290,6 +298,8 @@ class EnsembleResult(Record):
         return cls.read(
             ensemble,
             hanging=len(ensemble.hanging),
+            quiet_time_s=Spread.of(ensemble, lambda outcome: outcome.quiet_time_or_inf),
+            rest_time_s=Spread.of(ensemble, lambda outcome: outcome.rest_time_or_inf),
             settling_time_s=Spread.of(ensemble, lambda outcome: outcome.settling_time_or_inf),
             level_db=Spread.of(ensemble, lambda outcome: outcome.level),
             residual_um=Spread.of(ensemble, lambda outcome: from_si(outcome.residual, "um")),

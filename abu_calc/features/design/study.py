@@ -19,14 +19,16 @@ from abu_calc.features.design.records import (
     DrawingLine,
     Eccentricity,
     Frequency,
+    FrictionBound,
     IdleSpeedLevels,
+    NewWheel,
     Section,
     Vibration,
 )
 from abu_calc.features.design.region import true_region
 from abu_calc.features.design.searched_checks import start_checks
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
-from abu_calc.features.design.verification import proven
+from abu_calc.features.design.verification import Proven, proven
 from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
@@ -165,6 +167,8 @@ class SizeResult(Result):
     accuracy_budget: AccuracyBudget
     vibration: Vibration
     vibration_loaded: Vibration | None
+    friction_bound: FrictionBound | None
+    new_wheel: NewWheel | None
     measured_after: MeasuredAfterRecord | None
     oil: OilRecord | None
     ensemble: EnsembleResult | None
@@ -318,6 +322,8 @@ def size(
             level_where_measured(design, work.moved) if isinstance(work, Work) else None,
         ),
         oil=OilRecord.of(design),
+        friction_bound=FrictionBound.of(design, (outcome.level for outcome in _outcomes(tried))),
+        new_wheel=NewWheel.of(design),
         ensemble=None
         if tried.ensemble is None
         else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
@@ -549,12 +555,18 @@ def _on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress
     return () if check is None else (check,)
 
 
+def _outcomes(tried: Proven) -> Iterator[StartOutcome]:
+    """Every start case that was simulated."""
+    yield from () if tried.ensemble is None else tried.ensemble.outcomes
+    yield from () if tried.searched is None else tried.searched.outcomes
+
+
 def _other_drags(ensemble: Ensemble | None, run: SceneRun) -> tuple[SettlingEstimate, ...] | None:
-    """Settling of the idle scene's start at the other drags of the ensemble; None for other scenes, or without one."""
+    """Times of the idle scene's start at the other drags of the ensemble; None for other scenes, or without one."""
     if run.ledger.scene.name != "idle" or ensemble is None:
         return None
     return tuple(
-        SettlingEstimate(drag_per_s=row.drag_per_s, settling_time_s=row.settling_time_s)
+        SettlingEstimate.read(row)
         for row in SettlingOfStart.all_of(ensemble)
         if row.start == IDLE_START and row.drag_per_s != ensemble.drag
     )

@@ -59,7 +59,7 @@ REPEAT = "`abu simulate {file} --start spread --race-centre 0` repeats one liste
 GAPS = (
     "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the "
     "three assumed values that most move the verdict, for the balls and the race of this design. Levels are "
-    "calculated, as expected and in the worst friction case. The settling time is simulated, for the start case that "
+    "calculated, as expected and by the bound of friction. The quiet time is simulated, for the start case that "
     "is slowest as the file stands. At other drag rates it is that of the slowest start case there. Usual ranges are "
     "engineering practice (unverified)."
 )
@@ -133,7 +133,8 @@ def _ensemble(result: SizeResult) -> list[Block]:
     if many is None:
         return []
     spreads = (
-        ("settling time", many.settling_time_s, "s"),
+        ("quiet time", many.quiet_time_s, "s"),
+        ("rest time", many.rest_time_s, "s"),
         ("level", many.level_db, "dB"),
         ("residual", many.residual_um, "µm"),
     )
@@ -142,7 +143,7 @@ def _ensemble(result: SizeResult) -> list[Block]:
         Heading("Start cases", "many-starts"),
         facts(many, "members", "balanced", "hanging"),
         Grid(("", "median at rated speed", "largest of all", ""), rows, frozenset({1, 2})),
-        Heading("Settling time in s, by start case and drag rate, slower side of the race"),
+        Heading("Quiet time in s, by start case and drag rate, slower side of the race"),
         _ways(many.settling_by_start),
         *map(Paragraph, _ways_in_words(result.oil)),
         Paragraph(REPEAT.format(file=file_of(result))),
@@ -182,13 +183,13 @@ def _data_gaps(result: SizeResult) -> list[Block]:
     return [Heading("Data gaps", "data-gaps"), *table, Paragraph(GAPS)] if table else []
 
 
-def _ways(settling_times: Sequence[SettlingOfStart]) -> Grid:
+def _ways(entries: Sequence[SettlingOfStart]) -> Grid:
     """A row for each kind of start, a column for each drag, ascending."""
-    drags = sorted({entry.drag_per_s for entry in settling_times})
-    times = {(entry.start, entry.drag_per_s): entry.settling_time_s for entry in settling_times}
+    drags = sorted({entry.drag_per_s for entry in entries})
+    times = {(entry.start, entry.drag_per_s): entry.quiet_time_s for entry in entries}
     rows = tuple(
         (start, *(_or_never(times[start, drag]) if (start, drag) in times else "" for drag in drags))
-        for start in dict.fromkeys(entry.start for entry in settling_times)
+        for start in dict.fromkeys(entry.start for entry in entries)
     )
     return Grid(("", *(f"{number(drag, 3)} 1/s" for drag in drags)), rows, frozenset(range(1, len(drags) + 1)))
 
@@ -311,16 +312,16 @@ def _scene(scene: SimulatedScene, case: str) -> list[Block]:
     """Outcome of one scene; `case`: the start case from which every scene begins."""
     cost, angles = scene.cost, ", ".join(f"{angle:.1f}°" for angle in scene.final.ball_angles_deg)
     work = f"{cost.integrator}, tolerance {cost.tolerance:g}, {cost.evaluations} evaluations"
-    settling_time = facts(scene, "settling_time_s").rows
-    named = tuple((f"{label}, {case}", symbol, value) for label, symbol, value in settling_time)
+    times = facts(scene, "quiet_time_s", "rest_time_s").rows
+    named = tuple((f"{label}, {case}", symbol, value) for label, symbol, value in times)
     others = tuple(
         (
-            f"settling time, {start_case(IDLE_START, 0.0, other.drag_per_s)}",
+            f"quiet time, {start_case(IDLE_START, 0.0, other.drag_per_s)}",
             "",
-            value_of(other, "settling_time_s"),
+            value_of(other, "quiet_time_s"),
         )
         for other in scene.settling_estimates or ()
-        if other.settling_time_s is not None
+        if other.quiet_time_s is not None
     )
     return [
         Heading(f"Simulation: {scene.scene}", f"simulation-{scene.scene}"),

@@ -11,7 +11,7 @@ from abu_calc.simulation.records import EffectEntry
 
 INFLUENCE: Final = (
     "The estimated influence says how much the result would change without the effect, in the measure of --accuracy. "
-    "That is the largest of three: relative change of the spindle displacement, relative change of the settling time, "
+    "That is the largest of three: relative change of the spindle displacement, relative change of the times, "
     "change of a ball angle in rad. The displacement counts relative to 1 % of that without balls if it is smaller. "
     "The weakest effects are left out while their influences together stay below half the accuracy. An effect "
     "without an estimate is simulated."

@@ -281,7 +281,13 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "simulation": Step(
         "Simulation",
-        ("formulas.motion:equations", "formulas.motion:settling_time", "formulas.motion:simulate"),
+        (
+            "formulas.motion:equations",
+            "formulas.motion:quiet_time",
+            "formulas.motion:rest_time",
+            "formulas.motion:settling_time",
+            "formulas.motion:simulate",
+        ),
     ),
 }
 """Steps in the order of the pipeline."""

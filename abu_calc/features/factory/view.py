@@ -179,8 +179,8 @@ def _soft_races(races: Sequence[SoftRaceLevel]) -> list[Block]:
 
 DEVICES = (
     "Balls as built, the rest as in the file; in brackets: published. The source gives no bore, wall or start. Slim: "
-    "bore Ø16, walls of 2 mm. Required: in the state named, without margin. Never: from a start case the balls do not "
-    "settle."
+    "bore Ø16, walls of 2 mm. Required: in the state named, without margin. Quiet: until the level stays low. "
+    "Settling: until the imbalance left stays near its end. Never: from a start case it does not."
 )
 
 
@@ -190,8 +190,9 @@ def _devices(numbers: Sequence[DeviceNumber]) -> list[Block]:
         return []
     columns = {(row.short, row.balls, row.state): dict[str, str]() for row in numbers}
     for row in numbers:
-        published = "" if row.published is None else f" ({'< ' if 'settling' in row.quantity else ''}{row.published:g})"
-        missing = "never" if "settling" in row.quantity else "–"
+        time = row.quantity.endswith(", s")
+        published = "" if row.published is None else f" ({'< ' if time else ''}{row.published:g})"
+        missing = "never" if time else "–"
         predicted = missing if row.predicted is None else number(row.predicted, 3)
         columns[row.short, row.balls, row.state][row.quantity] = predicted + published
     rows = [("balls, Ø mm", *(key[1] for key in columns)), ("enough for", *(key[2] for key in columns))]

@@ -73,7 +73,7 @@ def simulate(
     most_evaluations: MostEvaluations = None,
     audit: Audit = False,
 ) -> Outcome:
-    """Simulate one scene: amplitude, level, settling time, ball angles."""
+    """Simulate one scene: amplitude, level, quiet and rest time, ball angles."""
     from abu_calc.features.simulate.study import simulate as study
     from abu_calc.features.simulate.view import TrajectoryCsv
     from abu_calc.inputs.scene import read_any

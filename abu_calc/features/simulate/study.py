@@ -1,4 +1,4 @@
-"""One scene integrated: amplitude, level, settling time, final places of the balls, and how sure that is.
+"""One scene integrated: amplitude, level, quiet and rest time, final places of the balls, and how sure that is.
 
 `SampledMotion` holds the motion of a scene at equally spaced times.
 """
@@ -164,7 +164,7 @@ class SimulateResult(SimulatedScene, Result):
 
 
 FOLLOWED: Final = ("idle", "run-up", "swing-arm-idle")
-"""Scenes of a machine that are followed until their balls are at rest, as far as settling matters."""
+"""Scenes of a machine that are followed until their balls are at rest, as far as that matters."""
 
 
 @checked
@@ -184,7 +184,7 @@ def simulate(
     most_evaluations: int | None = None,
     progress: Progress = silent,
 ) -> SimulateResult:
-    """Integrate one scene to `accuracy`: of amplitude and settling time relative, of ball angles in rad.
+    """Integrate one scene to `accuracy`: of amplitude and times relative, of ball angles in rad.
 
     `scene` and `start` choose among those of a machine (idle; balls bunched), `race_centre_deg` the side to which its
     race is off (180 from the imbalance). The effects there is data for are in as
@@ -207,11 +207,12 @@ def simulate(
     try:
         ledger, run = simulate_chosen(ledger, accuracy, times, most_evaluations, integrator, progress)
         longest = _followed_until(subject, run) if duration_s is None else None
-        if longest is not None:
+        while longest is not None:
             subject = subject.lasting(longest)
             times = equally_spaced(subject.scene, samples)
             ledger = subject.ledger(accuracy, with_effects, without_effects)
             ledger, run = simulate_chosen(ledger, accuracy, times, most_evaluations, integrator, progress)
+            longest = _followed_until(subject, run)
         audited = None
         if audit:
             audited = with_all_effects(subject.scene, ledger, run, accuracy, most_evaluations, integrator, progress)
@@ -312,9 +313,9 @@ def _handles(subject: Subject, response: Response) -> tuple[SimulatedLevel, ...]
 
 
 def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
-    message = "two runs, a decade of tolerance apart, agree in amplitude, settling time and ball angles"
+    message = "two runs, a decade of tolerance apart, agree in amplitude, times and ball angles"
     if run.rung == "envelope":
-        message = "averages of two orders, and what both leave out, agree in amplitude, settling time and ball angles"
+        message = "averages of two orders, and what both leave out, agree in amplitude, times and ball angles"
     message += f"; the effects left out change these by at most {spared:.2g}" if spared else ""
     error = run.error_estimate + spared
     if error <= accuracy:
@@ -326,7 +327,7 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
 
 
 def _left_out(audited: EffectAudit, accuracy: float) -> Check:
-    message = "with every effect in, amplitude, settling time and ball angles differ by no more than the accuracy"
+    message = "with every effect in, amplitude, times and ball angles differ by no more than the accuracy"
     remedy = "Ask for more accuracy, or take effects in: --with EFFECT, Python: with_effects=."
     held = audited.difference <= accuracy
     return Check("ABU803", "effects left out", verdict(held), message, audited.difference, accuracy, None,

@@ -35,8 +35,9 @@ from abu_calc.sizing.case import WHEEL_PLANE
 CONVENTIONS = (
     "Amplitudes are 0–peak over the last twentieth of the run, about the mean place. Velocities are rms, the larger of "
     "x and y; levels are 20 lg(v / 5e-8 m/s). Ball angles count in the rotor from its zero mark (of a machine: the "
-    "imbalance) in the sense of rotation. Ball speeds are relative to the race. Settled: the remaining imbalance stays "
-    "near its final value. The settling time counts from full speed."
+    "imbalance) in the sense of rotation. Ball speeds are relative to the race. Quiet: from then on "
+    "the level stays at or below its limit and below the level without balls; without a limit, within 1 dB of the end. "
+    "At rest: from then on the imbalance in the rotor stays near that of the end. Times count from full speed."
 )
 UNJUDGED: Final = "NO LIMITS for this scene: only the accuracy is checked (reached)"
 UNDER_LOAD: Final = "Under load the level is not checked: the limit of the file is for idling."
@@ -45,6 +46,10 @@ MOTION = (
     *(
         "duration_s",
         "full_speed_s",
+        "quiet_time_s",
+        "quiet_time_range_s",
+        "rest_time_s",
+        "rest_time_range_s",
         "settling_time_s",
         "residual_imbalance_g_mm",
         "axis_amplitude_mm",
@@ -109,17 +114,19 @@ def _origin(result: SimulateResult) -> str:
 
 
 def _numbers(result: SimulateResult) -> Grid:
-    """Amplitude, levels, settling, error, each with its limit."""
+    """Amplitude, levels, times, error, each with its limit."""
     limits = {check.code: limit_in_file(check) for check in result.checks}
     bearings = result.bearing_amplitudes_mm is not None
     names = [hand.name for hand in result.handles or ()]
     held = [f"level, {name}" for name in ([WHEEL_PLANE] if WHEEL_PLANE in names else names)]
     before = value_of(result, "unbalanced_amplitude_mm")
+    since = "" if result.full_speed_s is None else ", from full speed"
     rows = (
         ("spindle amplitude", before, value_of(result, "axis_amplitude_mm"), ""),
         *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
         *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
-        (*_settling(result), limits.get("ABU702", "")),
+        (f"quiet time{since}", "", _quiet(result), limits.get("ABU702", "")),
+        (f"rest time{since}", "", _rested(result), ""),
         ("error estimate", "", value_of(result, "error_estimate"), limits.get("ABU801", "")),
     )  # fmt: skip
     if _pressed(result):
@@ -127,10 +134,14 @@ def _numbers(result: SimulateResult) -> Grid:
     return Grid(("", "without balls", "with balls", "limit"), rows, frozenset({1, 2}))
 
 
-def _settling(result: SimulateResult) -> tuple[str, str, str]:
-    """The settling time, from full speed if that is reached later than at the start."""
-    label = "settling time" if result.full_speed_s is None else "settling, from full speed"
-    return (label, "", "not settled" if result.settling_time_s is None else value_of(result, "settling_time_s"))
+def _quiet(result: SimulateResult) -> str:
+    return "never" if result.quiet_time_s is None else value_of(result, "quiet_time_s")
+
+
+def _rested(result: SimulateResult) -> str:
+    if result.rest_time_s is None:
+        return "still creeping" if result.creeping else "not yet"
+    return value_of(result, "rest_time_s")
 
 
 def _about(result: SimulateResult) -> list[Block]:
@@ -141,13 +152,10 @@ def _about(result: SimulateResult) -> list[Block]:
 
 
 def _sentence(result: SimulateResult) -> str:
-    settled = result.settling_time_s is not None
-    when = "not settled by the end"
-    if settled and result.full_speed_s is not None:
-        reached = f"full speed, which is reached at {value_of(result, 'full_speed_s')}"
-        when = f"settled {value_of(result, 'settling_time_s')} after {reached}"
-    elif settled:
-        when = f"settled in {value_of(result, 'settling_time_s')}"
+    when = "not quiet by the end" if result.quiet_time_s is None else f"quiet after {_quiet(result)}"
+    if result.quiet_time_s is not None and result.full_speed_s is not None:
+        when += f" at full speed, which is reached at {value_of(result, 'full_speed_s')}"
+    when += ", the balls still creep" if result.creeping else ""
     before, after = (value_of(result, name) for name in ("unbalanced_amplitude_mm", "axis_amplitude_mm"))
     bare = "without balls off the workpiece" if _pressed(result) else "without balls"
     return f"Spindle amplitude at the end {after}, {before} {bare}; {when}."
@@ -269,17 +277,16 @@ def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
     caption += "" if measured is None else " Lozenge: as measured with the autobalancer."
     yield Figure("level", SECTION, level(view, limit, measured), caption)
     if view.speed_rpm is not None:
-        caption = "Speed of the rotor: the balls settle at full speed."
+        caption = "Speed of the rotor: times count from full speed."
         yield Figure("run-up", SECTION, run_up(view, view.speed_rpm), caption)
         yield from amplitude_figure(result.run.scene, SECTION)
 
 
 def _final_numbers(result: SimulateResult) -> tuple[str, ...]:
-    """Values of settling and accuracy for this result."""
-    settled = result.settling_time_s
+    """Values of the times and of accuracy for this result."""
     since = "" if result.full_speed_s is None else f", from full speed at {number(result.full_speed_s)} s"
     return (
-        f"settling time{since}: {'none' if settled is None else f'{number(settled)} s'}, remaining imbalance "
+        f"quiet time{since}: {_quiet(result)}, rest time: {_rested(result)}, remaining imbalance "
         f"{number(result.residual_imbalance_g_mm)} g·mm",
         f"error estimate {number(result.error_estimate, 2)}, by {result.cost.integrator} at tolerance "
         f"{result.cost.tolerance:g}",

@@ -57,7 +57,12 @@ class SampleColumn:
 
 
 LEVEL: Final = SampleColumn("level_db", "velocity level, idle, at the loudest handle")
-SETTLING: Final = SampleColumn("settling_time_s", "until the balls stay where they end, of a run-up from full speed on")
+QUIET: Final = SampleColumn("quiet_time_s", "from full speed until the level stays low")
+TIMES: Final = (
+    QUIET,
+    SampleColumn("rest_time_s", "from full speed until the balls keep their places"),
+    SampleColumn("settling_time_s", "from full speed until what is left stays near its end"),
+)
 LEFT: Final = SampleColumn("residual_imbalance_g_mm", "what balls leave of the imbalance")
 BALANCES: Final = SampleColumn("balances", "1: the balls rest in their race, and what they leave is allowed")
 MEETS: Final = SampleColumn("meets_limits", "1: it meets all of the limits")
@@ -75,7 +80,7 @@ IMPATIENT: Final = OUTSIDE + "the seconds of --patience were over"
 QUANTITIES: Final[dict[What, tuple[SampleColumn, ...]]] = {
     "build": (
         LEVEL,
-        SETTLING,
+        *TIMES,
         SampleColumn("residual_um", "amplitude of the axis that stays"),
         LEFT,
         SampleColumn("capacity_ratio", "capacity over need"),
@@ -83,7 +88,7 @@ QUANTITIES: Final[dict[What, tuple[SampleColumn, ...]]] = {
     "design": (
         SampleColumn("level_after_db", "level with the autobalancer, as expected"),
         SampleColumn("worst_level_db", "of the loudest start"),
-        SampleColumn("worst_settling_time_s", "of the slowest start"),
+        *(SampleColumn(f"worst_{column.name}", "of the slowest start") for column in TIMES),
         SampleColumn("ball_count", "balls"),
         SampleColumn("ball_diameter_mm", "their diameter"),
         SampleColumn("race_radius_mm", "radius of the race"),
@@ -92,7 +97,7 @@ QUANTITIES: Final[dict[What, tuple[SampleColumn, ...]]] = {
     ),
     "scene": (
         LEVEL,
-        SETTLING,
+        *TIMES,
         SampleColumn("axis_amplitude_mm", "amplitude of the axis that stays"),
         LEFT,
     ),
@@ -104,7 +109,7 @@ FLAGS: Final[dict[What, tuple[SampleColumn, ...]]] = {
         BALANCES,
         SampleColumn("none_hangs", "1: no ball goes round behind the rotor at the end"),
         SampleColumn("meets_level", "1: the level is within limits.vibration_level_db"),
-        SampleColumn("meets_settling", "1: it balances within limits.settling_time_s"),
+        SampleColumn("meets_settling", "1: it is quiet within limits.quiet_time_s"),
         MEETS,
     ),
     "design": (MEETS,),

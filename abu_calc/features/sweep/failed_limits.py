@@ -1,6 +1,6 @@
 """Values that decide whether a limit fails: sensitivity of the limit's margin, and where among a value failures lie.
 
-The margin of the level is limit − level [dB], that of the settling time ln(limit/time); samples that never settle take
+The margin of the level is limit − level [dB], that of the quiet time ln(limit/time); samples that are never quiet take
 twice the longest time. For balancing and stalling no margin is stored: there the answer itself, 1 or 0, counts. Where
 failures lie is told by comparing failing with passing samples (Spear & Hornberger 1980, Water Res. 14(1), 43).
 """
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.features.sweep.answers import parts_of
-from abu_calc.features.sweep.columns import FLAGS, LEVEL, SETTLING
+from abu_calc.features.sweep.columns import FLAGS, LEVEL, QUIET
 from abu_calc.features.sweep.result import DecidingValue, FailedLimit, MeetsLimits
 from abu_calc.features.sweep.sampling import BLOCK, Factor, Sample, block
 from abu_calc.features.sweep.sensitivity import RegressionSums
@@ -42,7 +42,7 @@ def failed_limits(
 
 def _samples(store: Store, sample: Sample) -> tuple[Array, dict[str, Array]]:
     """Places of all samples in the distributions, and their numbers and flags; NaN where one is none."""
-    names = [LEVEL.name, SETTLING.name, *(column.name for column in FLAGS["build"])]
+    names = [LEVEL.name, QUIET.name, *(column.name for column in FLAGS["build"])]
     numbers, places = list[Array](), list[Array]()
     for members, columns in parts_of(store, names):
         its = np.empty((len(members), len(sample.factors)))
@@ -76,8 +76,8 @@ def _level(columns: Mapping[str, Array], limits: Mapping[str, float], _: str) ->
     return limits[LEVEL.name] - columns[LEVEL.name]
 
 
-def _settling(columns: Mapping[str, Array], limits: Mapping[str, float], _: str) -> Array:
-    times, limit = columns[SETTLING.name], limits[SETTLING.name]
+def _quiet(columns: Mapping[str, Array], limits: Mapping[str, float], _: str) -> Array:
+    times, limit = columns[QUIET.name], limits[QUIET.name]
     longest = max(limit, float(np.nanmax(times)) if np.isfinite(times).any() else 0.0)
     times = np.clip(np.where(np.isfinite(times), times, 2 * longest), 1e-3 * limit, None)
     return np.asarray(math.log(limit) - np.log(times))
@@ -88,7 +88,7 @@ def _answer(columns: Mapping[str, Array], _: Mapping[str, float], name: str) -> 
 
 
 Margin = Callable[[Mapping[str, Array], Mapping[str, float], str], Array]
-MARGINS: Final[dict[str, Margin]] = {"meets_level": _level, "meets_settling": _settling}
+MARGINS: Final[dict[str, Margin]] = {"meets_level": _level, "meets_settling": _quiet}
 
 
 def _side(factor: Factor, places: Array, fails: NDArray[Any]) -> str:

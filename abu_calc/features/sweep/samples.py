@@ -137,10 +137,11 @@ class Builds(SweepStudy):
         lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
         outcome = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
         limits = table.limits
-        soon, quiet = outcome.settling_time_or_inf <= limits.settling_time_s, outcome.level <= limits.vibration_level_db
-        flags = outcome.balanced, not outcome.hanging, quiet, soon
+        soon, low = outcome.quiet_time_or_inf <= limits.longest_quiet_time, outcome.level <= limits.vibration_level_db
+        flags = outcome.balanced, not outcome.hanging, low, soon
         return (
-            outcome.level, outcome.settling_time, from_si(outcome.residual, "um"), from_si(outcome.imbalance, "g_mm"),
+            outcome.level, outcome.quiet_time, outcome.rest_time, outcome.settling_time,
+            from_si(outcome.residual, "um"), from_si(outcome.imbalance, "g_mm"),
             made.autobalancer.capacity_ratio, *flags, all(flags),
         )  # fmt: skip
 
@@ -167,9 +168,9 @@ class Designs(SweepStudy):
         """Numbers that `abu size` gives."""
         sizing = size(self.machine.changed({item.key: values[item.key] for item in self.sample.factors}), self.accuracy)
         design, many = sizing.autobalancer, sizing.ensemble
-        loudest, latest = (many.level_db.worst, many.settling_time_s.worst) if many else (None, None)
+        worst = (many.level_db, many.quiet_time_s, many.rest_time_s, many.settling_time_s) if many else ()
         return (
-            sizing.vibration.level_after_db, loudest, latest,
+            sizing.vibration.level_after_db, *((each.worst for each in worst) if worst else (None,) * 4),
             design.ball_count, design.ball_diameter_mm, design.race_radius_mm, design.mass_g, design.capacity_ratio,
             sizing.status == "pass",
         )  # fmt: skip
@@ -193,7 +194,8 @@ class Scenes(SweepStudy):
         run = scene_once(scene, TOLERANCE * self.accuracy)
         response = run.response
         return (
-            response.level, response.settling_time, from_si(response.axis_amplitude, "mm"),
+            response.level, response.quiet_time, response.rest_time, response.settling_time,
+            from_si(response.axis_amplitude, "mm"),
             from_si(response.residual_imbalance, "g_mm"), run.balanced, run.balanced,
         )  # fmt: skip
 

@@ -305,7 +305,7 @@ def _limits(plan: Plan) -> dict[str, float]:
     if limits is None:
         return {}
     level = limits.vibration_level_db
-    return {"level_db": level, "level_after_db": level, "settling_time_s": limits.settling_time_s}
+    return {"level_db": level, "level_after_db": level, "quiet_time_s": limits.longest_quiet_time}
 
 
 def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -> list[str]:
@@ -320,9 +320,9 @@ def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -
         notes.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
     if plan.study.what != "design":
         never = store.ask(
-            "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
+            "SELECT COUNT(*) FROM members WHERE reason IS NULL AND quiet_time_s IS NULL AND member < ?",
             (store.drawn,),
         )[0][0]
-        if never and quantities["settling_time_s"].mean is None:
-            notes.append(f"{never} samples never settle: they count as slowest, and the settling time has no mean.")
+        if never and quantities["quiet_time_s"].mean is None:
+            notes.append(f"{never} samples are never quiet: they count as slowest, and the quiet time has no mean.")
     return notes

@@ -3,6 +3,7 @@
 import cmath
 import math
 from collections.abc import Iterator, Mapping
+from operator import attrgetter
 from typing import Any, ClassVar, Final
 
 from abu_calc.features.design.study import size
@@ -76,14 +77,17 @@ class TwoRaceBuilds(SweepStudy):
         run = run_of(made, start, max(self.accuracy, ACCURACY))
         if isinstance(run, LostRun):
             raise NotTrustworthyError(run.reason)
-        limits, slow = made.case.table.limits, math.inf if run.settling_time is None else run.settling_time
+        limits, slow = made.case.table.limits, math.inf if run.quiet_time is None else run.quiet_time
         flags = (
-            run.balances, not run.stalls, run.level <= limits.vibration_level_db, slow <= limits.settling_time_s,
+            run.balances, not run.stalls, run.level <= limits.vibration_level_db, slow <= limits.longest_quiet_time,
         )  # fmt: skip
         return (
-            run.level, run.settling_time, from_si(max(run.race_displacements), "um"),
+            run.level, run.quiet_time, run.rest_time, run.settling_time, from_si(max(run.race_displacements), "um"),
             from_si(max(run.residuals), "g_mm"), capacity_ratio(made, start), *flags, all(flags),
         )  # fmt: skip
+
+
+TIMES: Final = tuple(map(attrgetter, ("quiet_time_s", "rest_time_s", "settling_time_s")))
 
 
 @dataclass(frozen=True)
@@ -101,7 +105,7 @@ class TwoRaceDesigns(SweepStudy):
         first, both, many = sizing.autobalancer, sizing.autobalancers, sizing.ensemble
         return (
             sizing.vibration.level_after_db, sizing.vibration.level_after_worst_db,
-            None if many is None else many.settling_time_s.worst, first.ball_count, first.ball_diameter_mm,
+            *(None if many is None else each(many).worst for each in TIMES), first.ball_count, first.ball_diameter_mm,
             first.race_radius_mm, sum(race.mass_g for race in both),
             min((race.capacity_ratio for race in both if race.capacity_ratio is not None), default=None),
             sizing.status == "pass",

@@ -119,7 +119,7 @@ LIMITS = {
     "balances": "balances",
     "none_hangs": "no ball stalls",
     "meets_level": "level within limit",
-    "meets_settling": "settling time within limit",
+    "meets_settling": "quiet time within limit",
     "meets_limits": "all limits",
 }
 LOOSE = "may be loosened"

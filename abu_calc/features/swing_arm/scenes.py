@@ -24,7 +24,7 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import ArmRepair, up
 
 LONGEST: Final = 3.0
-"""Settling times permitted: as long as a scene lasts at most."""
+"""Quiet times permitted: as long as a scene lasts at most."""
 
 TIMES: Final = (1.0, 2.0, 4.0)
 """Factors on the damping with which the arm comes to rest within the longest scene."""
@@ -53,11 +53,11 @@ def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress:
         return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, share, accuracy, progress))
     if last is None:
         return coded("ABU506", "pass", "The disk stays on its workpiece throughout", 0.0, 0.0, "%")
-    time, limit = run.simulation.response.settling_time, design.case.table.limits.settling_time_s
+    time, limit = run.simulation.response.quiet_time, design.case.table.limits.longest_quiet_time
     soon = time is not None and time <= limit
     message = f"The disk leaves its workpiece until {last:.3g} s. Then the bounds on the arm hold"
     if not soon:
-        message += f". The balls need more than the permitted {limit:g} s to settle there"
+        message += f". The machine needs more than the permitted {limit:g} s to become quiet there"
     return coded("ABU506", verdict(True, soon), message, 0.0, 0.0, "%")
 
 
@@ -91,7 +91,7 @@ def damping_to_simulate(
     values = {change.key: change.new for change in judged.changes}
     added = arm.inertia - table.moment_of_inertia_kg_m2
     inertia = values.get("moment_of_inertia_kg_m2", table.moment_of_inertia_kg_m2) + added
-    rate = DECAY_TIMES / (LONGEST * design.case.table.limits.settling_time_s)
+    rate = DECAY_TIMES / (LONGEST * design.case.table.limits.longest_quiet_time)
     old = values.get("joint_damping_N_s_per_m", table.joint_damping_N_s_per_m)
     for times in TIMES:
         new = up(times * 2 * inertia * rate / arm.length**2)

@@ -152,13 +152,13 @@ def tried_change(
 ) -> Action | None:
     """The first change at which every start case balances in time; None if none of those tried by this work does.
 
-    `late`: the slowest start case, which is tried first, `before`: its settling time [s] if it settles.
+    `late`: the slowest start case, which is tried first, `before`: its quiet time [s] if it has one.
     """
-    limit = design.case.table.limits.settling_time_s
+    limit = design.case.table.limits.longest_quiet_time
 
     def in_time(run: TwoRaceRun) -> bool:
         """True if the run balances within the limit."""
-        return run.balances and run.settling_time is not None and run.settling_time <= limit
+        return run.balances and run.quiet_time is not None and run.quiet_time <= limit
 
     mended = _mended(_quicker(design), late, in_time, accuracy, progress, workers, work)
     if mended is None or (slow := slowest(mended[1])) is None:

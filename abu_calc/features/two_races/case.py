@@ -275,7 +275,7 @@ def one_race_machine(case: TwoRaceCase, race: int, need: float, ball_mm: float |
                 **given, "max_mass_fraction": min(share, 1.0),
                 **({} if ball_mm is None else {"ball_diameter_mm": ball_mm}),
             },
-            "limits": {"vibration_level_db": limits.vibration_level_db, "settling_time_s": limits.settling_time_s},
+            "limits": {"vibration_level_db": limits.vibration_level_db, "quiet_time_s": limits.longest_quiet_time},
         }
     )  # fmt: skip
 

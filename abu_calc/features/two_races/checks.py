@@ -143,7 +143,7 @@ def level_checks(
     )  # fmt: skip
 
 
-OTHERWISE = "No drag rate and no larger ball that were tried help. Permit a longer settling time."
+OTHERWISE = "No drag rate and no larger ball that were tried help. Permit a longer quiet time."
 
 
 def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], action: Action | None) -> Iterator[Check]:
@@ -159,7 +159,7 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
             yield coded(code, "not-done", text, remedy=remedy)
         return
     known = [run for run in runs if isinstance(run, TwoRaceRun)]
-    given, limit = [run for run in known if run.case.drag_factor == 1], design.case.table.limits.settling_time_s
+    given, limit = [run for run in known if run.case.drag_factor == 1], design.case.table.limits.longest_quiet_time
     bad = [run for run in given if not run.balances]
     elsewhere = [run for run in known if not run.balances and run.case.drag_factor != 1]
     text = "Start cases in which both races balance, at the given drag rate"
@@ -174,7 +174,7 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
     all_in_time = slow_anywhere is not None and slow_anywhere[0] <= limit
     yield coded(
         "ABU702", verdict(in_time, all_in_time),
-        "Slowest start case at the given drag rate" + (f": {slow[1].case.name}" if slow else " does not settle")
+        "Slowest start case at the given drag rate" + (f": {slow[1].case.name}" if slow else " is never quiet")
         + ("" if all_in_time or slow_anywhere is None else f"; in hot or cold oil {slow_anywhere[0]:.2f} s"),
         None if slow is None else slow[0], limit, "s", None if in_time and all_in_time else action or OTHERWISE,
     )  # fmt: skip
@@ -215,8 +215,8 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
 
 
 def slowest(runs: Sequence[TwoRaceRun]) -> tuple[float, TwoRaceRun] | None:
-    """Longest settling time [s] and its run; None if one does not settle."""
-    if any(run.settling_time is None for run in runs):
+    """Longest quiet time [s] and its run; None if one is never quiet."""
+    if any(run.quiet_time is None for run in runs):
         return None
-    run = max(runs, key=lambda each: each.settling_time or 0.0)
-    return run.settling_time or 0.0, run
+    run = max(runs, key=lambda each: each.quiet_time or 0.0)
+    return run.quiet_time or 0.0, run

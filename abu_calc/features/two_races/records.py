@@ -93,6 +93,8 @@ class TwoRaceEnsemble(Record):
     balanced: Annotated[int, Quantity("that balance")]
     hanging: Annotated[int, Quantity("with stalled balls")]
     lost: Annotated[int, Quantity("without an answer")]
+    quiet_time_s: Annotated[TwoRaceSpread, Quantity("quiet time", "t_q")]
+    rest_time_s: Annotated[TwoRaceSpread, Quantity("rest time", "t_r")]
     settling_time_s: Annotated[TwoRaceSpread, Quantity("settling time", "t_s")]
     slowest: Annotated[str | None, Quantity("slowest start case")]
 

@@ -4,7 +4,7 @@ import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,8 @@ from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted
-from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
+from abu_calc.simulation.quiet import PER_TURN, last_crossing, turn_velocities
 from abu_calc.simulation.response import amplitude_window
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.simulate import simulate
@@ -46,13 +47,11 @@ RUN_UP: Final = 1.0
 """Run-up [s] of a file that gives none."""
 RESTITUTION: Final = 0.5
 LIMITS: Final = 4.0
-"""A scene lasts as many settling times permitted, from full speed."""
+"""A scene lasts as many quiet times permitted, from full speed."""
 STILL: Final = 0.05
 """Share of the rotor's speed: balls stall if their mean speed against the race stays above it."""
 SMALLEST: Final = 1e-12
 """Displacement [m] that counts as none."""
-PER_TURN: Final = 16
-"""Samples of a revolution."""
 ACCURACY: Final = 0.05
 """Accuracy of a start case: many of them are simulated."""
 MOST_WORK, MOST_ONE, AT_ONCE, MOST_LOST = 7_000_000, 2_000_000, 4, 2
@@ -92,10 +91,10 @@ class StartCase:
 
 @dataclass(frozen=True)
 class TwoRaceRun:
-    """Outcome of one start case [SI]: displacement 0–peak of each race and place, settling, slip of the balls.
+    """Outcome of one start case [SI]: displacement 0–peak of each race and place, times, slip of the balls.
 
     `balances`: every race rests below half its displacement without balls, or what eccentricity and friction may
-    leave, with all balls at rest. `settling_time` None: not within 95 % of the run.
+    leave, with all balls at rest. A time of None: not within 95 % of the run.
     """
 
     case: StartCase
@@ -103,6 +102,8 @@ class TwoRaceRun:
     displacements: tuple[float, ...]
     displacements_without: tuple[float, ...]
     settling_time: float | None
+    quiet_time: float | None
+    rest_time: float | None
     slip: float
     balances: bool
     speed: float
@@ -183,7 +184,7 @@ def scene_of(design: TwoRaceDesign, start: StartCase) -> Scene:
         imbalance=abs(static),
         imbalance_angle=cmath.phase(static) if static else 0.0,
         races=tuple(_race(design, k, start, wheels_share(design, k, start)) for k in (0, 1)),
-        duration=run_up + LIMITS * case.table.limits.settling_time_s,
+        duration=run_up + LIMITS * case.table.limits.longest_quiet_time,
         start_position=freedoms,
         start_velocity=freedoms,
         couple=abs(couple),
@@ -315,16 +316,21 @@ def _observed(design: TwoRaceDesign, start: StartCase, scene: Scene, accuracy: f
     slip = max(map(abs, speeds), default=0.0) / case.speed
     states, needs = run.trajectory.at(times), (wheels_share(design, 0, start), wheels_share(design, 1, start))
     left = residual_imbalances(scene, states, needs)
-    settled = settling_time(scene, states, needs)
-    settled = None if settled is None else settled * (1 + doubt)
+    at = [held.place for held in case.places]
+    without = tuple(abs(case.rotor.whirl(place, wheels, case.speed)) for place in at)
+    times_of = (
+        settling_time(scene, states, needs), quiet_time(scene, states, case, max(without)),
+        rest_time(scene, states, needs),
+    )  # fmt: skip
+    settled, quiet, rested = (None if time is None else time * (1 + doubt) for time in times_of)
     return TwoRaceRun(
         case=start,
         race_displacements=(ends[0], ends[1]),
-        displacements=tuple(
-            (1 + doubt) * _amplitude(scene, run.trajectory, window, held.place) for held in case.places
-        ),
-        displacements_without=tuple(abs(case.rotor.whirl(held.place, wheels, case.speed)) for held in case.places),
+        displacements=tuple((1 + doubt) * _amplitude(scene, run.trajectory, window, place) for place in at),
+        displacements_without=without,
         settling_time=settled,
+        quiet_time=quiet,
+        rest_time=rested,
         slip=slip,
         speed=case.speed,
         work=run.cost.work,
@@ -376,13 +382,42 @@ def settling_time(scene: Scene, states: Array, needs: tuple[complex, complex]) -
 
 def residual_imbalances(scene: Scene, states: Array, needs: tuple[complex, complex]) -> tuple[Array, Array]:
     """Residual imbalance [kg m] of each race at these states: |S_i + Σ m·R_p·e^{iθ}|."""
+    first, second = _left(scene, states, needs)
+    return np.abs(first), np.abs(second)
+
+
+def _left(scene: Scene, states: Array, needs: tuple[complex, complex]) -> tuple[Any, Any]:
+    """The same with its direction in the rotor."""
     first, found = 2 * len(scene.support.names), []
     for race, need in zip(scene.races, needs, strict=True):
         count = len(race.ball_masses)
         moments = np.array(race.ball_masses) * race.pitch_radius
-        found.append(np.abs(need + moments @ np.exp(1j * states[first : first + count])))
+        found.append(need + moments @ np.exp(1j * states[first : first + count]))
         first += count
     return found[0], found[1]
+
+
+def quiet_time(scene: Scene, states: Array, case: TwoRaceCase, without: float) -> float | None:
+    """Quiet time [s] from full speed: from then on the loudest place stays at or below the limit of the level, and
+    below its displacement [m] without balls.
+    """
+    size = len(scene.support.names)
+    limit = min(velocity_from_level(case.table.limits.vibration_level_db), without * case.speed / math.sqrt(2))
+    # The axis of a spindle that tilts is linear in its coordinates.
+    rates = [scene.support.axis(states[size : 2 * size], held.place) for held in case.places]
+    loudest = np.max([turn_velocities(rate) for rate in rates], axis=0)
+    return last_crossing(scene.revolution / PER_TURN * np.arange(len(loudest)), loudest, limit)
+
+
+def rest_time(scene: Scene, states: Array, needs: tuple[complex, complex]) -> float | None:
+    """Rest time [s] from full speed of the slower race: its imbalance, in the rotor, stays near that of the end."""
+    times: list[float | None] = []
+    for race, need, left in zip(scene.races, needs, _left(scene, states, needs), strict=True):
+        away = np.abs(left - left[-max(1, len(left) // 20) :].mean())
+        band = SETTLED * max(abs(need), HARDLY * race.static_moment)
+        times.append(last_crossing(scene.revolution / PER_TURN * np.arange(len(left)), away, band))
+    first, second = times
+    return None if first is None or second is None else max(first, second)
 
 
 def _end(residual: Array) -> float:

@@ -159,12 +159,12 @@ def _advice(
     design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int, work: int
 ) -> Action | None:
     """A drag rate that was tried, if a start case is late or does not balance."""
-    limit = design.case.table.limits.settling_time_s
-    late = [run for run in runs if not run.balances or run.settling_time is None or run.settling_time > limit]
+    limit = design.case.table.limits.longest_quiet_time
+    late = [run for run in runs if not run.balances or run.quiet_time is None or run.quiet_time > limit]
     if not late or patience.over():
         return None
     slow = slowest(runs)
-    first = slow[1] if slow is not None else next((run for run in late if run.settling_time is None), late[0])
+    first = slow[1] if slow is not None else next((run for run in late if run.quiet_time is None), late[0])
     return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers, work)
 
 
@@ -244,20 +244,25 @@ def _ensemble(runs: Sequence[TwoRaceRun | LostRun]) -> TwoRaceEnsemble | None:
     known = [run for run in runs if isinstance(run, TwoRaceRun)]
     if not known:
         return None
-    times = [run.settling_time for run in known]
-    settled = [time for time in times if time is not None]
     slow = slowest(known)
     return TwoRaceEnsemble(
         members=len(runs),
         balanced=sum(run.balances for run in known),
         hanging=sum(run.stalls for run in known),
         lost=len(runs) - len(known),
-        settling_time_s=TwoRaceSpread(
-            typical=statistics.median(settled) if len(settled) == len(times) else None,
-            worst=None if slow is None else slow[0],
-        ),
+        quiet_time_s=_spread([run.quiet_time for run in known]),
+        rest_time_s=_spread([run.rest_time for run in known]),
+        settling_time_s=_spread([run.settling_time for run in known]),
         slowest=None if slow is None else slow[1].case.name,
     )
+
+
+def _spread(times: Sequence[float | None]) -> TwoRaceSpread:
+    """Median and longest time [s]; None if one is none."""
+    known = [time for time in times if time is not None]
+    if len(known) < len(times):
+        return TwoRaceSpread(typical=None, worst=None)
+    return TwoRaceSpread(typical=statistics.median(known), worst=max(known))
 
 
 def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability], above: bool) -> TwoRaceFrequency:

@@ -32,7 +32,7 @@ def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
 
 
 def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
-    """The one screen: verdict, what to make, levels, settling, then checks that did not pass."""
+    """The one screen: verdict, what to make, levels, quiet time, then checks that did not pass."""
     return one_screen(result, (Heading(result.title), verdict_line(result)), (*_make(result), *_numbers(result)))
 
 
@@ -43,7 +43,7 @@ def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
         verdict_line(result),
         Heading("Make", "make"),
         *_make(result),
-        Heading("Vibration and settling", "vibration"),
+        Heading("Vibration and quiet time", "vibration"),
         *_numbers(result),
         *(block for index in range(len(result.autobalancers)) for block in _race(result, index)),
         Heading("Speeds", "frequency"),
@@ -91,13 +91,13 @@ def _numbers(result: TwoRaceSizeResult) -> list[Block]:
     meant = "Without autobalancers: worst phase. With them: median and loudest start case, any oil."
     blocks.append(Paragraph(f"{meant} Limit: {limit}." if limit else meant))
     if ensemble is not None:
-        spread = ensemble.settling_time_s
+        spread = ensemble.quiet_time_s
         unanswered = f"; {ensemble.lost} more gave no answer" if ensemble.lost else ""
         blocks += [
             Paragraph(""),
             Paragraph(
                 f"{ensemble.balanced} of {ensemble.members - ensemble.lost} start cases balance, over all phases of "
-                f"the imbalances, in hot and cold oil{unanswered}. Settling time: median "
+                f"the imbalances, in hot and cold oil{unanswered}. Quiet time: median "
                 f"{_or_dash(spread.typical, 2)} s, slowest {_or_dash(spread.worst, 3)} s"
                 f"{f' ({ensemble.slowest})' if ensemble.slowest else ''}."
             ),
