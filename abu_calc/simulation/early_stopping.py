@@ -44,17 +44,6 @@ RESTING: Final = 0.01
 RISE, FALL = 0.3, 0.1
 """Permitted rise and fall [dB] of the level from the first to the second half of the examined time."""
 
-STEEP_RISE, STEEP_FALL = 1.0, 0.3
-"""The same where balls creep on a way that changes no verdict."""
-
-
-@dataclass(frozen=True)
-class BalancePath:
-    """How far [kg m] the residual imbalance may yet fall and rise while balls creep to where they balance."""
-
-    down: float
-    up: float
-
 
 @dataclass(frozen=True)
 class Early:
@@ -62,14 +51,12 @@ class Early:
 
     `decided(response, creep, rise)`: True if a response can be judged although the residual imbalance may
     change by `creep` [kg m] and the level may rise [dB], both at their recent pace. Its settling time is
-    the latest possible one. `way(left, response)`: the way that balls which leave so much [kg m] have to where they
-    balance, None if it may change a verdict; `response(creep)` is the run's.
+    the latest possible one.
     """
 
     scene: Scene
     at_speed: float
     decided: Callable[[Response, float, float], bool]
-    way: Callable[[complex, Callable[[float], Response]], BalancePath | None] | None = None
 
     @cached_property
     def looks(self) -> tuple[float, ...]:
@@ -125,12 +112,6 @@ class Early:
     def enough(self, samples: Samples) -> bool:
         """True if no further motion will change the judged results."""
         creep, rise = self.moving(samples)
-        if not -STEEP_FALL <= rise <= STEEP_RISE:
-            return False
-        way = self.harmless(samples)
-        if way is not None:
-            earliest, latest = self.response(samples, -min(creep, way.up)), self.response(samples, way.down)
-            return self._same_times(earliest, latest)
         if creep > CREEP * reference_imbalance(self.scene) or not -FALL <= rise <= RISE:
             return False
         latest, earliest = self.response(samples, creep), self.response(samples, -creep)
@@ -157,26 +138,7 @@ class Early:
         end = float(samples.t[-1])
         if end == self.scene.duration:
             return 0.0
-        rise = 2 * (self.scene.duration - end) / (SEEN * (end - self.at_speed)) * max(self.moving(samples)[1], 0.0)
-        way = self.harmless(samples)
-        if way is None:
-            return rise
-        return min(rise, 20 * math.log10(1 + way.up / self.response(samples).residual_imbalance))
-
-    def harmless(self, samples: Samples) -> BalancePath | None:
-        """Path to where the balls balance if no verdict can change on it; None else, or if no way is known."""
-        if self.way is None:
-            return None
-        end = float(samples.t[-1])
-        if end not in self._paths:
-            left = complex(self._left(samples.y[:, -1:])[0])
-            self._paths[end] = self.way(left, lambda creep: self.response(samples, creep))
-        return self._paths[end]
-
-    @cached_property
-    def _paths(self) -> dict[float, BalancePath | None]:
-        """Harmless path found at each time at which the run might end."""
-        return {}
+        return 2 * (self.scene.duration - end) / (SEEN * (end - self.at_speed)) * max(self.moving(samples)[1], 0.0)
 
     def moving(self, samples: Samples) -> tuple[float, float]:
         """Possible further change of the residual imbalance [kg m] and recent rise of the level [dB].

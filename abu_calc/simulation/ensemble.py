@@ -4,7 +4,7 @@
 """
 
 import math
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
@@ -22,8 +22,8 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent, within
-from abu_calc.simulation.creeping import MARGIN, felt_mass, harmless_way, kept_quiet, linger
-from abu_calc.simulation.early_stopping import BalancePath, Early
+from abu_calc.simulation.creeping import MARGIN, felt_mass, kept_quiet, linger
+from abu_calc.simulation.early_stopping import Early
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
 from abu_calc.simulation.residual_criteria import allowed_imbalance, balances, slip
@@ -184,10 +184,7 @@ def run_of_start(
 
 
 def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: Early, run: Samples) -> float | None:
-    """Time [s] until which a start case is followed whose balls are not at rest at the end of its scene, if any.
-
-    None, too, if their way to where they balance changes no verdict.
-    """
+    """Time [s] until which a start case is followed whose balls are not at rest at the end of its scene, if any."""
     limit = design.case.table.limits.longest_quiet_time
     creeping = outcome.creeping and not outcome.hanging
     longest = scene.full_speed + (LONGEST_CREEPING if creeping else LONGEST_LINGERING) * limit
@@ -197,7 +194,7 @@ def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: 
     if creeping:
         return longest
     moving = early.goes_on(run) or linger(design, scene, outcome)
-    return longest if moving and early.harmless(run) is None else None
+    return longest if moving else None
 
 
 def followed_until(design: Design, scene: Scene, response: Response, samples: Samples) -> float | None:
@@ -209,11 +206,7 @@ def followed_until(design: Design, scene: Scene, response: Response, samples: Sa
 
 def _early(design: Design, member: Member, scene: Scene) -> Early:
     """Early stopping of a start case's run."""
-
-    def way(left: complex, response: Callable[[float], Response]) -> BalancePath | None:
-        return harmless_way(design, scene, left, lambda creep: outcome_of(design, member, scene, response(creep)))
-
-    return Early(scene, scene.full_speed, partial(_decided, design, member, scene), way)
+    return Early(scene, scene.full_speed, partial(_decided, design, member, scene))
 
 
 def _run_of_scene(

@@ -11,7 +11,6 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
-from abu_calc.simulation.residual_criteria import balanced_well
 from abu_calc.simulation.scene_of_design import guided
 from abu_calc.simulation.start_cases import OPPOSITE
 from abu_calc.sizing.actions import SIMULATED, set_action
@@ -187,12 +186,6 @@ def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, ear
         return outcome.quiet_time_or_inf <= limit and (math.isinf(longest) or outcome.rest_time_or_inf <= longest)
 
     status = _grade(ensemble, in_time)
-    if status == "fail" and balanced_well(design) and all(outcome.balanced for outcome in ensemble.given):
-        message = (
-            "The wheel is balanced so well that the balls creep to their places. No start case leaves more than is "
-            "allowed"
-        )
-        return coded("ABU702", "warn", message, None, limit, "s")
     late = max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
     latest = max(ensemble.outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
     sentences = ["No start case gave an answer" if late is None else f"Slowest start case: {_time(late, ensemble)}"]

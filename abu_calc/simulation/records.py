@@ -165,21 +165,11 @@ class SimulatedLevel(Record):
 
 
 @record
-class SettlingEstimate(Record):
-    """Times at another drag: those of the same start in the ensemble, the slower of both sides of the race."""
-
-    drag_per_s: Annotated[float, Quantity("rolling drag", "h₀", 3)]
-    quiet_time_s: Annotated[float | None, Quantity("quiet time", "", 3)]
-    rest_time_s: Annotated[float | None, Quantity("rest time", "", 3)]
-    settling_time_s: Annotated[float | None, Quantity("settling time", "", 3)]
-
-
-@record
 class SimulatedScene(Record):
     """One scene: how it ended, when it was quiet, what was left out, what it cost, how far it may be off."""
 
     optional: ClassVar[frozenset[str]] = frozenset(
-        {"bearing_amplitudes_mm", "full_speed_s", "settling_estimates", "audit", "quiet_time_range_s",
+        {"bearing_amplitudes_mm", "full_speed_s", "audit", "quiet_time_range_s",
          "rest_time_range_s"}
     )  # fmt: skip
 
@@ -215,7 +205,6 @@ class SimulatedScene(Record):
     envelope: Envelope
     bearing_amplitudes_mm: Annotated[tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3)] = None
     full_speed_s: Annotated[float | None, Quantity("full speed reached after", "", 3, "None: at the start")] = None
-    settling_estimates: tuple[SettlingEstimate, ...] | None = None
     audit: Audit | None = None
     quiet_time_range_s: Annotated[
         tuple[float | None, float | None] | None, Quantity("quiet time, with a threshold that is grazed", "", 3)
@@ -229,7 +218,6 @@ class SimulatedScene(Record):
         cls,
         simulation: Simulation,
         ledger: Ledger,
-        settling_estimates: tuple[SettlingEstimate, ...] | None = None,
         audit: AuditRun | None = None,
     ) -> Self:
         """Record in user units."""
@@ -245,7 +233,6 @@ class SimulatedScene(Record):
             envelope=Envelope(error_estimate=finite(simulation.offered.error), why=simulation.offered.why),
             bearing_amplitudes_mm=bearings or None,
             full_speed_s=response.full_speed or None,
-            settling_estimates=settling_estimates,
             audit=None if audit is None else Audit.read(audit),
             quiet_time_range_s=response.quiet.grazed(simulation.scene.revolution),
             rest_time_range_s=response.rest.grazed(simulation.scene.revolution),

@@ -57,9 +57,3 @@ def allowed_of_scene(scene: Scene, ball_angles: tuple[float, ...]) -> float:
 def balances(left: float, allowed: float, slipping: float) -> bool:
     """True if the balls are at rest in their race and the imbalance left [kg m] is allowed."""
     return slipping <= SLIPPING and left <= allowed
-
-
-def balanced_well(design: Design) -> bool:
-    """True if the imbalance is so small relative to the balls that they hardly react to it."""
-    autobalancer = design.autobalancer
-    return design.imbalance.value * abs(autobalancer.requirement.plane_ratio) < HARDLY * autobalancer.static_moment

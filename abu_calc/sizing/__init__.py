@@ -15,7 +15,7 @@ from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_moto
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design, RaceDesign
 from abu_calc.sizing.drawing_requirements import drawing
-from abu_calc.sizing.handles import body_bands, handle_checks, highest_totals
+from abu_calc.sizing.handles import body_bands, handle_checks, highest_total
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.manufacture.construction import construct
 from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
@@ -149,7 +149,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
     limited = case.table.limits.a_hv_m_per_s2 is not None and frequency.balancing_possible
-    totals = highest_totals(case, imbalance.value, best) if limited else None
+    total = highest_total(case, imbalance.value, best) if limited else None
     arm = _arm(case, imbalance.value, best)
     eccentricity = split_eccentricity(case, best)
     construction = construct(case, best, eccentricity)
@@ -163,14 +163,14 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *track_checks(case, best, race),
         *construction.checks,
         *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
-        *handle_checks(case, best, totals, bands),
+        *handle_checks(case, best, total, bands),
         *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
         *(arm.checks if arm else ()),
     )
     warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
-        case, frequency, imbalance, choice, race, others, idle, worst, levels, totals, loaded, arm, advice,
+        case, frequency, imbalance, choice, race, others, idle, worst, levels, total, loaded, arm, advice,
         checks, warnings, bands, eccentricity, construction,
     )  # fmt: skip
 

@@ -13,7 +13,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.drawing_requirements import DrawingRequirement
-from abu_calc.sizing.handles import BodyBands, HighestTotals
+from abu_calc.sizing.handles import BodyBands, HighestTotal
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.manufacture.construction import Construction
 from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
@@ -40,7 +40,7 @@ class Design:
     idle: VibrationLevels
     worst: tuple[WorstResidual, ...]
     speed_levels: SpeedLevels | None
-    totals: HighestTotals | None
+    highest_total: HighestTotal | None
     """None without a limit of a_hv, or if the balls cannot balance."""
     loaded: LevelsUnderLoad | None
     swing_arm: "SwingArmBounds | None"
@@ -112,7 +112,7 @@ def built(design: Design, machine: MachineFile) -> Design:
     return replace(
         design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),
         track=track(case, made, frequency.natural_frequencies), runner_up_tracks=(), worst=(), speed_levels=None,
-        totals=None, loaded=None, swing_arm=None, drawing=(), checks=(), warnings=(), bands=None,
+        highest_total=None, loaded=None, swing_arm=None, drawing=(), checks=(), warnings=(), bands=None,
     )  # fmt: skip
 
 

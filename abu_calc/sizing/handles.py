@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import Final
 
 from abu_calc.formulas.body_estimate import usual_lengths
 from abu_calc.foundation.checks import Action, Check, coded, verdict
@@ -13,10 +13,11 @@ from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.actions import followed, overrides, pins, set_action, with_entries, words
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.budget import judged_speeds
 from abu_calc.sizing.case import WHEEL_PLANE, Case, read_case
 from abu_calc.sizing.imbalance import find_imbalance
 from abu_calc.sizing.places import LevelPlace, PlaceBand, in_space, place_bands, place_numbers, settled_levels
-from abu_calc.sizing.vibration import idle_vibration, speed_levels, truer_races, worst_residuals
+from abu_calc.sizing.vibration import idle_vibration, speed_levels, truer_races
 
 Band = tuple[float, float]
 SAME = 1e-3
@@ -70,27 +71,14 @@ class HighestTotal:
     total: float
 
 
-class HighestTotals(NamedTuple):
-    """The highest a_hv with the autobalancer: expected, by the bound of friction, and by that held vertical.
-
-    None if W_h is not defined at one of the speeds; `upright` also if the file's spindle is vertical.
-    """
-
-    expected: HighestTotal | None
-    arranged: HighestTotal | None
-    upright: HighestTotal | None
-
-
-def highest_totals(case: Case, imbalance: float, candidate: Candidate) -> HighestTotals:
-    """The highest a_hv with the autobalancer at the judged speeds."""
-    expected, arranged, upright = (list[HighestTotal | None]() for _ in range(3))
-    for residual in worst_residuals(case, imbalance, candidate):
-        there = replace(case, speed=residual.speed)
-        expected += _totals(there, idle_vibration(there, imbalance, candidate, possible=True).places)
-        arranged += _totals(there, _places(there, imbalance, candidate, residual.at_race))
-        if residual.vertical is not None:
-            upright += _totals(there, _places(there, imbalance, candidate, residual.vertical.at_race))
-    return HighestTotals(_highest(expected), _highest(arranged), _highest(upright))
+def highest_total(case: Case, imbalance: float, candidate: Candidate) -> HighestTotal | None:
+    """The highest a_hv with the autobalancer, as expected, at the judged speeds; None if W_h is not defined at one."""
+    totals = list[HighestTotal | None]()
+    for speed in judged_speeds(case):
+        there = replace(case, speed=speed)
+        totals += _totals(there, idle_vibration(there, imbalance, candidate, possible=True).places)
+    known = [total for total in totals if total is not None]
+    return max(known, key=lambda total: total.total) if known and len(known) == len(totals) else None
 
 
 def total_of(case: Case, imbalance: float, candidate: Candidate, at_race: float) -> float:
@@ -112,36 +100,25 @@ def _totals(case: Case, places: tuple[LevelPlace, ...]) -> Iterator[HighestTotal
         yield None if total is None else HighestTotal(place.name, case.speed, total)
 
 
-def _highest(totals: list[HighestTotal | None]) -> HighestTotal | None:
-    known = [total for total in totals if total is not None]
-    return max(known, key=lambda total: total.total) if known and len(known) == len(totals) else None
-
-
 UNCERTAIN: Final = 3.0
 """Factor by which the acceleration at a handle is uncertain where body or handles are not known."""
 
 
 def handle_checks(
-    case: Case, candidate: Candidate, totals: HighestTotals | None, bands: BodyBands | None
+    case: Case, candidate: Candidate, expected: HighestTotal | None, bands: BodyBands | None
 ) -> tuple[Check, ...]:
     """Check of the weighted acceleration at the highest handle; none without a limit in the file.
 
-    `totals`: None if the balls cannot balance.
+    `expected`: None if the balls cannot balance, or W_h is not defined.
     """
     limit = case.table.limits.a_hv_m_per_s2
     if limit is None:
         return ()
-    if totals is None:
-        reason = "The acceleration is not known: the balls cannot balance at these speeds"
+    if expected is None:
+        reason = "Not known: the balls cannot balance, or W_h is not defined at one of the speeds (5.62 … 1413 Hz)"
         return (coded("ABU404", "not-done", reason, None, limit, "m/s²"),)
-    expected, arranged, upright = totals
-    if expected is None or arranged is None:
-        return (coded("ABU404", "not-done", "W_h is not defined at this speed (5.62 … 1413 Hz)", None, limit, "m/s²"),)
     high = band_end(expected, bands, case)
     notes = [f"{_place(expected)}: expected {_said(expected.total)} (limit {limit:g} m/s²)"]
-    notes.append(f"Bound of friction: {_said(arranged.total)}")
-    if upright is not None and upright.total > SHOWN * arranged.total:
-        notes.append(f"With the spindle held vertical: {_said(upright.total)}")
     if high is not None:
         notes.append(f"The estimated inertia leaves up to {_said(high)} as expected")
     if not case.body.is_rigid:
@@ -175,7 +152,7 @@ def _remedy(case: Case, candidate: Candidate, expected: HighestTotal, limit: flo
         after = followed(case, {**entries, **pins(candidate)})
         if after is None:
             continue
-        total = highest_totals(*after).expected
+        total = highest_total(*after)
         if total is not None and total.total <= limit:
             moved = Moved("the expected a_hv", expected.total, total.total, "m/s²", limit)
             return set_action(entries, after.candidate, moved)

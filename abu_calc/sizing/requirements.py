@@ -55,12 +55,12 @@ def _requirements(design: Design) -> Iterator[tuple[str, bool]]:
 
 
 def _vibration(design: Design) -> Iterator[tuple[str, bool]]:
-    levels, totals, bands, limit = design.speed_levels, design.totals, design.bands, design.case.level_limit
+    levels, total, bands, limit = design.speed_levels, design.highest_total, design.bands, design.case.level_limit
     if levels is not None:
         yield LEVEL, levels.highest.level_after <= limit
         yield LEVEL + INERTIA, bands is None or bands.level is None or bands.level[1] <= limit
     permitted = design.case.table.limits.a_hv_m_per_s2
-    if permitted is not None and totals is not None and totals.expected:
-        end = band_end(totals.expected, bands, design.case)
-        yield ACCELERATION, totals.expected.total <= permitted
+    if permitted is not None and total is not None:
+        end = band_end(total, bands, design.case)
+        yield ACCELERATION, total.total <= permitted
         yield ACCELERATION + INERTIA, end is None or end <= permitted

@@ -355,7 +355,7 @@ def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels) -> Action
     before, least = levels.highest.level_after, math.inf
     for entries in truer_races(case):
         after = followed(case, {**entries, **pins(candidate)})
-        level = math.inf if after is None else level_of(after, worst=False)
+        level = math.inf if after is None else level_of(after)
         least = min(least, level)
         if after is not None and level <= limit:
             moved = Moved(EXPECTED, before, level, "dB", limit)
@@ -380,13 +380,10 @@ def _beyond_practice(entries: Mapping[str, object]) -> str:
     return f"This is finer than usual: {' and '.join(beyond)}." if beyond else ""
 
 
-def level_of(after: Followed, *, worst: bool) -> float:
-    """Highest level [dB] over the speed range, as expected or by the bound of friction."""
-    residuals = worst_residuals(*after) if worst else ()
-    levels = speed_levels(*after, residuals, possible=True)
-    if levels is None:
-        return math.inf
-    return (levels.arranged if worst else levels.highest).level_after
+def level_of(after: Followed) -> float:
+    """Highest expected level [dB] over the speed range."""
+    levels = speed_levels(*after, (), possible=True)
+    return math.inf if levels is None else levels.highest.level_after
 
 
 def _lower(case: Case, candidate: Candidate, level: float) -> Action:

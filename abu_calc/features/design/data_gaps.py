@@ -68,7 +68,6 @@ class RangeEnd:
     """
 
     level: float
-    friction_level: float
     quiet_time: float
     holds: bool
 
@@ -87,7 +86,6 @@ class DataGap(Record):
     usual_range: Annotated[tuple[float, float], Quantity("usual range", "", 3)]
     decides: Annotated[bool, Quantity("decides the verdict")]
     level_db: Annotated[tuple[float, float], Quantity("expected level at both ends", "L")]
-    worst_friction_level_db: Annotated[tuple[float, float], Quantity("bound of friction at both ends", "L")]
     quiet_time_s: Annotated[
         tuple[float | None, float | None] | None,
         Quantity("quiet time at both ends of the start case that is slowest now", "t_q", 3),
@@ -101,17 +99,17 @@ class DataGap(Record):
         times = None if math.isnan(low_time + high_time) else (finite(low_time), finite(high_time))
         return cls(
             key=key, value=usual.assumed, usual_range=(usual.low, usual.high), decides=low.holds != high.holds,
-            level_db=(low.level, high.level), worst_friction_level_db=(low.friction_level, high.friction_level),
+            level_db=(low.level, high.level),
             quiet_time_s=times,
         )  # fmt: skip
 
     @property
     def movement(self) -> float:
         """Movement of the result that moves most between the ends: 1 for 3 dB or a factor of 2."""
-        levels = [abs(high - low) / ALIKE_DB for low, high in (self.level_db, self.worst_friction_level_db)]
+        low, high = self.level_db
         low_time, high_time = self.quiet_time_s or (None, None)
         ratio = math.log(high_time / low_time) / math.log(ALIKE_FACTOR) if low_time and high_time else 0.0
-        return max(*levels, abs(ratio))
+        return max(abs(high - low) / ALIKE_DB, abs(ratio))
 
 
 def data_gaps(design: Design, ensemble: Ensemble | None, accuracy: float) -> tuple[DataGap, ...]:
@@ -149,8 +147,7 @@ def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: f
     if after is None:
         return None
     levels, moves = design.speed_levels, RANGES[key].moves_levels
-    level = level_of(after, worst=False) if moves or levels is None else levels.highest.level_after
-    friction = level_of(after, worst=True) if moves or levels is None else levels.arranged.level_after
+    level = level_of(after) if moves or levels is None else levels.highest.level_after
     slowest = max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf)
     if key == DRAG:
         time = max(
@@ -165,7 +162,7 @@ def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: f
     holds = (
         sound(after.case, after.candidate) and level <= after.case.level_limit and not time > limits.longest_quiet_time
     )
-    return RangeEnd(level, friction, time, holds)
+    return RangeEnd(level, time, holds)
 
 
 def quiet_time_with(design: Design, slowest: StartOutcome, entries: Mapping[str, object], accuracy: float) -> float:

@@ -456,17 +456,16 @@ def gap_table(gaps: Sequence[DataGap]) -> list[Block]:
     """Assumed values, ranked, with levels and quiet times at both ends of their usual range; nothing without any."""
     if not gaps:
         return []
-    head = ("Data gap and its usual range", "expected, dB", "friction, dB", "quiet time, s")
+    head = ("Data gap and its usual range", "expected, dB", "quiet time, s")
     rows = tuple(
         (
             f"{gap.key.rpartition('.')[2]} {_ends(gap.usual_range, '{:g}')}",
             _ends(gap.level_db, "{:.1f}"),
-            _ends(gap.worst_friction_level_db, "{:.1f}"),
             "" if gap.quiet_time_s is None else _ends(gap.quiet_time_s, "{:.2f}"),
         )
         for gap in gaps
     )
-    return [Grid(head, rows, frozenset({1, 2, 3}))]
+    return [Grid(head, rows, frozenset({1, 2}))]
 
 
 def _ends(values: tuple[float | None, float | None], layout: str) -> str:

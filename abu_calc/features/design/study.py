@@ -27,7 +27,7 @@ from abu_calc.features.design.records import (
 )
 from abu_calc.features.design.region import true_region
 from abu_calc.features.design.searched_checks import start_checks
-from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
+from abu_calc.features.design.starts import EnsembleResult, Starts
 from abu_calc.features.design.verification import Proven, proven
 from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
@@ -51,7 +51,7 @@ from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
 from abu_calc.simulation.ensemble_checks import FULL, STARTS, not_simulated, unproven
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
-from abu_calc.simulation.records import SceneModel, SettlingEstimate, SimulatedScene
+from abu_calc.simulation.records import SceneModel, SimulatedScene
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
@@ -328,9 +328,7 @@ def size(
         if tried.ensemble is None
         else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
         data_gaps=gaps(),
-        simulation=tuple(
-            SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
-        ),
+        simulation=tuple(SimulatedScene.of(run.simulation, run.ledger) for run in runs),
         fits=tuple(seat for bearing in seats for seat in seat_results(bearing)),
         swing_arm=None if arm is None else SwingArmRecord.of(arm),
         arm_motion=moved,
@@ -559,14 +557,3 @@ def _outcomes(tried: Proven) -> Iterator[StartOutcome]:
     """Every start case that was simulated."""
     yield from () if tried.ensemble is None else tried.ensemble.outcomes
     yield from () if tried.searched is None else tried.searched.outcomes
-
-
-def _other_drags(ensemble: Ensemble | None, run: SceneRun) -> tuple[SettlingEstimate, ...] | None:
-    """Times of the idle scene's start at the other drags of the ensemble; None for other scenes, or without one."""
-    if run.ledger.scene.name != "idle" or ensemble is None:
-        return None
-    return tuple(
-        SettlingEstimate.read(row)
-        for row in SettlingOfStart.all_of(ensemble)
-        if row.start == IDLE_START and row.drag_per_s != ensemble.drag
-    )

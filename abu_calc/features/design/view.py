@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from abu_calc.features.design.figures import IDLE_START, idle_case, size_charts, start_case
+from abu_calc.features.design.figures import idle_case, size_charts
 from abu_calc.features.design.oil import OilRecord, oil_blocks
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
 from abu_calc.features.design.screen import (
@@ -59,7 +59,7 @@ REPEAT = "`abu simulate {file} --start spread --race-centre 0` repeats one liste
 GAPS = (
     "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the "
     "three assumed values that most move the verdict, for the balls and the race of this design. Levels are "
-    "calculated, as expected and by the bound of friction. The quiet time is simulated, for the start case that "
+    "calculated, as expected. The quiet time is simulated, for the start case that "
     "is slowest as the file stands. At other drag rates it is that of the slowest start case there. Usual ranges are "
     "engineering practice (unverified)."
 )
@@ -314,21 +314,11 @@ def _scene(scene: SimulatedScene, case: str) -> list[Block]:
     work = f"{cost.integrator}, tolerance {cost.tolerance:g}, {cost.evaluations} evaluations"
     times = facts(scene, "quiet_time_s", "rest_time_s").rows
     named = tuple((f"{label}, {case}", symbol, value) for label, symbol, value in times)
-    others = tuple(
-        (
-            f"quiet time, {start_case(IDLE_START, 0.0, other.drag_per_s)}",
-            "",
-            value_of(other, "quiet_time_s"),
-        )
-        for other in scene.settling_estimates or ()
-        if other.quiet_time_s is not None
-    )
     return [
         Heading(f"Simulation: {scene.scene}", f"simulation-{scene.scene}"),
         Facts((
             *facts(scene, "duration_s").rows,
             *named,
-            *others,
             *facts(scene, "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db", "error_estimate").rows,
         )),
         Paragraph(f"Scene {scene.scene}: the balls end at {angles} from the imbalance."),

@@ -37,6 +37,8 @@ WORTH_KEEPING: Final = (
     "accuracy_budget.residual_um",
     "vibration.level_before_db",
     "vibration.level_after_db",
+    "simulation.0.quiet_time_s",
+    "simulation.0.rest_time_s",
     "simulation.0.settling_time_s",
     "swing_arm.contact_stiffness_limit_N_per_m",
     "swing_arm.damping_limit_N_s_per_m",
