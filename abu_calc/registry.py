@@ -246,7 +246,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
         "compare.pages:any_extras",
         figures=(
-            *(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
+            *(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "quiet")),
             Known("courses", "recorded starts are given with --measured"),
         ),
     ),

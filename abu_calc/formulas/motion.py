@@ -78,7 +78,8 @@ REST_TIME = register(Formula(
     "s",
     where=(
         "U is the imbalance of rotor and balls in the rotor, with its direction. U_end is its mean over the last "
-        "twentieth. Balls that would move U by more than this band in a time as long as the run still creep. They have "
+        "twentieth. Balls that would move U by more than this band in a time as long as the run still creep, by "
+        "their pace over the last twentieth and over the last quarter. They have "
         "no rest time."
     ),
     source="own definition",

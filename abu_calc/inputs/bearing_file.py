@@ -142,6 +142,7 @@ class Limits(Table):
     settling_time_s: float | None = Field(
         default=None,
         description="Another name of quiet_time_s [s]; {range}.",
+        examples=[1.0],
         gt=0,
         le=3600,
         json_schema_extra=usual(0.05, 30),

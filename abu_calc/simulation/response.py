@@ -290,12 +290,22 @@ def _rest_in(scene: Scene, course: Course, end: complex, creep: float) -> TimeRa
 
 
 def _drift(scene: Scene, course: Course) -> float:
-    """Change of the imbalance left [kg m] at its pace between the last two windows, over the time at full speed."""
+    """Change of the imbalance left [kg m] at its pace near the end, over the time at full speed.
+
+    The pace is the least of that between the last two windows and that over a quarter of the run: balls that have just
+    come to rest have none by the first, balls that swing with a slow support none by the second.
+    """
     turns = max(course.count // 20 // PER_TURN, 1) * PER_TURN
-    if course.count < 2 * turns:
-        return 0.0
-    last, before = course.imbalances[-turns:].mean(), course.imbalances[-2 * turns : -turns].mean()
-    return float(abs(last - before)) * (scene.duration - scene.full_speed) / (turns * scene.duration / course.count)
+
+    def pace(lag: int) -> float:
+        """Change [kg m] a sample of the mean over a window since so many samples before."""
+        if course.count < lag + turns:
+            return 0.0
+        last, before = course.imbalances[-turns:].mean(), course.imbalances[-turns - lag : -lag].mean()
+        return float(abs(last - before)) / lag
+
+    steps = (scene.duration - scene.full_speed) * course.count / scene.duration
+    return steps * min(pace(turns), pace(max(course.count // 4, turns)))
 
 
 def _settled_in(scene: Scene, course: Course, settled: float) -> float | None:

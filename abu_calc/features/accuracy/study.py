@@ -409,7 +409,7 @@ class AccuracyResult(Result):
 
     model: SceneModel
     scene: str
-    quantity: Annotated[str, Quantity("quantity", "", 4, "amplitude, level, settling or angles")]
+    quantity: Annotated[str, Quantity("quantity", "", 4, "amplitude, level, quiet, rest, settling or angles")]
     accuracy: Annotated[float, Quantity("accuracy asked for", "", 2)]
     reference: Reference
     points: tuple[MeasuredPoint, ...]

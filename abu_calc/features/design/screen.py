@@ -319,10 +319,11 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
         cases.append(TableCase(label, _db(worst.level_after_db)))
         if upright is not None and upright.level_after_db >= worst.level_after_db + TENTH:
             cases.append(TableCase("    spindle held vertical", _db(upright.level_after_db)))
+    cases += _measured(result)
     if (new := result.new_wheel) is not None:
         least = number(new.break_even_imbalance_g_mm, 3)
         cases.append(TableCase(f"New wheel: balls help above {least} g·mm", _db(new.level_db)))
-    return [*cases, *_at_idle_speed(result), *_measured(result), *_under_load(result.vibration_loaded)]
+    return [*cases, *_at_idle_speed(result), *_under_load(result.vibration_loaded)]
 
 
 def _at_idle_speed(result: SizeResult) -> list[TableCase]:

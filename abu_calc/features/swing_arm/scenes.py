@@ -53,11 +53,11 @@ def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress:
         return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, share, accuracy, progress))
     if last is None:
         return coded("ABU506", "pass", "The disk stays on its workpiece throughout", 0.0, 0.0, "%")
-    time, limit = run.simulation.response.quiet_time, design.case.table.limits.longest_quiet_time
+    time, limit = run.simulation.response.rest_time, design.case.table.limits.longest_quiet_time
     soon = time is not None and time <= limit
     message = f"The disk leaves its workpiece until {last:.3g} s. Then the bounds on the arm hold"
     if not soon:
-        message += f". The machine needs more than the permitted {limit:g} s to become quiet there"
+        message += f". The balls need more than the permitted {limit:g} s to rest there"
     return coded("ABU506", verdict(True, soon), message, 0.0, 0.0, "%")
 
 
