@@ -78,9 +78,9 @@ REST_TIME = register(Formula(
     "s",
     where=(
         "U is the imbalance of rotor and balls in the rotor, with its direction. U_end is its mean over the last "
-        "twentieth. Balls that would move U by more than this band in a time as long as the run still creep, by "
-        "their pace over the last twentieth and over the last quarter. They have "
-        "no rest time."
+        "twentieth. Balls still creep, and have no rest time, if at their pace U would move by more than this band "
+        "in a time as long as the run. The pace is the least of that over the last twentieth and over the last "
+        "quarter."
     ),
     source="own definition",
 ))  # fmt: skip

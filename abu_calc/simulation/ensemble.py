@@ -22,11 +22,18 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent, within
-from abu_calc.simulation.creeping import MARGIN, felt_mass, kept_quiet, linger
 from abu_calc.simulation.early_stopping import Early
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
-from abu_calc.simulation.residual_criteria import allowed_imbalance, balances, slip
+from abu_calc.simulation.residual_criteria import (
+    MARGIN,
+    allowed_imbalance,
+    balances,
+    felt_mass,
+    kept_quiet,
+    linger,
+    slip,
+)
 from abu_calc.simulation.response import Response, needed_times
 from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
 from abu_calc.simulation.start_cases import Member, members, scene_of_member
@@ -193,7 +200,7 @@ def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: 
         return None
     if creeping:
         return longest
-    moving = early.goes_on(run) or linger(design, scene, outcome)
+    moving = early.goes_on(run) or linger(design, scene, outcome.imbalance)
     return longest if moving else None
 
 
@@ -232,7 +239,7 @@ def _decided(
     small creep is many decibels.
     """
     outcome, limits = outcome_of(design, member, scene, response), design.case.table.limits
-    if linger(design, scene, outcome):
+    if linger(design, scene, outcome.imbalance):
         return False
     if (
         not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip)
@@ -240,7 +247,7 @@ def _decided(
     ):
         return False
     louder = max(rise, 20 * math.log10(1 + creep / outcome.imbalance)) if outcome.imbalance else math.inf
-    return outcome.level + louder <= design.case.level_limit - MARGIN and kept_quiet(scene, outcome, louder)
+    return outcome.level + louder <= design.case.level_limit - MARGIN and kept_quiet(scene, outcome.velocity, louder)
 
 
 def _found(

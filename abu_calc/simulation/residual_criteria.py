@@ -1,9 +1,13 @@
-"""Criteria by which the balls of a run count as balancing, for one run and for many."""
+"""Criteria by which the balls of a run count as balancing, as lingering, and a machine as staying quiet."""
 
+from typing import Final
+
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.motion import HARDLY, SETTLED
+from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.simulation.response import Response
 from abu_calc.sizing.design import Design
 
@@ -57,3 +61,50 @@ def allowed_of_scene(scene: Scene, ball_angles: tuple[float, ...]) -> float:
 def balances(left: float, allowed: float, slipping: float) -> bool:
     """True if the balls are at rest in their race and the imbalance left [kg m] is allowed."""
     return slipping <= SLIPPING and left <= allowed
+
+
+LINGERING: Final = 0.1
+"""Share of the imbalance: if balls leave more beyond what they leave balanced, they are not balanced."""
+
+MARGIN: Final = 1.0
+"""Distance below the permitted level [dB]: a run that may come nearer does not end early."""
+
+
+def felt_mass(design: Design, scene: Scene) -> float:
+    """Effective mass [kg] for the balls: at the race of a machine in hand, or that of its arm, J_O/l²."""
+    if not scene.name.startswith("swing-arm"):
+        return design.autobalancer.requirement.effective_mass
+    return scene.support.felt_mass + sum(scene.ball_masses)
+
+
+def linger(design: Design, scene: Scene, imbalance: float) -> bool:
+    """True if balls that friction does not hold leave an imbalance [kg m] as elsewhere than where they balance.
+
+    Sooner or later they go there.
+
+    On a horizontal spindle gravity shakes them loose, see `shaken_drag`.
+    """
+    held = design.case.friction_arm > 0 and not _shaken(design, scene)
+    return not held and abs(imbalance - abs(_balanced(design, scene))) > LINGERING * reference_imbalance(scene)
+
+
+def kept_quiet(scene: Scene, velocity: float, louder: float) -> bool:
+    """True if a machine of this velocity [m/s] stays quiet, by `MARGIN`, though its level rises by so much [dB]."""
+    quiet = scene.quiet_velocity
+    return quiet is None or velocity * 10 ** ((louder + MARGIN) / 20) <= quiet
+
+
+def _balanced(design: Design, scene: Scene) -> complex:
+    """Imbalance [kg m] that the balls leave where they balance."""
+    eccentricity = scene.effect("race_eccentricity")
+    offset = eccentricity.offset if isinstance(eccentricity, RaceEccentricityEffect) else 0j
+    return felt_mass(design, scene) * offset
+
+
+def _shaken(design: Design, scene: Scene) -> float:
+    """Drag rate [1/s] that friction adds where gravity shakes the balls; 0 on a vertical spindle."""
+    case, autobalancer = design.case, design.autobalancer
+    if case.table.machine.spindle_axis != "horizontal":
+        return 0.0
+    radius = autobalancer.ball_diameter / 2
+    return shaken_drag(case.friction_arm, radius, autobalancer.pitch_radius, scene.speed, case.inertia_factor)

@@ -1,4 +1,4 @@
-"""Scenes of a design: idle, at work, running up, on springs, in hands or on a swing arm.
+"""Scenes of a design: idle, at work, running up, on springs, in hands or on a swing arm; how loud they may be.
 
 Parts that few files ask for (swing arm, motor, balls across their race) are imported on demand.
 """
@@ -20,20 +20,22 @@ from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene, parted_angles, placed
 from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.planar import in_hands, planar
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport, cutting_arm, idle_arm
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate
-from abu_calc.formulas.suspension import Hands, Springs
+from abu_calc.formulas.suspension import Hands, Springs, resonance_factor
 from abu_calc.formulas.swing_arm import pressed_angle
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
-from abu_calc.foundation.units import to_si
+from abu_calc.foundation.units import to_si, velocity_from_level
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.duty import Motor as MotorTable
 from abu_calc.inputs.machine import SwingArm as SwingArmTable
 from abu_calc.simulation.durations import settling_duration, slowest_in_hand, slowest_rate
-from abu_calc.simulation.quiet_level import quiet_velocity
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.handles import total_of
+from abu_calc.sizing.places import level_at_loudest, settled_levels
 from abu_calc.sizing.swing_arm import read_arm
 
 if TYPE_CHECKING:
@@ -364,3 +366,50 @@ def _motor(table: MotorTable) -> "MotorEffect":
     from abu_calc.simulation.scene_of_file import motor_numbers
 
     return MotorEffect(**motor_numbers(table))
+
+
+def level_without(design: Design) -> float:
+    """Level [dB] at the loudest limited place of the machine without an autobalancer, idle at its speed."""
+    case, mass = design.case, design.case.body.effective_mass()
+    whirl = design.imbalance.value / mass * resonance_factor(case.suspension, case.speed, mass)
+    without = settled_levels(case, whirl, None, design.imbalance.value, 0.0).worst.before
+    return math.inf if without is None else without
+
+
+def quiet_velocity(design: Design, scene: Scene) -> float:
+    """Rms velocity [m/s] of the axis at the race up to which the machine is quiet, idle at its speed.
+
+    That has min(limit, level without an autobalancer at the imbalance of the file) at the loudest place: under a high
+    limit, too, the balls must make the machine less loud than it was. On an arm its motion without balls counts.
+    """
+    limit = design.case.level_limit
+    if scene.name.startswith("swing-arm"):
+        without = unbalanced_amplitude(scene) * scene.speed / math.sqrt(2)
+        return min(velocity_of_level(design, limit), without)
+    return velocity_of_level(design, min(limit, level_without(design)))
+
+
+def velocity_of_level(design: Design, wanted: float) -> float:
+    """Rms velocity [m/s] of the axis at the race with that level [dB] at the loudest place, or with the limit of a_hv;
+    0 if it is louder at rest.
+
+    Found by bisection of its logarithm: the level rises with the velocity, whatever place is loudest.
+    """
+    case = design.case
+
+    most = case.table.limits.a_hv_m_per_s2
+
+    def louder(velocity: float) -> bool:
+        """Whether a velocity has more than the level wanted, or than the acceleration permitted at the handles."""
+        moved = math.sqrt(2) * velocity / case.speed
+        if level_at_loudest(case, design.autobalancer, moved) > wanted:
+            return True
+        return most is not None and total_of(case, design.imbalance.value, design.autobalancer, moved) > most
+
+    low, high = -30.0, math.log(1e3 * velocity_from_level(wanted))
+    if louder(math.exp(low)):
+        return 0.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if louder(math.exp(middle)) else (middle, high)
+    return math.exp(low)

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 Quantity = Annotated[
     str,
-    typer.Option("--quantity", metavar="NAME", help="Quantity to compare: amplitude, level, quiet, rest, settling or angles."),
+    typer.Option(
+        "--quantity", metavar="NAME", help="Quantity to compare: amplitude, level, quiet, rest, settling, angles."
+    ),
 ]
 Budget = Annotated[float, typer.Option("--time-budget", "--budget", metavar="S", help="Computing time to spend.")]
 

@@ -25,9 +25,9 @@ HEIGHT: Final = 16
 
 ABOUT: Final = (
     "Errors are against the reference, with every effect that has data. Amplitude: relative to the larger of itself "
-    "and 1 % of that without balls. Level: likewise for the velocity (0.01 is 0.09 dB). Quiet, rest and settling time: relative. "
-    "Angles: in rad. Times are those of the integration alone on this computer. Warm: the median of repeats. Cold: the "
-    "first run with import and compilation."
+    "and 1 % of that without balls. Level: likewise for the velocity (0.01 is 0.09 dB). Quiet, rest and settling time: "
+    "relative. Angles: in rad. Times are those of the integration alone on this computer. Warm: the median of repeats. "
+    "Cold: the first run with import and compilation."
 )
 
 

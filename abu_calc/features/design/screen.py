@@ -402,9 +402,7 @@ def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[
     return [
         *cases,
         *(judged(label, time, decides=False) for label, time in _late_ones(many_starts.further_starts, check)),
-        TableCase(
-            "Rest time: the balls keep their places, slowest start case", _seconds(many_starts.rest_time_s.worst)
-        ),
+        TableCase("Rest time (the balls keep their places), slowest", _seconds(many_starts.rest_time_s.worst)),
     ]
 
 

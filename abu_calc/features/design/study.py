@@ -10,7 +10,6 @@ from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
-from abu_calc.features.design.later_settling import with_later_settling
 from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
@@ -259,7 +258,7 @@ def size(
     arm, moved = _arm(design, failures, accuracy, progress, balanced)
     stays = _on_work(design, runs, accuracy, progress)
     started = start_checks(design, tried.ensemble, tried.searched, tried.change)
-    level = with_later_settling(started.pop("ABU401"), tried, accuracy)
+    level = started.pop("ABU401")
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
     lost = (not_simulated(fault.scene, fault.reason, answered=answered, mean=_mean(fault, work)) for fault in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)

@@ -99,7 +99,8 @@ def _numbers(result: TwoRaceSizeResult) -> list[Block]:
                 f"{ensemble.balanced} of {ensemble.members - ensemble.lost} start cases balance, over all phases of "
                 f"the imbalances, in hot and cold oil{unanswered}. Quiet time: median "
                 f"{_or_dash(spread.typical, 2)} s, slowest {_or_dash(spread.worst, 3)} s"
-                f"{f' ({ensemble.slowest})' if ensemble.slowest else ''}."
+                f"{f' ({ensemble.slowest})' if ensemble.slowest else ''}. The balls rest after "
+                f"{_or_dash(ensemble.rest_time_s.worst, 3)} s at the latest."
             ),
         ]
     return blocks
