@@ -64,7 +64,8 @@ QUIET_TIME = register(Formula(
     where=(
         "L(t) is by the rms velocity of the turn that ends at t, less its mean and its trend. The larger of both axes "
         "counts, at the loudest place that is limited. The level without balls is that of the file's imbalance at this "
-        "speed. Without a limit, 1 dB above the level of the end counts. There is no quiet time if the last crossing "
+        "speed. Without a limit, 1 dB above the level of the end counts, or 40 dB below that "
+        "without balls if that is more. There is no quiet time if the last crossing "
         "lies in the last 5 % of the run. If a change of the threshold by 1 % moves the time by more than a tenth, "
         "a range is told."
     ),
@@ -77,10 +78,10 @@ REST_TIME = register(Formula(
     f"|U(t) − U_end| ≤ {SETTLED:g}·max(m₀e, 1 % of Σ m·R_p)",
     "s",
     where=(
-        "U is the imbalance of rotor and balls in the rotor, with its direction. U_end is its mean over the last "
-        "twentieth. Balls still creep, and have no rest time, if at their pace U would move by more than this band "
-        "in a time as long as the run. The pace is the least of that over the last twentieth and over the last "
-        "quarter."
+        "U is the imbalance of rotor and balls in the rotor, with its direction. That of the end is its mean over "
+        "the last twentieth. Balls that still creep have no rest time. They creep if, at their pace, U would move by "
+        "more than this band in a time as long as the run. The pace is the least of that over the last twentieth and "
+        "over the last quarter."
     ),
     source="own definition",
 ))  # fmt: skip

@@ -140,6 +140,7 @@ def level_check(closed: Check, ensemble: Ensemble | None, change: TriedChange | 
 
 
 LOUDEST, SLOWEST = "the loudest start case", "the slowest start case"
+LAST_AT_REST = "the rest time of the slowest start case"
 LEFT, STALLED = "the largest imbalance left by a start case", "the number of start cases with stalled balls"
 
 
@@ -180,12 +181,7 @@ def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, ear
     limits = design.case.table.limits
     limit = limits.longest_quiet_time
     longest = math.inf if limits.rest_time_s is None else limits.rest_time_s
-
-    def in_time(outcome: StartOutcome) -> bool:
-        """True if both times keep their limits."""
-        return outcome.quiet_time_or_inf <= limit and (math.isinf(longest) or outcome.rest_time_or_inf <= longest)
-
-    status = _grade(ensemble, in_time)
+    status = _grade(ensemble, lambda outcome: outcome.in_time(limits))
     late = max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
     latest = max(ensemble.outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
     sentences = ["No start case gave an answer" if late is None else f"Slowest start case: {_time(late, ensemble)}"]
@@ -206,7 +202,12 @@ def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, ear
     value = None if late is None or math.isinf(late.quiet_time_or_inf) else late.quiet_time_or_inf
     action: Action | str | None = _see(earlier)
     if action is None and change is not None:
-        action = change.action(SLOWEST, lambda outcome: outcome.quiet_time_or_inf, "s", limit)
+        rested_late = all(outcome.quiet_time_or_inf <= limit for outcome in ensemble.outcomes)
+        action = (
+            change.action(LAST_AT_REST, lambda outcome: outcome.rest_time_or_inf, "s", longest)
+            if rested_late
+            else change.action(SLOWEST, lambda outcome: outcome.quiet_time_or_inf, "s", limit)
+        )
     return coded("ABU702", status, ". ".join(sentences), value, limit, "s", None if status == "pass" else action)
 
 

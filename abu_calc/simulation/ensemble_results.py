@@ -9,6 +9,7 @@ from operator import attrgetter
 from typing import Any
 
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.bearing_file import Limits
 from abu_calc.simulation.residual_criteria import SLIPPING, balances
 from abu_calc.simulation.start_cases import Member
 
@@ -67,6 +68,11 @@ class StartOutcome:
     def rest_time_or_inf(self) -> float:
         """From when the balls rest [s]; infinite if never."""
         return math.inf if self.rest_time is None else self.rest_time
+
+    def in_time(self, limits: Limits) -> bool:
+        """True if it is quiet in time, and at rest, if the file limits that."""
+        rests = limits.rest_time_s is None or self.rest_time_or_inf <= limits.rest_time_s
+        return self.quiet_time_or_inf <= limits.longest_quiet_time and rests
 
     @property
     def loudest(self) -> float:

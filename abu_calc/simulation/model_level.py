@@ -27,7 +27,7 @@ from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.simulation.nonconvergence import difference
 from abu_calc.simulation.quiet import TimeRange, last_crossing, range_of
-from abu_calc.simulation.response import ABOVE_END, settling_count
+from abu_calc.simulation.response import ABOVE_END, least_velocity, settling_count
 
 LEADING, SLOWNESS = 0.5, 10.0
 """Weights in the error of the envelope: of what its last order changes, and of (rate of the balls/gap)². Calibrated
@@ -93,7 +93,7 @@ def closed_form(scene: Scene) -> ModelEstimate:
     limit = SETTLED * reference_imbalance(scene)
     amplitude = abs(model.offset)
     velocity = amplitude * scene.speed / math.sqrt(2)
-    most = ABOVE_END * velocity if scene.quiet_velocity is None else scene.quiet_velocity
+    most = max(ABOVE_END * velocity, least_velocity(scene)) if scene.quiet_velocity is None else scene.quiet_velocity
     loud = unbalanced_amplitude(scene, start) * scene.speed / math.sqrt(2)
 
     def dies_out(value: float, least: float) -> TimeRange:
@@ -126,7 +126,7 @@ def averaged(scene: Scene, tolerance: float, order: int = 2) -> ModelEstimate:
     velocities = scene.speed / math.sqrt(2) * np.abs(whirls).max(axis=0)
     most = scene.quiet_velocity
     if most is None:
-        most = ABOVE_END * float(np.sqrt((velocities[window] ** 2).mean()))
+        most = max(ABOVE_END * float(np.sqrt((velocities[window] ** 2).mean())), least_velocity(scene))
     left = scene.total_imbalance(slow.theta)
     away = np.abs(left - left[window].mean())
     X, Y = whirls[:, window]

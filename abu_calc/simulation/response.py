@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.steady_motion import reference_imbalance, unbalanced_amplitude
+from abu_calc.dynamics.supports.steady_motion import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Array, Samples, Sampling, merged
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.foundation.errors import NotTrustworthyError
@@ -276,9 +276,14 @@ def _quiet_in(scene: Scene, course: Course) -> TimeRange:
     limit = scene.quiet_velocity
     if limit is None:
         last = max(len(velocities) // 20, PER_TURN)
-        limit = ABOVE_END * float(np.sqrt((velocities[-last:] ** 2).mean()))
+        limit = max(ABOVE_END * float(np.sqrt((velocities[-last:] ** 2).mean())), least_velocity(scene))
     velocities[:first] = 0.0
     return range_of(course.times, velocities, limit, scene.full_speed)
+
+
+def least_velocity(scene: Scene) -> float:
+    """Velocity [m/s] that counts as quiet without a limit: a hundredth of that without balls."""
+    return weighing_amplitude(scene) * scene.speed / math.sqrt(2)
 
 
 def _rest_in(scene: Scene, course: Course, end: complex, creep: float) -> TimeRange:

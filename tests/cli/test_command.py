@@ -91,12 +91,12 @@ def test_output_formats(tmp_path: Path, suffix: str) -> None:
     assert again("size", "avtovaz-707-370", "--output", str(path), "--quiet").out == ""
     text = path.read_text(encoding="utf-8")
     if suffix == ".json":
-        assert json.loads(text)["result"]["autobalancer"]["ball_count"] == 6
+        assert json.loads(text)["result"]["autobalancer"]["ball_count"] == 5
     elif suffix == ".toml":
-        assert tomllib.loads(text)["result"]["autobalancer"]["ball_count"] == 6
+        assert tomllib.loads(text)["result"]["autobalancer"]["ball_count"] == 5
     elif suffix == ".csv":
         rows = {row["path"]: row for row in csv.DictReader(io.StringIO(text))}
-        assert rows["autobalancer.ball_count"]["value"] == "6"
+        assert rows["autobalancer.ball_count"]["value"] == "5"
         assert rows["autobalancer.capacity_g_mm"]["unit"] == "g·mm"
     else:
         assert text.startswith("AvtoVAZ") and max(map(len, text.splitlines())) <= 80

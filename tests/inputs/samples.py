@@ -226,7 +226,7 @@ FULL: dict[str, dict[str, str]] = {
         "operators": "3",
         "background_a_hv_m_per_s2": "0.5",
     },
-    "[limits]": {"vibration_level_db": "109.0", "a_hv_m_per_s2": "2.5", "settling_time_s": "1.0"},
+    "[limits]": {"vibration_level_db": "109.0", "a_hv_m_per_s2": "2.5", "quiet_time_s": "1.0", "rest_time_s": "2.0"},
 }
 
 

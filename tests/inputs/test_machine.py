@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.table import Table, all_tables
 from abu_calc.inputs.rolling_bearing import Bearing
@@ -49,7 +50,7 @@ IN_SPACE = {
 def test_the_full_sample_names_every_key_of_the_models() -> None:
     """Otherwise the properties over its numbers would pass by a key that was added later."""
     alternatives = {"runout_tir_mm", "imbalance_g_mm", "balance_grade", "designation", "viscosity_mm2_per_s"}
-    alternatives |= {"viscosity_index", *PAUSE, *QUANTITIES, *IN_SPACE}
+    alternatives |= {"viscosity_index", *PAUSE, *QUANTITIES, *IN_SPACE, "settling_time_s"}
     for path, table in all_tables(MachineFile):
         if path in (("sweep",), ("optimise",)):
             continue  # not the machine but studies of many, which have their own tests
@@ -111,7 +112,7 @@ def test_defaults_in_force_are_listed(tmp_path: Path) -> None:
         "bearing[0].short_pairs_warn_percent": 1.0,
         "bearing[0].short_pairs_fail_percent": 5.0,
         "bearing[0].bearing_class": "0",
-        "limits.settling_time_s": 1,
+        "limits.quiet_time_s": 1,
     }
 
 
@@ -128,7 +129,21 @@ def test_absent_tables_are_none(tmp_path: Path) -> None:
     text = BASIC[: BASIC.index("[autobalancer]")]
     bare = machine(tmp_path, text)
     assert (bare.autobalancer, bare.grinding, bare.run_up, bare.motor, bare.swing_arm) == (None,) * 5
-    assert bare.bearing == () and bare.expected == {} and bare.limits.settling_time_s == 1
+    assert bare.bearing == () and bare.expected == {}
+    assert bare.limits.longest_quiet_time == 1 and bare.limits.rest_time_s is None
+
+
+def test_the_quiet_time_has_two_names_but_one_value(tmp_path: Path) -> None:
+    """Files of before give `settling_time_s`; an override by either name takes the place of the other."""
+    text = BASIC.replace("vibration_level_db = 109.0", "vibration_level_db = 109.0\nsettling_time_s = 0.4")
+    old = read(tmp_path, text)
+    assert isinstance(old.tables, MachineFile) and old.tables.limits.longest_quiet_time == 0.4
+    assert "limits.quiet_time_s" not in dict(old.defaults_used)
+    for key in ("quiet_time_s", "settling_time_s"):
+        changed = read(tmp_path, text, [f"limits.{key}=0.7"]).tables
+        assert isinstance(changed, MachineFile) and changed.limits.longest_quiet_time == 0.7
+    with pytest.raises(InputError, match="two names of one limit"):
+        read(tmp_path, text.replace("settling_time_s = 0.4", "settling_time_s = 0.4\nquiet_time_s = 0.4"))
 
 
 def test_a_motor_may_reach_the_rated_speed_just(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.trajectory import Samples
+from abu_calc.dynamics.trajectory import Samples, Sampling
 from abu_calc.simulation.early_stopping import LOOKS, SEEN, Early
 from abu_calc.simulation.response import Response, settling_times
 from tests.dynamics.scenes import dimensionless
@@ -21,9 +21,9 @@ def early(at_speed: float = 0.0) -> Early:
     return Early(SCENE, at_speed, decided)
 
 
-def motion(end: float, drift: float = 0.0, growth: float = 0.0) -> Samples:
+def motion(end: float, drift: float = 0.0, growth: float = 0.0, sampled: Sampling | None = None) -> Samples:
     """Axis on a circle that grows at a rate [1/s], the first ball drifting at a rate [rad/s], the second at rest."""
-    times = settling_times(SCENE)
+    times = settling_times(SCENE) if sampled is None else sampled.times
     times = times[times <= end]
     turn, size = SCENE.speed * times, np.exp(growth * times)
     axis = [size * np.cos(turn), size * np.sin(turn)]
@@ -63,6 +63,17 @@ def test_creep_is_the_pace_of_the_imbalance_times_the_time_left() -> None:
     averaged = seen - SCENE.revolution  # means over one turn each: one turn less to look back upon
     assert creep == pytest.approx(5e-5 * averaged / seen * (400.0 - float(samples.t[-1])), rel=0.01)
     assert not early().enough(samples)
+
+
+def test_balls_that_creep_end_no_run() -> None:
+    """A ball that drifts by 1e-6 rad/s ends it; the same, called creeping, does not."""
+    ending = early()
+    end = ending.looks[-2]
+    samples = motion(end, 1e-6, sampled=ending.sampling())
+    assert ending.enough(samples) and not ending.response(samples).creeping
+    ending._responses[end] = replace(ending.response(samples), creeping=True)
+    ending._creeping.clear()
+    assert not ending.enough(samples)
 
 
 def test_a_growing_whirl_rises_and_does_not_end_the_run() -> None:

@@ -17,9 +17,11 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import integrate_with
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.planar import planar
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.effect_selection import SHARE, audit, chosen, simulate_chosen
-from abu_calc.simulation.nonconvergence import amplitude, angles, difference, settling
+from abu_calc.simulation.nonconvergence import amplitude, angles, difference, quiet, rest, settling
+from abu_calc.simulation.quiet import TimeRange
 from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.simulate import simulate
 from abu_calc.simulation.subject import subject_of
@@ -104,10 +106,14 @@ def test_gravity_weighs_what_it_changes(speed: float) -> None:
     """Balls swing by a = g/(J R_p Ω²) once per turn; the axis, at 2Ω, by up to Σ m R_p a/2 over M.
 
     The balls stand at ± 120°, where their e^{2iθ} add up to half. The push-off of a ball at rest, a Ω J/h₀, is undone
-    here, since two balls have but one place to rest; in settling it is felt.
+    here, since two balls have but one place to rest; in settling it is felt. Quiet counts to below the level without
+    balls: without gravity this motion dies out, and has no level of its end.
     """
-    full = scene(GravityEffect(), speed=speed)
-    with_, without = simulate(full, 0.001), simulate(scene(speed=speed), 0.001)
+    plain = scene(speed=speed)
+    plain = replace(plain, quiet_velocity=unbalanced_amplitude(plain) * speed / math.sqrt(2))
+    full = replace(plain, effects=(GravityEffect(),))
+    with_, without = simulate(full, 0.001), simulate(plain, 0.001)
+    assert without.response.quiet_time is not None and without.response.rest_time is not None
     weight = GravityEffect().weight(full).value
     true = difference(full, without.response, with_.response)
     assert weight is not None and weight / 3 < true < 3 * weight
@@ -206,11 +212,16 @@ def test_what_a_run_with_the_light_effects_changes_is_part_of_the_error() -> Non
 
 
 # differences
+QUIET, REST = TimeRange(0.3, 0.29, 0.31), TimeRange(0.6, 0.59, 0.61)
+
+
 @dataclass(frozen=True)
 class Said:
     axis_amplitude: float = 1e-5
     velocity_rms: float = 1e-3
     settling_time: float | None = 0.5
+    quiet: TimeRange = QUIET
+    rest: TimeRange = REST
     ball_angles: tuple[float, ...] = (1.0, 2.0)
 
 
@@ -224,6 +235,13 @@ def test_differences() -> None:
     assert settling(one, Said(settling_time=0.6), Said()) == pytest.approx(0.2)
     assert settling(one, Said(settling_time=None), Said()) == math.inf
     assert settling(one, Said(settling_time=None), Said(settling_time=None)) == 0
+    late, never = TimeRange(0.36, 0.35, 0.37), TimeRange(None, None, None)
+    assert quiet(one, Said(quiet=late), Said()) == pytest.approx(0.2) == difference(one, Said(quiet=late), Said())
+    assert rest(one, Said(rest=never), Said()) == math.inf == difference(one, Said(rest=never), Said())
+    assert rest(one, Said(rest=never), Said(rest=never)) == 0
+    # Where a threshold is grazed, each in the range of the other, both are one answer.
+    assert quiet(one, Said(quiet=TimeRange(0.36, 0.2, 0.5)), Said(quiet=TimeRange(0.3, 0.2, 0.4))) == 0
+    assert quiet(one, Said(quiet=TimeRange(0.36, 0.2, None)), Said(quiet=TimeRange(None, 0.3, None))) == 0
     # Alike balls may change places and go round.
     assert angles(one, Said(ball_angles=(2.0 + 2 * math.pi, 1.0)), Said()) == pytest.approx(0, abs=1e-12)
     assert angles(one, Said(ball_angles=(1.0, 2.3)), Said()) == pytest.approx(0.3)

@@ -23,7 +23,8 @@ def design() -> Design:
 
 def outcome(member: Member | None = None, **changed: float | None) -> StartOutcome:
     """A start that passes, unless it is changed."""
-    given = {"settling_time": 0.5, "residual": 1e-5, "level": 100.0, "slip": 0.0, "imbalance": 1e-5, "allowed": 3e-5}
+    given = {"settling_time": 0.5, "quiet_time": 0.2, "rest_time": 0.6, "creeping": False, "residual": 1e-5,
+             "level": 100.0, "slip": 0.0, "imbalance": 1e-5, "allowed": 3e-5}  # fmt: skip
     return StartOutcome(member or Member("bunched", DRAG), **{**given, **changed})  # type: ignore[arg-type]
 
 
@@ -38,8 +39,9 @@ def by_code(
 
 
 def test_the_worst_start_stands_beside_its_limit() -> None:
-    good = outcome(Member("spread", 3 * DRAG), settling_time=0.25, imbalance=2e-5)
-    checks = by_code(outcome(), outcome(Member("spread", DRAG), imbalance=4e-5), mended=(good, good))
+    good = outcome(Member("spread", 3 * DRAG), quiet_time=0.25, imbalance=2e-5)
+    bad = outcome(Member("spread", DRAG), imbalance=4e-5, quiet_time=1.5)
+    checks = by_code(outcome(), bad, mended=(good, good))
     balance = checks["ABU701"]
     assert (balance.status, balance.value, balance.limit) == ("fail", pytest.approx(40.0), pytest.approx(30.0))
     assert "1 of 2 start cases balance. 1 does not: spread, given drag rate 10 1/s" in balance.message
@@ -58,14 +60,36 @@ def test_only_the_first_start_case_is_named() -> None:
 
 
 def test_the_race_centre_is_named_unless_it_is_opposite_the_imbalance() -> None:
-    alike = outcome(Member("spread", DRAG, eccentricity=ALIKE), settling_time=1.5)
+    alike = outcome(Member("spread", DRAG, eccentricity=ALIKE), quiet_time=1.5)
     assert "spread, race centre 0°, given drag rate" in by_code(alike)["ABU702"].message
-    assert "race centre" not in by_code(outcome(Member("spread", DRAG), settling_time=1.5))["ABU702"].message
+    assert "race centre" not in by_code(outcome(Member("spread", DRAG), quiet_time=1.5))["ABU702"].message
 
 
-def test_balls_that_never_settle_have_no_number() -> None:
-    check = by_code(outcome(settling_time=None))["ABU702"]
-    assert (check.status, check.value, check.limit) == ("fail", None, 1.0)
+def test_a_machine_that_is_never_quiet_has_no_number() -> None:
+    check = by_code(outcome(quiet_time=None))["ABU702"]
+    assert (check.status, check.value, check.limit) == ("fail", None, 1.0) and "10 1/s, never" in check.message
+    assert by_code(outcome(settling_time=None))["ABU702"].status == "pass", "the old yardstick is told, not judged"
+
+
+def test_rest_is_judged_only_if_the_file_limits_it() -> None:
+    late = outcome(rest_time=1.7)
+    told = by_code(late)["ABU702"]
+    assert told.status == "pass" and told.message.endswith("The balls rest after 1.70 s at the latest")
+    for longest, status in ((1.8, "pass"), (1.6, "fail")):
+        limited = size(machine(**PINNED, limits={"rest_time_s": longest}))
+        judged = {one.code: one for one in ensemble_checks(limited, Ensemble(DRAG, (outcome(), late), ()))}["ABU702"]
+        assert (judged.status, judged.value) == (status, 0.2) and f"(limit {longest:g} s)" in judged.message
+    other = Ensemble(DRAG, (outcome(), outcome(Member("bunched", 3 * DRAG), rest_time=1.7)), ())
+    assert {one.code: one for one in ensemble_checks(limited, other)}["ABU702"].status == "warn"
+
+
+def test_balls_that_still_creep_warn_unless_they_stall() -> None:
+    creeping = outcome(Member("behind", DRAG), creeping=True, rest_time=None)
+    check = by_code(outcome(), creeping)["ABU702"]
+    assert (check.status, check.value) == ("warn", 0.2)
+    assert "The balls still creep at the end of 1 start case: behind" in check.message
+    assert by_code(outcome(creeping=True, quiet_time=1.5))["ABU702"].status == "fail"
+    assert "creep" not in by_code(outcome(creeping=True, slip=0.5))["ABU702"].message
 
 
 def test_hanging_starts_are_counted() -> None:

@@ -8,9 +8,9 @@ from abu_calc.simulation.start_cases import Member
 DRAG = 15.0
 
 
-def start(level: float, time: float = 0.1, drag: float = DRAG, **changed: float | bool) -> StartOutcome:
+def start(level: float, time: float = 0.1, drag: float = DRAG, **changed: float | bool | None) -> StartOutcome:
     """One that balances."""
-    one = StartOutcome(Member("bunched", drag), time, 1e-5, level, 0.0, 1e-5, 1e-4)
+    one = StartOutcome(Member("bunched", drag), 0.3, time, 0.4, False, 1e-5, level, 0.0, 1e-5, 1e-4)
     return replace(one, **changed)  # type: ignore[arg-type]
 
 
@@ -20,6 +20,13 @@ def test_the_loudest_and_the_latest_are_confirmed() -> None:
     assert deciding(found, DRAG) == {1: False, 2: True}
     found[1], found[2] = replace(found[1], confirmed=True), replace(found[2], confirmed=True)
     assert deciding(found, DRAG) == {}
+
+
+def test_the_latest_is_the_last_to_be_quiet() -> None:
+    """Neither the old settling time nor the time of rest decides; what is never quiet comes last."""
+    found = [start(99.0, confirmed=True), start(97.0, 0.8), start(97.0, settling_time=None, rest_time=None)]
+    assert deciding(found, DRAG) == {1: True}
+    assert deciding([*found, start(97.0, quiet_time=None)], DRAG) == {3: True}
 
 
 def test_what_is_as_loud_as_one_confirmed_decides_nothing() -> None:

@@ -1,4 +1,4 @@
-"""A drum with forty balls: every check of `abu size` is evaluated, the settling of its long run-up too."""
+"""A drum with forty balls: every check of `abu size` is evaluated, the quiet time of its long run-up too."""
 
 from pathlib import Path
 
@@ -32,7 +32,7 @@ def test_every_check_of_a_drum_is_evaluated(monkeypatch: pytest.MonkeyPatch) -> 
     assert not [check.code for check in result.checks if check.status == "not-done"]
     assert {"ABU103", "ABU401", "ABU701", "ABU702", "ABU704"} <= {check.code for check in result.checks}
     assert result.autobalancer.ball_count > 30
-    assert result.ensemble is not None and result.ensemble.settling_time_s.worst is not None
+    assert result.ensemble is not None and result.ensemble.quiet_time_s.worst is not None
     run_ups = [row for row in result.ensemble.settling_by_start if "run-up" in row.start]
-    assert run_ups and all(row.settling_time_s is not None for row in run_ups)
+    assert run_ups and all(row.quiet_time_s is not None for row in run_ups)
     assert sum(evaluations) < MOST

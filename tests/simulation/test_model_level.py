@@ -14,7 +14,9 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.supports.planar import planar
+from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.units import velocity_from_level
 from abu_calc.simulation.model_level import averaged, closed_form, offer
 from abu_calc.simulation.nonconvergence import QUANTITIES, difference
 from abu_calc.simulation.response import evaluate, needed_times
@@ -29,8 +31,10 @@ def integrated(scene, tolerance=1e-6):
 def test_envelope_follows_the_equations_of_a_grinder():
     """The balls' rate is 58 against 607 rad/s, so a few hundredths for where four balls find their places."""
     scene = replace(straight_grinder(), effects=(RaceEccentricityEffect(1e-5, 0.4),))
+    scene = replace(scene, quiet_velocity=velocity_from_level(109.0))
     slow, full = averaged(scene, 1e-6), integrated(scene)
-    for quantity, most in (("amplitude", 0.01), ("level", 0.01), ("settling", 0.01), ("angles", 0.05)):
+    bounds = {"amplitude": 0.01, "level": 0.01, "settling": 0.01, "rest": 0.01, "quiet": 0.1, "angles": 0.05}
+    for quantity, most in bounds.items():
         assert QUANTITIES[quantity](scene, slow, full) < most, quantity
 
 
@@ -68,7 +72,8 @@ def test_envelope_costs_a_tenth():
     assert 10 * averaged(scene, 1e-4).evaluations < run.evaluations
 
 
-LIGHT = dimensionless(3.0, 2e-4, 1e-4, 0.3, 0.04, (0.4, 1.0), 400.0)
+LIGHT = replace(dimensionless(3.0, 2e-4, 1e-4, 0.3, 0.04, (0.4, 1.0), 400.0), quiet_velocity=1e-4)
+"""With a level that is asked for: its motion dies out, so that the level of its end is no measure."""
 
 
 def test_the_cheapest_rung_that_is_accurate_enough_is_taken():
@@ -127,7 +132,11 @@ def test_closed_form_of_two_balls():
     kappa = -0.002 * 81 * forward * (1 - abs(math.cos(2 * place)))
     slowest = min(-np.roots([1.0, 0.05, kappa]).real)
     start = abs(0.001 + 2 * 0.002 * math.cos(1.4))
-    assert told.settling_time == pytest.approx(math.log(start / 1e-4) / slowest, rel=1e-9)
+    assert told.settling_time == pytest.approx(math.log(start / 1e-4) / slowest, rel=1e-9) == told.rest.time
+    asked = closed_form(replace(scene, quiet_velocity=1e-4))
+    loud = unbalanced_amplitude(scene, start) * 3.0 / math.sqrt(2)
+    assert asked.quiet.time == pytest.approx(math.log(loud / 1e-4) / slowest, rel=1e-9)
+    assert closed_form(replace(scene, quiet_velocity=1.01 * loud)).quiet.time == 0.0
 
 
 @pytest.mark.slow

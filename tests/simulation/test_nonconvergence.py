@@ -10,7 +10,8 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.simulation.nonconvergence import MOVED, FinestRuns, _moved, unreached
-from abu_calc.simulation.response import evaluate, needed_times
+from abu_calc.simulation.quiet import TimeRange
+from abu_calc.simulation.response import NEVER, evaluate, needed_times
 from abu_calc.simulation.simulate import simulate
 from tests.dynamics.scenes import dimensionless
 
@@ -52,6 +53,12 @@ def test_a_calm_motion_is_not():
 def test_settling_that_hangs_on_the_end_is_told():
     told = reason(CALM, 0.01, math.inf, ({"settling_time": None}, {"settling_time": 37.9}))
     assert "differ in whether they settle" in told and "--duration" in told
+    once = TimeRange(37.9, 37.8, 38.0)
+    for key in ("quiet", "rest"):  # a time that only one run has
+        told = reason(CALM, 0.01, math.inf, ({key: NEVER}, {key: once}))
+        assert "differ in whether they settle" in told and "--duration" in told
+    quiet = TimeRange(20.0, 19.9, 20.1)
+    assert "most in the quiet time" in reason(CALM, 0.01, 0.9, ({"quiet": once}, {"quiet": quiet}))
 
 
 def test_other_turns_are_told():

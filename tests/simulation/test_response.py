@@ -25,7 +25,7 @@ from tests.dynamics.scenes import dimensionless
 SCENE = replace(dimensionless(3.0, 0.02, 0.02, 0.2, 0.3, (1.0, 2.5), 300.0), effects=(GravityEffect(12.0),))
 """Weights that pull the balls off their race: there is something to remark."""
 
-LIGHT = dimensionless(3.0, 2e-4, 1e-4, 0.3, 0.04, (0.4, 1.0), 400.0)
+LIGHT = replace(dimensionless(3.0, 2e-4, 1e-4, 0.3, 0.04, (0.4, 1.0), 400.0), quiet_velocity=1e-4)
 FIRST = 40
 """Samples of the beginning that stay."""
 WANTED = (0.0, 1.5, 200.25, 300.0)

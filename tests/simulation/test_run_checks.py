@@ -9,6 +9,7 @@ import pytest
 import abu_calc
 from abu_calc.features.simulate.study import SimulateResult
 from abu_calc.foundation.checks import Check
+from abu_calc.simulation.response import NEVER
 from abu_calc.simulation.run_checks import one_run_checks
 from abu_calc.sizing import size as sized
 from tests.inputs.scenes import ARM, SCENE, TILTING
@@ -47,13 +48,31 @@ def test_a_machine_is_judged_as_it_is_sized(idle: SimulateResult) -> None:
 
 
 @pytest.mark.parametrize(
-    ("key", "limit", "code"), [("settling_time_s", 0.1, "ABU702"), ("vibration_level_db", 85.0, "ABU401")]
+    ("key", "limit", "code"),
+    [("quiet_time_s", 0.02, "ABU702"), ("settling_time_s", 0.02, "ABU702"), ("vibration_level_db", 85.0, "ABU401")],
 )
 def test_limits_of_the_file_fail_a_run(key: str, limit: float, code: str) -> None:
+    """A machine that stays too loud is never quiet, either."""
     result = run({f"limits.{key}": limit})
-    failed = [check for check in result.checks if check.status == "fail"]
-    assert result.status == "fail" and [check.code for check in failed] == [code]
-    assert failed[0].limit == limit < failed[0].value and failed[0].remedy  # type: ignore[operator]
+    failed = {check.code: check for check in result.checks if check.status == "fail"}
+    assert result.status == "fail" and failed.keys() == {code, "ABU702"}
+    assert failed[code].limit == limit < failed[code].value and failed[code].remedy  # type: ignore[operator]
+    assert (failed["ABU702"].value is None) is (code == "ABU401")
+
+
+def test_rest_is_told_and_judged_only_if_the_file_limits_it(idle: SimulateResult) -> None:
+    assert idle.rest_time_s is not None and not idle.creeping
+    assert f"The balls rest after {idle.rest_time_s:#.3g} s" in found(idle)["ABU702"].message
+    for share, status in ((1.1, "pass"), (0.9, "fail")):
+        check = found(run({"limits.rest_time_s": share * idle.rest_time_s}))["ABU702"]
+        assert (check.status, check.value) == (status, found(idle)["ABU702"].value)
+
+
+def test_balls_that_creep_warn(idle: SimulateResult) -> None:
+    design = sized(abu_calc.read("msh-230").whole())
+    response = replace(idle.run.response, creeping=True, rest=NEVER)
+    check = {one.code: one for one in one_run_checks(design, response, "bunched")}["ABU702"]
+    assert check.status == "warn" and "still creep" in check.message
 
 
 def test_the_level_where_no_handle_is_given(idle: SimulateResult) -> None:
@@ -104,8 +123,9 @@ def test_after_a_run_up_settling_counts_from_full_speed() -> None:
     result = run({"run_up": {"time_s": 1.5}}, scene="run-up")
     check = found(result)["ABU702"]
     assert result.full_speed_s == 1.5
-    assert result.settling_time_s is not None and 0 < result.settling_time_s < 0.5
-    assert check.value == result.settling_time_s and "from full speed" in check.message
+    assert result.quiet_time_s is not None and 0 <= result.quiet_time_s < 0.5
+    assert result.rest_time_s is not None and 0 < result.rest_time_s < 0.5
+    assert check.value == result.quiet_time_s and "from full speed" in check.message
 
 
 def test_a_run_that_ends_too_soon_tells_nothing() -> None:

@@ -14,7 +14,7 @@ from abu_calc.dynamics.supports.steady_motion import receptance, unbalanced_ampl
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation import simulate as simulate_module
-from abu_calc.simulation.response import amplitude_window, evaluate, needed_times, settling_time, settling_times
+from abu_calc.simulation.response import NEVER, amplitude_window, evaluate, needed_times, settling_times
 from abu_calc.simulation.simulate import difference, simulate
 from tests.dynamics.scenes import dimensionless, straight_grinder
 from tests.dynamics.transforms import in_units
@@ -103,26 +103,17 @@ def test_results_follow_their_definitions():
     t = np.linspace(0, 400, 400001)
     crossing = t[np.flatnonzero(residual(t, creep) >= limit)[-1]]
     assert response.settling_time == pytest.approx(crossing, abs=0.01)
+    # On an even circle it is quiet from the beginning. The balls turn by 1e-5 a second, 0.004 of 0.02 in the run: they
+    # rest when they have closed in. By their directions, too: |1 + 2 cos e^{i·creep·t}| hides what that one adds.
+    assert response.quiet_time == 0.0 and not response.creeping
+    whole = 0.02 * (1 + 2 * np.cos(2 * math.pi / 3 + np.exp(-t / 20)) * np.exp(1j * creep * t))
+    away = np.abs(whole - np.mean(whole[t >= 400.0 - 6 * math.pi]))
+    assert response.rest_time == pytest.approx(t[np.flatnonzero(away >= 0.1 * 0.02)[-1]], abs=0.01)
     assert response.residual_imbalance == pytest.approx(residual(np.array([400.0]), creep)[0], rel=1e-9)
 
 
 def residual(t, creep):
     return 0.02 * np.abs(1 + 2 * np.cos(2 * math.pi / 3 + np.exp(-t / 20)) * np.exp(1j * creep * t))
-
-
-def test_settling_is_read_between_samples_and_not_near_the_end():
-    t = np.arange(11.0)
-    # Falling straight from 6 at 2 s to 0 at 8 s after a dip; a quintic through samples of a line is the line.
-    assert settling_time(t, np.array([5.0, 1, 6, 5, 4, 3, 2, 1, 0, 0, 0]), 3.5) == pytest.approx(4.5)
-    assert settling_time(t, np.array([1.0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0]), 2.0) == 0.0
-    assert settling_time(t, np.array([5.0, 1, 4, 0, 0, 0, 0, 0, 0, 0, 3]), 2.0) is None
-    # Falling from 4 at 9 s to 0 at 10 s: it passes 0.1 later than 95 % of the run.
-    assert settling_time(t, np.array([5.0, 1, 4, 4, 4, 4, 4, 4, 4, 4, 0]), 0.1) is None
-    # A sample on the limit itself.
-    assert settling_time(t, np.array([5.0, 4, 3, 2, 1, 0, 0, 0, 0, 0, 0]), 1.0) == pytest.approx(4.0)
-    # exp(-t/2) with six samples about the crossing: 3.4/720 of its sixth derivative, at most 0.006, over its slope,
-    # 0.05, is 0.0006; a line between two samples would be 0.06 off.
-    assert settling_time(t, np.exp(-t / 2), 0.1) == pytest.approx(2 * math.log(10), abs=6e-4)
 
 
 def test_the_window_begins_where_it_begins():
@@ -261,6 +252,9 @@ def test_difference_knows_the_circle_and_equal_balls():
     assert difference(scene, moved(0.01, 3.0, c), moved(3.0, -0.01, c)) == pytest.approx(0.02)
     assert difference(scene, one, moved(c, b, a)) > 0.1
     assert difference(scene, one, replace(one, settling_time=None)) == math.inf
+    assert one.quiet_time is not None and one.rest_time is not None
+    for other in (replace(one, quiet=NEVER), replace(one, rest=NEVER)):
+        assert difference(scene, one, other) == math.inf
     amplitude = unbalanced_amplitude(scene) * 0.01
     still = replace(one, axis_amplitude=0.0)
     assert difference(scene, replace(one, axis_amplitude=0.2 * amplitude), still) == pytest.approx(0.2)

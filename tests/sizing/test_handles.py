@@ -1,6 +1,7 @@
 """Bands of an estimated inertia, and the limit of the weighted acceleration at the handles."""
 
 import math
+from functools import partial
 from typing import Any
 
 import pytest
@@ -9,9 +10,9 @@ from abu_calc.formulas.body_motion import vector_total
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.handles import highest_totals
+from abu_calc.sizing.handles import UNCERTAIN, highest_total, total_of
 from abu_calc.standards.vibration import hand_arm_weight
-from tests.sizing.machines import check_of, machine
+from tests.sizing.machines import PINNED, check_of, machine
 from tests.sizing.test_places import angle_grinder, without_inertia
 
 LENGTHS: dict[str, Any] = {"machine__length_mm": 300.0, "machine__height_mm": 60.0}
@@ -61,11 +62,9 @@ def test_limit_in_the_band_warns_beside_a_level_that_passes() -> None:
     offset = {"autobalancer__plane_offset_mm": -20.0, **TRUE}
     design = size(without_inertia(**LENGTHS, **offset))
     assert design.bands is not None and design.bands.level is not None and design.speed_levels is not None
-    level, arranged = design.speed_levels.highest.level_after, design.speed_levels.arranged.level_after
-    limit = (max(level, arranged) + design.bands.level[1]) / 2
-    if limit > max(level, arranged):
-        check = check_of(size(without_inertia(**LENGTHS, **offset, limits={"vibration_level_db": limit})), "ABU401")
-        assert check.status == "warn" and "estimated inertia" in check.message
+    limit = (design.speed_levels.highest.level_after + design.bands.level[1]) / 2
+    check = check_of(size(without_inertia(**LENGTHS, **offset, limits={"vibration_level_db": limit})), "ABU401")
+    assert check.status == "warn" and "estimated inertia" in check.message
 
 
 def test_vector_total_is_that_of_the_axes() -> None:
@@ -81,12 +80,14 @@ def test_no_limit_no_check() -> None:
     assert "ABU404" not in {check.code for check in size(angle_grinder()).checks}
 
 
-@pytest.mark.parametrize(("factor", "status"), [(0.9, "fail"), (1.0001, "warn"), (50.0, "pass")])
+@pytest.mark.parametrize(("factor", "status"), [(0.9, "fail"), (1.0001, "pass"), (50.0, "pass")])
 def test_highest_handle_is_judged(factor: float, status: str) -> None:
     design = size(angle_grinder())
-    expected, arranged, _ = highest_totals(design.case, design.imbalance.value, design.autobalancer)
-    assert expected is not None and arranged is not None and expected.name == "side"
-    assert arranged.total > expected.total
+    expected = highest_total(design.case, design.imbalance.value, design.autobalancer)
+    assert expected is not None and expected.name == "side"
+    # The bound of friction is above all of these limits but one, and decides nothing.
+    (worst,) = design.worst
+    assert total_of(design.case, design.imbalance.value, design.autobalancer, worst.at_race) > 1.0001 * expected.total
     check = check_of(size(angle_grinder(limits={"a_hv_m_per_s2": factor * expected.total})), "ABU404")
     assert check.status == status and check.value == pytest.approx(expected.total)
     if status != "pass":
@@ -95,7 +96,7 @@ def test_highest_handle_is_judged(factor: float, status: str) -> None:
 
 def test_action_holds_when_it_is_followed() -> None:
     design = size(angle_grinder())
-    expected, *_ = highest_totals(design.case, design.imbalance.value, design.autobalancer)
+    expected = highest_total(design.case, design.imbalance.value, design.autobalancer)
     assert expected is not None
     limit = 0.8 * expected.total
     check = check_of(size(angle_grinder(limits={"a_hv_m_per_s2": limit})), "ABU404")
@@ -104,7 +105,7 @@ def test_action_holds_when_it_is_followed() -> None:
     }
     changed["autobalancer__ball_count"] = int(changed["autobalancer__ball_count"])
     followed = check_of(size(angle_grinder(limits={"a_hv_m_per_s2": limit}, **changed)), "ABU404")
-    assert followed.status in ("pass", "warn") and followed.value is not None and followed.value <= limit
+    assert followed.status == "pass" and followed.value is not None and followed.value <= limit
 
 
 def test_top_speed_of_the_range_decides() -> None:
@@ -115,12 +116,22 @@ def test_top_speed_of_the_range_decides() -> None:
     assert "12000 rpm" in fast.message and fast.value > slow.value
 
 
-def test_point_mass_and_missing_handles_never_pass() -> None:
-    limit = {"limits": {"a_hv_m_per_s2": 500.0}}
-    point = check_of(size(machine(**limit)), "ABU404")
-    assert point.status == "warn" and "machine.length_mm" in (point.remedy or "")
-    bare = check_of(size(angle_grinder(machine__handle=None, **limit)), "ABU404")
-    assert bare.status == "warn" and "[[machine.handle]]" in (bare.remedy or "")
+@pytest.mark.parametrize(
+    ("made", "asked"),
+    [
+        (partial(machine, **PINNED), "machine.length_mm"),
+        (partial(angle_grinder, machine__handle=None), "[[machine.handle]]"),
+    ],
+    ids=["point mass", "no handle"],
+)
+def test_point_mass_and_missing_handles_pass_with_three_times_the_value(made: Any, asked: str) -> None:
+    """As uncertain as they are: nearer to the limit they warn, and say what is missing."""
+    expected = check_of(size(made(limits={"a_hv_m_per_s2": 500.0})), "ABU404").value
+    assert expected is not None and UNCERTAIN == 3
+    for times, status in ((3.01, "pass"), (2.99, "warn"), (0.99, "fail")):
+        check = check_of(size(made(limits={"a_hv_m_per_s2": times * expected})), "ABU404")
+        assert (check.status, check.value) == (status, pytest.approx(expected))
+        assert (asked in (check.remedy or "")) is (status == "warn")
 
 
 @pytest.mark.slow

@@ -82,6 +82,8 @@ class Machine(NamedTuple):
     inertia: float
     longest: float
     """Longest step [s] that is stable."""
+    housing: float = 0.0
+    """Mass of the autobalancer without its balls [kg]: the machine without it is lighter by that."""
 
 
 class Work(NamedTuple):
@@ -361,8 +363,10 @@ def _step(p, y, h, given, w, k1, k2, k3, k4, z):  # type: ignore[no-untyped-def]
 
 
 @njit
-def _look(p, y, rev, n_places, squares):  # type: ignore[no-untyped-def]
-    """Imbalance left, in the rotor, and the squares of the velocities of the places added up for this revolution."""
+def _look(p, y, rev, place, n_places, squares, sums):  # type: ignore[no-untyped-def]
+    """Imbalance left, in the rotor, and the squares of the velocities of the places added up for this revolution, these
+    velocities themselves, and times the `place` of the sample from the middle of the revolution.
+    """
     nq = len(p.stiffness)
     v = nq + 1 + p.balls
     re, im = p.carried, 0.0
@@ -372,12 +376,16 @@ def _look(p, y, rev, n_places, squares):  # type: ignore[no-untyped-def]
         im += p.ball_mass * p.pitch * math.sin(theta)
     for j in range(n_places):
         if p.arm > 0.0:
-            squares[rev, j, 0] += (p.arm * y[v]) ** 2
+            vx, vy = p.arm * y[v], 0.0
         else:
-            tx = y[v + 2] if p.core == 4 else 0.0
-            ty = y[v + 3] if p.core == 4 else 0.0
-            squares[rev, j, 0] += (y[v] + p.places[j] * tx) ** 2
-            squares[rev, j, 1] += (y[v + 1] + p.places[j] * ty) ** 2
+            vx = y[v] + (p.places[j] * y[v + 2] if p.core == 4 else 0.0)
+            vy = y[v + 1] + (p.places[j] * y[v + 3] if p.core == 4 else 0.0)
+        squares[rev, j, 0] += vx**2
+        squares[rev, j, 1] += vy**2
+        sums[0, rev, j, 0] += vx
+        sums[0, rev, j, 1] += vy
+        sums[1, rev, j, 0] += vx * place
+        sums[1, rev, j, 1] += vy * place
     return re, im
 
 
@@ -422,11 +430,12 @@ def _rests(p, rev, wide, quiet, means, squares, angles, slipped):  # type: ignor
 
 
 @njit
-def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, angles, slipped):  # type: ignore[no-untyped-def]
+def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, sums, angles, slipped):  # type: ignore[no-untyped-def]
     """Integrate y from t = 0 until all rests; `span` [s]: full speed, least time at it, latest end, window of looking.
 
-    From `full` [s] on, 16 times a revolution: |imbalance left| and its time; for each revolution its mean, the mean
-    squares of velocity, the ball angles at its end. Returns samples and revolutions that were written, and t.
+    From `full` [s] on, 16 times a revolution: |imbalance left| and its time. For each revolution its mean, the sums of
+    the squares of velocity, of the velocities and of their moments, the ball angles at its end. Returns samples and
+    revolutions that were written, and t.
     """
     full, least, most, window = span
     nq, n = len(p.stiffness), p.balls
@@ -455,7 +464,7 @@ def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, angle
             continue
         since += 1
         if since % every == 0:
-            a, b = _look(p, y, rev, len(p.places), squares)
+            a, b = _look(p, y, rev, sample % 16 - 7.5, len(p.places), squares, sums)
             moduli[sample], times[sample] = math.hypot(a, b), t
             sample += 1
             re += a / 16

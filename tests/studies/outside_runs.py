@@ -1,8 +1,9 @@
 """Runs of a sized machine by the outside equations: its numbers from its file and the result of `abu size`, its starts,
 and when a run keeps what a PASS promises.
 
-Nothing is imported from the product. What counts as settled and as balanced is written here anew from the README and
-`abu explain`: |U(t)| within the mean of the end and a tenth of the imbalance, no ball that moves on against its race.
+Nothing is imported from the product. What counts as quiet, as settled and as balanced is written here anew from the
+README and `abu explain`. Quiet: no further revolution is louder than the limit and than the machine without balls.
+Settled: |U(t)| within the mean of the end and a tenth of the imbalance. Balanced: no ball moves on against its race.
 """
 
 import math
@@ -41,9 +42,12 @@ class Start:
 
 @dataclass(frozen=True)
 class Ending:
-    """What a run came to; `time` [s] from full speed on, infinite: not settled. `left` in shares of what is allowed."""
+    """What a run came to. `time` until it settled and `quiet` until it was quiet [s], from full speed on, infinite:
+    never. `left` in shares of what is allowed.
+    """
 
     time: float
+    quiet: float
     level: float
     slip: float
     left: float
@@ -94,7 +98,7 @@ def machine_of(file: Json, result: Json, *, on_arm: bool = False) -> Machine:
         offset=table["race_eccentricity_mm"] / 1e3, offset_angle=math.pi,
         gap=2 * math.asin(radius / pitch), restitution=0.5, speed=speed, ramp=0.0,
         stall=0.0, no_load=motor.get("no_load_speed_rpm", 0.0) * math.tau / 60,
-        inertia=motor.get("rotor_inertia_kg_m2", 0.0), longest=_longest(held),
+        inertia=motor.get("rotor_inertia_kg_m2", 0.0), longest=_longest(held), housing=housing,
     )  # fmt: skip
 
 
@@ -219,11 +223,12 @@ def with_motor(start: Start, file: Json) -> Start:
 
 def ended(
     start: Start, result: Json, limit: float, loudest: float = -1e3, steps: int = STEPS, longest: float = 3.0,
-    least: float = 0.2,
+    least: float = 0.2, permitted: float = math.inf,
 ) -> Ending:  # fmt: skip
-    """Run a start; `least`, `longest`: settling times permitted (`limit` [s]) that are waited at least and at most.
+    """Run a start; `least`, `longest`: quiet times permitted (`limit` [s]) that are waited at least and at most.
 
-    `loudest` [dB]: a level that falls below it need not be followed to its end.
+    `permitted` [dB]: the limit of the level. `loudest` [dB]: a level that falls below it need not be followed to its
+    end.
     """
     p, n = start.machine, start.machine.balls
     nq = len(p.stiffness)
@@ -237,18 +242,70 @@ def ended(
     most = start.full + longest * limit
     turns = int(longest * limit * p.speed * 1.2 / math.tau) + 80
     moduli, times = np.zeros(16 * turns), np.zeros(16 * turns)
-    means, squares = np.zeros((turns, 2)), np.zeros((turns, len(p.places), 2))
+    means = np.zeros((turns, 2))
+    squares, sums = np.zeros((turns, len(p.places), 2)), np.zeros((2, turns, len(p.places), 2))
     angles, slipped = np.zeros((turns, n)), np.zeros((turns, n))
     most = max(most, start.full + 60 * math.tau / p.speed)
     quiet = (5e-8 * 10 ** ((loudest - 0.5) / 20)) ** 2
     span = (start.full, least * limit, most, 0.2 * limit)
     samples, revs, _ = run(
-        p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, angles, slipped
+        p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, sums, angles, slipped
     )
-    return judged(p, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs])
+    most_quiet = min(5e-8 * 10 ** (permitted / 20), without_balls(p))
+    loud = turn_velocities(squares[:revs], *sums[:, :revs]) > most_quiet
+    quiet_from = quiet_time(loud, times[15:samples:16], start.full)
+    return judged(p, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs], quiet_from)
 
 
-def judged(p: Machine, result: Json, full: float, moduli: Any, times: Any, squares: Any, angles: Any) -> Ending:
+def without_balls(p: Machine) -> float:
+    """Rms velocity [m/s] of the machine without an autobalancer, of its loudest axis at its loudest place.
+
+    (K + iΩC − Ω²M) q = Ω² U at the wheel, M without the housing. On an arm Ω² U l turns it.
+    """
+    size, mass = len(p.stiffness), np.zeros_like(p.stiffness)
+    axes = ((0,),) if p.arm else ((0, 2), (1, 3)) if p.core == 4 else ((0,), (1,))
+    held = p.mass.copy()
+    for axis in axes:
+        way = np.zeros(p.core)
+        way[list(axis)] = (p.arm,) if p.arm else (1.0, p.race)[: len(axis)]
+        held -= p.housing * np.outer(way, way)
+    mass[: p.core, : p.core] = held
+    mass[range(p.core, size), range(p.core, size)] = p.nodes
+    dynamic = p.stiffness + 1j * p.speed * p.damping - p.speed**2 * mass
+    largest = 0.0
+    for axis in axes:
+        force = np.zeros(size, dtype=complex)
+        force[list(axis)] = (p.arm,) if p.arm else (1.0, p.wheel)[: len(axis)]
+        moved = np.linalg.solve(dynamic, p.imbalance * p.speed**2 * force)
+        for place in p.places:
+            way = (p.arm,) if p.arm else (1.0, place)[: len(axis)]
+            largest = max(largest, abs(sum(w * moved[k] for w, k in zip(way, axis, strict=True))))
+    return largest * p.speed / math.sqrt(2)
+
+
+def turn_velocities(squares: Any, sums: Any, moments: Any) -> Any:
+    """Rms velocity [m/s] of each revolution of 16 samples, its mean and its trend taken off: loudest axis and place.
+
+    The trend is that from the mean of the revolution before to that of the one after; `moments`: Σ v (k − 7.5).
+    """
+    mean = sums / 16
+    slope = np.gradient(mean, axis=0) / 16 if len(mean) > 1 else 0 * mean
+    variance = squares / 16 - mean**2 - 2 * slope * moments / 16 + slope**2 * (16**2 - 1) / 12
+    return np.sqrt(np.maximum(variance, 0.0).max(axis=(1, 2)))
+
+
+def quiet_time(loud: Any, ends: Any, full: float) -> float:
+    """End of the last loud revolution [s] from full speed on; infinite in the last 5 % of the run."""
+    last = np.flatnonzero(loud)
+    if not len(last):
+        return 0.0
+    time, whole = float(ends[last[-1]] - full), float(ends[-1] - full)
+    return math.inf if time > 0.95 * whole else time
+
+
+def judged(
+    p: Machine, result: Json, full: float, moduli: Any, times: Any, squares: Any, angles: Any, quiet: float
+) -> Ending:
     """Settling, level, slip and what is left over what is allowed, of the samples of a run."""
     moment = p.balls * p.ball_mass * p.pitch
     last = min(len(squares), max(10, len(squares) // 20))
@@ -260,7 +317,7 @@ def judged(p: Machine, result: Json, full: float, moduli: Any, times: Any, squar
     back = angles[-1 - min(last, len(angles) - 1)]
     slip = float(np.abs(angles[-1] - back).max()) / (math.tau * last)
     left = final / allowed(p, result)
-    return Ending(time, 20 * math.log10(max(rms, 1e-12) / 5e-8), slip, left, final)
+    return Ending(time, quiet, 20 * math.log10(max(rms, 1e-12) / 5e-8), slip, left, final)
 
 
 def allowed(p: Machine, result: Json) -> float:
@@ -277,6 +334,11 @@ def allowed(p: Machine, result: Json) -> float:
     return max(tenth + fan, min(tenth + worst, 0.5 * p.carried))
 
 
+def quiet_limit(limits: Json) -> float:
+    """Longest quiet time permitted [s], by whichever of its names."""
+    return float(limits.get("quiet_time_s", limits.get("settling_time_s", 1.0)))
+
+
 def broken(ending: Ending, limits: Json) -> str:
     """Which limits a run breaks, in words; empty: none."""
     words = []
@@ -284,7 +346,7 @@ def broken(ending: Ending, limits: Json) -> str:
         words.append("stalls")
     elif ending.left > 1:
         words.append("does not balance")
-    if ending.time > limits["settling_time_s"]:
+    if ending.quiet > quiet_limit(limits):
         words.append("late")
     if ending.level > limits["vibration_level_db"]:
         words.append("loud")

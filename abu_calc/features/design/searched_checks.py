@@ -95,7 +95,7 @@ def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str,
 
 
 def _late(outcome: StartOutcome, design: Design) -> bool:
-    return outcome.quiet_time_or_inf > design.case.table.limits.longest_quiet_time
+    return not outcome.in_time(design.case.table.limits)
 
 
 def _loud(outcome: StartOutcome, design: Design) -> bool:

@@ -201,7 +201,7 @@ def _doubtful(outcome: StartOutcome, design: Design) -> bool:
 
 
 def slowness(outcome: StartOutcome) -> float:
-    """Settling time [s]; infinite if the balls never settle."""
+    """Quiet time [s]; infinite if the machine never is."""
     return outcome.quiet_time_or_inf
 
 

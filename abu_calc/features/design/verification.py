@@ -130,8 +130,8 @@ def change_for_oils(
 
 def _good(design: Design, outcome: StartOutcome) -> bool:
     """True if a start case balances, in time and within the level."""
-    limits = design.case.table.limits
-    return outcome.quiet_time_or_inf <= limits.longest_quiet_time and outcome.level <= design.case.level_limit
+    in_time = outcome.in_time(design.case.table.limits)
+    return outcome.balanced and in_time and outcome.level <= design.case.level_limit
 
 
 def changes(design: Design, first: Ensemble) -> Iterator[MachineChange]:

@@ -191,18 +191,15 @@ def _device(
     slim = size_design(pinned.changed(SLIM).whole("factory")).autobalancer
     idle, many = made.imbalance_g_mm + made.model.eccentricity_part_g_mm, made.ensemble
     own, loaded = made.autobalancer, made.vibration_loaded
-    starts = (None,) * 6 if many is None else (
-        many.predicted_level_db, many.level_db.worst, many.quiet_time_s.typical, many.quiet_time_s.worst,
-        many.settling_time_s.typical, many.settling_time_s.worst,
-    )  # fmt: skip
+    starts = (None,) * 4 if many is None else (many.predicted_level_db, many.level_db.worst,
+                                               many.quiet_time_s.worst, many.settling_time_s.worst)  # fmt: skip
     required = idle if state == "idle" else made.required_capacity_g_mm
     for quantity, published, predicted in (
         ("mass, %", mass, 100 * own.mass_fraction), ("mass if slim, %", mass, 100 * slim.mass_fraction),
         ("capacity, g·mm", None, own.capacity_g_mm), ("required, g·mm", None, required),
         ("idle, median, dB", None, starts[0]), ("idle, loudest, dB", None, starts[1]),
         ("grinding, dB", None, None if loaded is None else loaded.level_after_db),
-        ("quiet, median, s", 1.0, starts[2]), ("quiet, slowest, s", 1.0, starts[3]),
-        ("settling, median, s", 1.0, starts[4]), ("settling, slowest, s", 1.0, starts[5]),
+        ("quiet, slowest, s", 1.0, starts[2]), ("settling, slowest, s", 1.0, starts[3]),
     ):  # fmt: skip
         yield DeviceNumber(short=machine.short, balls=balls, state=state, quantity=quantity, published=published,
                            predicted=predicted)  # fmt: skip

@@ -109,7 +109,7 @@ FLAGS: Final[dict[What, tuple[SampleColumn, ...]]] = {
         BALANCES,
         SampleColumn("none_hangs", "1: no ball goes round behind the rotor at the end"),
         SampleColumn("meets_level", "1: the level is within limits.vibration_level_db"),
-        SampleColumn("meets_settling", "1: it is quiet within limits.quiet_time_s"),
+        SampleColumn("meets_settling", "1: it is quiet in time, and at rest if that is limited"),
         MEETS,
     ),
     "design": (MEETS,),

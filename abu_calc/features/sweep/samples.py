@@ -137,7 +137,7 @@ class Builds(SweepStudy):
         lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
         outcome = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
         limits = table.limits
-        soon, low = outcome.quiet_time_or_inf <= limits.longest_quiet_time, outcome.level <= limits.vibration_level_db
+        soon, low = outcome.in_time(limits), outcome.level <= limits.vibration_level_db
         flags = outcome.balanced, not outcome.hanging, low, soon
         return (
             outcome.level, outcome.quiet_time, outcome.rest_time, outcome.settling_time,

@@ -77,9 +77,9 @@ class TwoRaceBuilds(SweepStudy):
         run = run_of(made, start, max(self.accuracy, ACCURACY))
         if isinstance(run, LostRun):
             raise NotTrustworthyError(run.reason)
-        limits, slow = made.case.table.limits, math.inf if run.quiet_time is None else run.quiet_time
+        limits = made.case.table.limits
         flags = (
-            run.balances, not run.stalls, run.level <= limits.vibration_level_db, slow <= limits.longest_quiet_time,
+            run.balances, not run.stalls, run.level <= limits.vibration_level_db, run.in_time(limits),
         )  # fmt: skip
         return (
             run.level, run.quiet_time, run.rest_time, run.settling_time, from_si(max(run.race_displacements), "um"),

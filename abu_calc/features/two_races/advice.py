@@ -154,11 +154,10 @@ def tried_change(
 
     `late`: the slowest start case, which is tried first, `before`: its quiet time [s] if it has one.
     """
-    limit = design.case.table.limits.longest_quiet_time
 
     def in_time(run: TwoRaceRun) -> bool:
         """True if the run balances within the limit."""
-        return run.balances and run.quiet_time is not None and run.quiet_time <= limit
+        return run.balances and run.in_time(design.case.table.limits)
 
     mended = _mended(_quicker(design), late, in_time, accuracy, progress, workers, work)
     if mended is None or (slow := slowest(mended[1])) is None:

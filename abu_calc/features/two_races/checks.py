@@ -160,7 +160,6 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
         return
     known = [run for run in runs if isinstance(run, TwoRaceRun)]
     given, limits = [run for run in known if run.case.drag_factor == 1], design.case.table.limits
-    limit, longest = limits.longest_quiet_time, limits.rest_time_s
     bad = [run for run in given if not run.balances]
     elsewhere = [run for run in known if not run.balances and run.case.drag_factor != 1]
     text = "Start cases in which both races balance, at the given drag rate"
@@ -171,14 +170,15 @@ def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], ac
         action or "Run farther above the critical speeds." if bad or elsewhere else None, "least",
     )  # fmt: skip
     slow, slow_anywhere = slowest(given), slowest(known)
-    in_time = slow is not None and slow[0] <= limit and rests(given, longest)
-    all_in_time = slow_anywhere is not None and slow_anywhere[0] <= limit and rests(known, longest)
+    in_time, all_in_time = (all(run.in_time(limits) for run in some) for some in (given, known))
+    rest = max((math.inf if run.rest_time is None else run.rest_time for run in known), default=0.0)
     yield coded(
         "ABU702", verdict(in_time, all_in_time),
         "Slowest start case at the given drag rate" + (f": {slow[1].case.name}" if slow else " is never quiet")
         + ("" if all_in_time or slow_anywhere is None else f"; in hot or cold oil {slow_anywhere[0]:.2f} s")
-        + ("" if rests(known, longest) else f"; balls of a start case rest after more than {longest:g} s"),
-        None if slow is None else slow[0], limit, "s", None if in_time and all_in_time else action or OTHERWISE,
+        + (f"; balls rest after {_seconds(rest)} (limit {limits.rest_time_s:g} s)" if limits.rest_time_s else ""),
+        None if slow is None else slow[0], limits.longest_quiet_time, "s",
+        None if in_time and all_in_time else action or OTHERWISE,
     )  # fmt: skip
     stalled = [run for run in known if run.stalls]
     at_given = [run for run in stalled if run.case.drag_factor == 1]
@@ -216,9 +216,8 @@ def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
     return f"{len(lost)} of {count} start cases gave no answer. {'; '.join(reasons)}", " ".join(dict.fromkeys(actions))
 
 
-def rests(runs: Sequence[TwoRaceRun], longest: float | None) -> bool:
-    """True if in every run the balls rest within a time [s], if one is asked for."""
-    return longest is None or all(run.rest_time is not None and run.rest_time <= longest for run in runs)
+def _seconds(time: float) -> str:
+    return "more than the run" if math.isinf(time) else f"{time:.2f} s"
 
 
 def slowest(runs: Sequence[TwoRaceRun]) -> tuple[float, TwoRaceRun] | None:

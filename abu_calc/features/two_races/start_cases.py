@@ -30,6 +30,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted
 from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
+from abu_calc.inputs.bearing_file import Limits
 from abu_calc.simulation.quiet import PER_TURN, last_crossing, turn_velocities
 from abu_calc.simulation.response import amplitude_window
 from abu_calc.simulation.scene_of_file import in_order
@@ -115,6 +116,12 @@ class TwoRaceRun:
     def stalls(self) -> bool:
         """True if balls stall."""
         return self.slip > STILL
+
+    def in_time(self, limits: Limits) -> bool:
+        """True if it is quiet in time, and at rest, if the file limits that."""
+        quiet, rest, longest = self.quiet_time, self.rest_time, limits.rest_time_s
+        rests = longest is None or (rest is not None and rest <= longest)
+        return quiet is not None and quiet <= limits.longest_quiet_time and rests
 
     @property
     def level(self) -> float:

@@ -159,8 +159,7 @@ def _advice(
     design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int, work: int
 ) -> Action | None:
     """A drag rate that was tried, if a start case is late or does not balance."""
-    limit = design.case.table.limits.longest_quiet_time
-    late = [run for run in runs if not run.balances or run.quiet_time is None or run.quiet_time > limit]
+    late = [run for run in runs if not run.balances or not run.in_time(design.case.table.limits)]
     if not late or patience.over():
         return None
     slow = slowest(runs)

@@ -45,17 +45,12 @@ def quantity(result: SizeResult, code: str, what: str) -> float | None:
     check = next((one for one in result.checks if one.code == code), None)
     vibration = result.vibration
     match what:
-        case "the worst friction case":
-            return None if vibration.worst_arrangement is None else vibration.worst_arrangement.level_after_db
-        case "a_hv in the worst friction case":
-            told = None if check is None else re.search(r"Worst friction case: a_hv = ([\d.]+)", check.message)
-            return None if told is None else float(told[1])
         case "the expected level":
             return max(speed.level_after_db for speed in vibration.by_speed or ())
         case "the loudest start case":
             return max(start.level for start in given)
         case "the slowest start case":
-            return max(start.settling_time_or_inf for start in given)
+            return max(start.quiet_time_or_inf for start in given)
         case "the largest imbalance left by a start case":
             return max(1e6 * start.imbalance for start in given)
         case "the number of start cases with stalled balls":

@@ -85,9 +85,11 @@ def test_each_run_of_the_animation_has_its_own_label_that_names_the_case(name: s
 def test_labels_tell_placed_balls_stalled_balls_and_why_a_case_is_shown() -> None:
     start = StartView("worst", "placed", 15.0, 0.0, (352.4, 21.8), 0.25, 98.7, balanced=True, stalled=False, view=VIEW)  # type: ignore[arg-type]
     case = "race centre 0°, drag rate 15 1/s"
-    assert start_label(start) == f"Placed (352°, 22°), {case}, the loudest: settles in 0.25 s, 98.7 dB"
+    assert start_label(start) == f"Placed (352°, 22°), {case}, the loudest: quiet after 0.25 s, 98.7 dB"
     start = replace(start, why="typical", start="bunched", angles_deg=())
-    assert start_label(start) == f"Bunched, {case}, median settling time: settles in 0.25 s, 98.7 dB"
+    assert start_label(start) == f"Bunched, {case}, median quiet time: quiet after 0.25 s, 98.7 dB"
+    never = replace(start, why="", quiet_time_s=None)
+    assert start_label(never) == f"Bunched, {case}: never quiet, 98.7 dB"
     assert start_label(replace(start, why="", balanced=False)).endswith(": does not balance, 98.7 dB")
     assert start_label(replace(start, why="worst", balanced=False, stalled=True)).endswith(": balls stall, 98.7 dB")
 
@@ -102,12 +104,13 @@ def test_caption_of_the_early_pressed_run_names_its_case() -> None:
 
 
 @pytest.mark.parametrize("name", PRESETS)
-def test_each_settling_time_of_the_report_names_start_race_and_drag_rate(name: str) -> None:
-    """One drag rate has a settling time for each start case; each row and cell names its own."""
+def test_each_time_of_the_report_names_start_race_and_drag_rate(name: str) -> None:
+    """One drag rate has a quiet and a rest time for each start case; each row and cell names its own."""
     result = recalled("size", read_machine(name))
     rows = [row for block in size_blocks(result) if isinstance(block, Facts) for row in block.rows]
-    times = [label for label, _, _ in rows if "settling" in label]
-    assert times and [label for label in times if not re.search("race centre .*drag rate", label)] == []
+    times = [label for label, _, _ in rows if re.match("(quiet|rest|settling) time", label)]
+    assert {"quiet time", "rest time"} <= {label.partition(",")[0] for label in times}
+    assert [label for label in times if not re.search("race centre .*drag rate", label)] == []
 
 
 def test_speeds_between_boundaries_are_forbidden() -> None:

@@ -101,10 +101,13 @@ def test_what_failed_stands_there_with_its_remedy() -> None:
     bad = [check for check in asked if check["status"] != "pass"]
     assert {check["status"] for check in bad} == {"fail", "not-done"}
     assert re.search(r"FAIL: \d+ of \d\d checks pass, \d warn, \d fails?, 2 not evaluated", flat(lines))
+    left_out = re.search(r"And \d+ more checks? \(([A-Z\d, ]+)\): --full", flat(lines))
+    codes = set() if left_out is None else set(left_out[1].split(", "))
     for check in bad:
         assert check["code"] in lines
         assert check["remedy"] is None or check["remedy"] in flat(lines)
-        assert check["remedy"] or check["message"] in flat(lines)
+        assert check["remedy"] or check["message"] in flat(lines) or check["code"] in codes
+    assert len(codes) < len(bad) / 2
 
 
 def row_of(text: str, label: str) -> str:
@@ -115,7 +118,8 @@ def row_of(text: str, label: str) -> str:
 def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> None:
     text = as_text(size_screen(sized))
     vibration, many = sized.vibration, sized.ensemble
-    assert many is not None and vibration.worst_arrangement is not None
+    assert many is not None and vibration.worst_arrangement is not None and sized.friction_bound is not None
+    near = f"{sized.friction_bound.reached_within_1_db} of {sized.friction_bound.runs} runs near"
     axes = vibration.handles[0].axes
     assert axes is not None
     before = f"{max(axis.a_h_before_m_per_s2 or 0.0 for axis in axes):.3g}"
@@ -124,8 +128,9 @@ def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> 
         ("Idle, without autobalancer", vibration.level_before_db, (before,)),
         ("Idle, with: median of the start cases", many.predicted_level_db, ("109", "pass")),
         ("expected, manufacture and friction", vibration.level_after_db, (after, "109", "pass")),
-        ("worst friction case", vibration.worst_arrangement.level_after_db, ("109", "pass")),
-        ("Median of the start cases", many.settling_time_s.typical, ("1.00", "pass")),
+        (f"bound of friction: {near}", vibration.worst_arrangement.level_after_db, ()),
+        ("Median of the start cases", many.quiet_time_s.typical, ("1.00", "pass")),
+        ("Rest time (the balls keep their places), slowest", many.rest_time_s.worst, ()),
     )
     for label, value, judged in cases:
         number, *others = row_of(text, label).split()
@@ -136,21 +141,25 @@ def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> 
 
 @pytest.mark.slow
 def test_a_case_beyond_its_limit_points_to_its_action() -> None:
-    """The worst friction case of the choice for a horizontal spindle warns on a vertical one; the number of its action
-    stands below, with what it changes.
+    """The expected level of the choice is above a limit of 100 dB; the number of its action stands below, with what
+    it changes. Friction alone would hold the balls at 113.5 dB on a vertical spindle: that is told, and judged by none.
     """
     balls = "ball_count=4", "ball_diameter_mm=15.875", "race_radius_mm=31"
-    entries = ("machine.spindle_axis=vertical", *(f"autobalancer.{entry}" for entry in balls))
+    entries = (
+        "machine.spindle_axis=vertical", "limits.vibration_level_db=100", *(f"autobalancer.{entry}" for entry in balls),
+    )  # fmt: skip
     lines = once("size", "avtovaz-707-222", *(part for entry in entries for part in ("--set", entry))).out
-    assert row_of(lines, "worst friction case").split() == ["113.5", "109", "WARN", "1"]
+    level, *_, limit, grade, number = row_of(lines, "expected, manufacture and friction").split()
+    assert (level, limit, grade) == ("100.7", "100", "FAIL")
+    assert re.fullmatch(r": \d+ of \d+ runs near +113\.5( +[\d.]+)?", row_of(lines, "bound of friction"))
     assert "spindle held vertical" not in lines
-    assert re.search(r"1 WARN ABU401: Set .* from 113\.5 to \d+\.\d dB \(calculated\)", flat(lines))
+    assert re.search(rf"{number} FAIL ABU401: Set .* from 100\.7 to \d+\.\d dB \(calculated\)", flat(lines))
 
 
 def test_a_horizontal_spindle_shows_the_case_held_vertical_too() -> None:
     """Gravity shakes friction out of the horizontal machine; a hand tool gets turned."""
     lines = once("size", "avtovaz-707-222").out
-    assert row_of(lines, "worst friction case").split() == ["105.4", "109", "pass"]
+    assert re.fullmatch(r": \d+ of \d+ runs near +105\.4", row_of(lines, "bound of friction"))
     assert row_of(lines, "spindle held vertical").split() == ["113.5"]
     assert "pressed earlier" in lines and "LOUDER THAN WITHOUT" in lines
 
@@ -162,7 +171,7 @@ def test_an_action_alone_is_printed_if_its_case_stands_in_a_table() -> None:
     assert told[0].text.startswith("2 WARN ABU403 thing 1") and "reason 1" in told[0].text
 
 
-def test_balls_that_do_not_balance_have_no_settling_time() -> None:
+def test_balls_that_do_not_balance_are_never_quiet() -> None:
     lines = once("size", "avtovaz-707-370", *STIFF).out
     assert "Median of the start cases" not in lines or "never" in row_of(lines, "Median of the start cases")
 
@@ -184,10 +193,11 @@ def test_amplitude_without_balls_is_told_to_be_off_the_work() -> None:
     assert "off the work" not in once("simulate", "avtovaz-707-222").out
 
 
-def test_settling_after_a_run_up_is_shown_as_it_is_judged() -> None:
+def test_times_after_a_run_up_are_shown_as_they_are_judged() -> None:
     seen = once("simulate", "msh-230", "--scene", "run-up", "--set", "run_up.time_s=1.5")
-    (line,) = [line for line in seen.out.splitlines() if "from full speed" in line]
-    assert seen.status == 0 and 0 < float(line.split()[4]) < 1 and "at most 1 s" in line
+    quiet, rest = (row_of(seen.out, f"{name} time, from full speed").split() for name in ("quiet", "rest"))
+    assert seen.status == 0 and 0 <= float(quiet[0]) < 1 and quiet[1:] == ["s", "at", "most", "1", "s"]
+    assert float(quiet[0]) < float(rest[0]) and rest[1:] == ["s"]
 
 
 # grades
@@ -221,6 +231,13 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
 # room
 
 
+def further_starts(time: float | None, rare: float | None, level: float) -> FurtherStarts:
+    """By quiet time and level: when balls rest or |U| settles decides nothing without a limit of it."""
+    return FurtherStarts(
+        members=36, quiet_time_s=time, rest_time_s=9.0, settling_time_s=9.0, rare_quiet_time_s=rare, level_db=level
+    )
+
+
 @pytest.mark.parametrize(
     ("time", "rare", "row"),
     [
@@ -234,8 +251,8 @@ def test_late_further_start_cases_stand_in_the_table(
     sized: SizeResult, time: float | None, rare: float | None, row: tuple[str, ...] | None
 ) -> None:
     assert sized.ensemble is not None
-    further = FurtherStarts(members=36, settling_time_s=time, rare_settling_time_s=rare, level_db=100.0)
-    late = Check("ABU702", "settling time", "warn", "late", 0.3, 1.0, "s", "Repeat it.")
+    further = further_starts(time, rare, 100.0)
+    late = Check("ABU702", "quiet time", "warn", "late", 0.3, 1.0, "s", "Repeat it.")
     result = replace(sized, checks=(late,), ensemble=replace(sized.ensemble, further_starts=further))
     text = as_text(size_screen(result))
     rows = [line for line in text.splitlines() if "further start case" in line or "of 1000" in line]
@@ -244,7 +261,7 @@ def test_late_further_start_cases_stand_in_the_table(
 
 def test_a_loud_further_start_case_stands_in_the_table(sized: SizeResult) -> None:
     assert sized.ensemble is not None
-    further = FurtherStarts(members=36, settling_time_s=0.3, rare_settling_time_s=0.4, level_db=112.34)
+    further = further_starts(0.3, 0.4, 112.34)
     loud = Check("ABU401", "level", "warn", "loud", 100.0, 109.0, "dB", "Repeat it.")
     result = replace(sized, checks=(loud,), ensemble=replace(sized.ensemble, further_starts=further))
     assert re.search(r"loudest of 36 further start cases +112\.3 +109 +WARN 1", as_text(size_screen(result)))
@@ -286,10 +303,10 @@ def test_what_shortens_the_balls_way(sized: SizeResult) -> None:
     """Each start at each drag, the slower of two sides; below the optimum decay is h₀/2J, J = 7/5."""
     many = sized.ensemble
     assert many is not None
-    times = {(one.start, round(one.drag_per_s, 6)): one.settling_time_s for one in many.settling_by_start}
+    times = {(one.start, round(one.drag_per_s, 6)): one.quiet_time_s for one in many.settling_by_start}
     assert {start for start, _ in times} == {"bunched", "behind", "spread", "standstill", "run-up in 1 s"}
     assert {drag for _, drag in times} == {5.0, 15.0, 45.0} and len(times) == 15
-    assert max(time for time in times.values() if time is not None) == many.settling_time_s.worst
+    assert max(time for time in times.values() if time is not None) == many.quiet_time_s.worst
     assert (sized.autobalancer.optimum_drag_per_s or 0) > 15
     assert sized.autobalancer.slowest_decay_per_s == pytest.approx(15 / (2 * 7 / 5), rel=1e-9)
 

@@ -58,7 +58,9 @@ def test_the_list_names_every_part_and_the_balls(name: str) -> None:
 
 
 def test_each_sheet_says_that_there_are_warnings() -> None:
-    for sheet in size_sheets(result("one-piece")):
+    sized = result("one-piece")
+    first, *others = sized.checks
+    for sheet in size_sheets(replace(sized, checks=(replace(first, status="warn"), *others))):
         shown = [shape.text for shape in sheet.shapes if isinstance(shape, Text)]
         assert any(text.startswith("PASS WITH WARNINGS: ABU") for text in shown) and "PASS" not in shown
 

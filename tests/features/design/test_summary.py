@@ -12,7 +12,8 @@ from tests.reporting.drawings.samples import whole
 
 
 def test_tables_are_those_of_the_screen() -> None:
-    result = whole()
+    late = Check("ABU702", "quiet time", "warn", "late", 0.3, 1.0, "s", "Less of it.")
+    result = replace(whole(), checks=(late, *(check for check in whole().checks if check.code != late.code)))
     blocks, complete = size_summary(result, 120.0)
     assert complete
     wanted = [block for block in (*make(result), *numbers_that_matter(result)) if isinstance(block, Grid)]
@@ -20,7 +21,7 @@ def test_tables_are_those_of_the_screen() -> None:
     assert [block.text for block in blocks if isinstance(block, Heading)][1:] == ["Actions", "Notes"]
 
 
-@pytest.mark.parametrize("count", [0, 5, 60])
+@pytest.mark.parametrize("count", [0, 3, 60])
 def test_what_has_no_room_is_named(count: int) -> None:
     """60 failed checks and warnings take more than two sheets: the rest is counted, and stands in the details."""
     checks = tuple(

@@ -1,12 +1,14 @@
 """Which changes are tried where starts fail, and when a design passes."""
 
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from abu_calc.features.design.verification import LEAST, changes, other_drags, passes, proven
+from abu_calc.simulation.ensemble_results import StartOutcome
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import machine
@@ -21,8 +23,11 @@ def design() -> Design:
 
 def start(**values: Any) -> SimpleNamespace:
     member = SimpleNamespace(run_up=values.pop("run_up", False), speed=None, drag=values.pop("drag", DRAG))
-    usual = {"balanced": True, "hanging": False, "slip": 0.0, "settling_time_or_inf": 0.3, "level": 99.0}
-    return SimpleNamespace(member=member, **(usual | values))
+    usual = {"balanced": True, "hanging": False, "slip": 0.0, "level": 99.0}
+    times = {"quiet_time_or_inf": 0.3, "rest_time_or_inf": 9.0, "settling_time_or_inf": 9.0}
+    made = SimpleNamespace(member=member, **(usual | times | values))
+    made.in_time = partial(StartOutcome.in_time, made)  # its own rule, by these times
+    return made
 
 
 def ensemble(*starts: SimpleNamespace) -> Any:
@@ -41,11 +46,19 @@ def test_the_nearest_drags_come_first_and_none_that_is_the_same() -> None:
 
 def test_a_design_passes_when_every_start_at_its_drag_does(design: Design) -> None:
     limits, level = design.case.table.limits, design.case.level_limit
-    assert passes(design, ensemble(start(), start(level=level, settling_time_or_inf=limits.settling_time_s)))
+    assert passes(design, ensemble(start(), start(level=level, quiet_time_or_inf=limits.longest_quiet_time)))
     assert not passes(design, ensemble(start(), start(level=level + 0.01)))
-    assert not passes(design, ensemble(start(), start(settling_time_or_inf=limits.settling_time_s + 0.01)))
+    assert not passes(design, ensemble(start(), start(quiet_time_or_inf=limits.longest_quiet_time + 0.01)))
     assert not passes(design, ensemble(start(), start(balanced=False)))
     assert passes(design, ensemble(start(), start(balanced=False, drag=5.0)))  # hot oil: told, not decided by
+
+
+def test_a_design_passes_by_the_rest_time_only_if_the_file_limits_it(design: Design) -> None:
+    table = design.case.table
+    limits = table.limits.model_copy(update={"rest_time_s": 0.5})
+    asked = replace(design, case=replace(design.case, table=table.model_copy(update={"limits": limits})))
+    late, soon = start(rest_time_or_inf=0.51), start(rest_time_or_inf=0.5)
+    assert passes(design, ensemble(late)) and passes(asked, ensemble(soon)) and not passes(asked, ensemble(soon, late))
 
 
 def test_stalled_balls_are_offered_more_drag_and_a_slower_rotor(design: Design) -> None:

@@ -38,7 +38,7 @@ def test_only_defaults_of_the_bearings_are_told(tmp_path):
     file = tmp_path / "seats.toml"
     file.write_text("[machine]\nname = 'm'\n[[bearing]]\ndesignation = '6203'\n", encoding="utf-8")
     machine = read_machine(str(file))
-    assert ("limits.settling_time_s", 1.0) in machine.defaults_used
+    assert ("limits.quiet_time_s", 1.0) in machine.defaults_used
     keys = [key for key, _ in check_fit(machine).provenance.defaults]
     assert "bearing[0].inner_ring_load" in keys and all(key.startswith("bearing[") for key in keys)
 

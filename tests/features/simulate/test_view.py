@@ -57,12 +57,18 @@ def test_many_balls_are_named_as_far_as_there_is_room(result: SimulateResult) ->
     assert f"{MOST_BALLS + 2:.3f}°" in full
 
 
-def test_a_run_that_does_not_settle_has_no_settling_time(result: SimulateResult) -> None:
-    text = " ".join(as_text(simulate_screen(replace(result, settling_time_s=None)), 80).split())
-    assert "not settled by the end" in text and "settling time not settled" in text
-    later = replace(result, settling_time_s=2.5, full_speed_s=3.0)
-    text = " ".join(as_text(simulate_screen(later), 80).split())
-    assert "after full speed, which is reached at 3" in text and "settling, from full speed" in text
+def test_a_run_that_is_never_quiet_or_creeps_says_so(result: SimulateResult) -> None:
+    def shown(**changes: object) -> str:
+        return " ".join(as_text(simulate_screen(replace(result, **changes)), 80).split())  # type: ignore[arg-type]
+
+    text = shown(quiet_time_s=None, rest_time_s=None, creeping=False)
+    assert "not quiet by the end." in text and "quiet time never" in text and "rest time not yet" in text
+    text = shown(quiet_time_s=1.5, rest_time_s=None, creeping=True)
+    assert "quiet after 1.5" in text and ", the balls still creep." in text and "rest time still creeping" in text
+    text = shown(quiet_time_s=2.5, rest_time_s=4.5, creeping=False, full_speed_s=3.0)
+    assert "quiet after 2.5" in text and "at full speed, which is reached at 3" in text
+    assert "quiet time, from full speed 2.5" in text and "rest time, from full speed 4.5" in text
+    assert "creep" not in text
 
 
 def test_a_scene_without_limits_is_no_verdict_on_limits(result: SimulateResult) -> None:

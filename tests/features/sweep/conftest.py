@@ -22,7 +22,7 @@ def cheap(monkeypatch: pytest.MonkeyPatch) -> None:
     """The level is 80 dB and 1 dB for each micrometre."""
 
     def closed_form(self: Builds, values: Any, seed: int) -> Any:
-        return 80 + 1e3 * values[ECCENTRICITY], 0.1, 1.0, 1.0, 1.2, True, True, True, True, True
+        return 80 + 1e3 * values[ECCENTRICITY], 0.1, 0.2, 0.3, 1.0, 1.0, 1.2, True, True, True, True, True
 
     monkeypatch.setattr(Builds, "numbers", closed_form)
 

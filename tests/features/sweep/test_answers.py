@@ -17,7 +17,9 @@ from abu_calc.inputs.variation import variation
 KEYS = SampleColumn("start.kind", ""), SampleColumn("wheel.mass_kg", "")
 COLUMNS = (MEMBER, SEED, *KEYS, *QUANTITIES["scene"], *FLAGS["scene"], REASON)
 LEVELS = (90.0, 95.0, 100.0, 110.0, None, 92.0)
-"""The fifth member never settles to a level; the seventh gives no numbers."""
+"""The fifth member has no level; the seventh gives no numbers."""
+TIMES = (1.0, 2.0, 3.0)
+"""Quiet, rest and settling time of each [s]."""
 
 
 @pytest.fixture
@@ -26,10 +28,10 @@ def store(tmp_path: Path) -> Iterator[Store]:
     made = Store.open(tmp_path / "members.sqlite", {"runs": 7}, COLUMNS, texts)
     made.begun({})
     rows: list[tuple[object, ...]] = [
-        (k, k, "spread" if k % 2 else "bunched", 0.5 + 0.1 * (k % 2), level, 1.0, 0.01, 5.0, k < 4, k < 3, None)
+        (k, k, "spread" if k % 2 else "bunched", 0.5 + 0.1 * (k % 2), level, *TIMES, 0.01, 5.0, k < 4, k < 3, None)
         for k, level in enumerate(LEVELS)
     ]
-    made.put([*rows, (6, 6, "bunched", 0.5, *[None] * 6, "no number")])
+    made.put([*rows, (6, 6, "bunched", 0.5, *[None] * 8, "no number")])
     yield made
     made.close()
 
@@ -38,7 +40,9 @@ def test_percentiles_are_those_of_numpy_and_none_comes_last(store: Store) -> Non
     known = np.sort([level for level in LEVELS if level is not None])
     low, middle, high = percentiles(store, "level_db", (0.0, 0.5, 1.0), there(store))
     assert (low, high) == (90.0, None) and middle == np.quantile([*known, 1e9], 0.5)
-    assert spread(store, "level_db").mean is None and spread(store, "settling_time_s").mean == 1.0
+    assert spread(store, "level_db").mean is None and [
+        spread(store, f"{name}_time_s").mean for name in ("quiet", "rest", "settling")
+    ] == list(TIMES)
     assert percentiles(store, "level_db", (0.5,), "member > 99") == (None,)
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.features.sweep.columns import DECIDING, FLAGS, LEVEL, MEETS, QUANTITIES, SETTLING, drag_ratio
+from abu_calc.features.sweep.columns import DECIDING, FLAGS, LEVEL, MEETS, QUANTITIES, QUIET, drag_ratio
 from abu_calc.foundation.errors import InputError
 
 
@@ -22,7 +22,7 @@ def test_a_temperature_beyond_the_range_is_refused(temperature: float) -> None:
 
 
 def test_each_kind_has_a_deciding_number_and_ends_in_all_limits() -> None:
-    assert (LEVEL.unit, SETTLING.unit, MEETS.unit) == ("dB", "s", "")
+    assert (LEVEL.unit, QUIET.unit, MEETS.unit) == ("dB", "s", "")
     for what, columns in QUANTITIES.items():
         names = [column.name for column in columns] + [column.name for column in FLAGS[what]]
         assert DECIDING[what] in names and len(set(names)) == len(names)

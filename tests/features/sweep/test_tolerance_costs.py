@@ -22,7 +22,7 @@ def test_only_what_was_tried_with_twice_its_scatter_may_be_loosened(
             raise abu_calc.NotTrustworthyError("no number")
         level = 80 + 1e3 * values[ECCENTRICITY] + (20 if abs(values[loud] - 250) > 44 else 0) + 0.01 * values[calm]
         fine = values[heavy] < 6.0
-        return level, 0.1, 1.0, 1.0, 1.2, True, True, True, True, fine
+        return level, 0.1, 0.2, 0.3, 1.0, 1.0, 1.2, True, True, True, True, fine
 
     monkeypatch.setattr(Builds, "numbers", closed_form)
     ways = {
@@ -42,7 +42,7 @@ def test_only_what_was_tried_with_twice_its_scatter_may_be_loosened(
 def test_few_members_are_not_tried_with_more_scatter(
     machine: abu_calc.Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    numbers = 90.0, 0.1, 1.0, 1.0, 1.2, True, True, True, True, True
+    numbers = 90.0, 0.1, 0.2, 0.3, 1.0, 1.0, 1.2, True, True, True, True, True
     monkeypatch.setattr(Builds, "numbers", lambda self, values, seed: numbers)
     result = abu_calc.sweep(machine, {ECCENTRICITY: "uniform(0.004, 0.016)"}, 100)
     assert result.prices and not any(price.advice or price.loosened_of for price in result.prices)

@@ -45,7 +45,7 @@ def test_more_values_than_room_are_thinned_evenly() -> None:
 
 
 def test_names_become_words_and_changes_have_signs() -> None:
-    assert words_of("worst_settling_time_s") == "worst settling time"
+    assert words_of("worst_quiet_time_s") == "worst quiet time" and words_of("rest_time_s") == "rest time"
     assert words_of("residual_imbalance_g_mm") == "residual imbalance" and words_of("ball_count") == "ball count"
     assert [change(level) for level in (None, -0.04, 0.26, -3.0)] == ["none", "+0.0 dB", "+0.3 dB", "-3.0 dB"]
 

@@ -10,7 +10,7 @@ import abu_calc
 from abu_calc.features.two_races import advice
 from abu_calc.features.two_races import start_cases as start_cases_module
 from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.checks import capacity_checks, level_checks, mass_checks, race_checks
+from abu_calc.features.two_races.checks import capacity_checks, level_checks, mass_checks, race_checks, start_checks
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.records import TwoRaceSizeResult
 from abu_calc.features.two_races.start_cases import (
@@ -92,7 +92,7 @@ def test_the_sturdier_change_holds_when_followed() -> None:
 
 @pytest.mark.hard
 def test_a_late_start_is_mended_as_told() -> None:
-    overrides = ("limits.settling_time_s=1.0",)
+    overrides = ("limits.quiet_time_s=1.0",)
     result = abu_calc.size(read_machine("pedestal-grinder", overrides))
     assert isinstance(result, TwoRaceSizeResult)
     late = next(check for check in result.checks if check.code == "ABU702")
@@ -106,7 +106,7 @@ def test_levels_are_judged_at_the_speed_of_each_run() -> None:
     """The same displacement of 10 µm is 20·lg 2 = 6.02 dB louder at twice the speed; no range is passed by scaling."""
     design = design_of()
     vibration_limit = design.case.table.limits.vibration_level_db
-    run = TwoRaceRun(StartCase("bunched"), (1e-5, 1e-5), (1e-5,), (1e-4,), 0.1, 0.0, True, 300.0)
+    run = TwoRaceRun(StartCase("bunched"), (1e-5, 1e-5), (1e-5,), (1e-4,), 0.1, 0.1, 0.1, 0.0, True, 300.0)
     fast = replace(run, speed=600.0, case=StartCase("bunched", speed=600.0))
     assert run.level == pytest.approx(20 * math.log10(1e-5 * 300 / math.sqrt(2) / 5e-8))
     assert fast.level - run.level == pytest.approx(20 * math.log10(2))
@@ -119,6 +119,31 @@ def test_levels_are_judged_at_the_speed_of_each_run() -> None:
     assert [check.status for check in level_checks(design, result, (run,))] == ["pass", "pass"]
     assert [check.status for check in level_checks(design, result, (run, lost))] == ["not-done", "not-done"]
     assert [check.status for check in level_checks(design, result, (run, loud, lost))] == ["fail", "not-done"]
+
+
+def late_by(longest: float | None, *runs: TwoRaceRun) -> tuple[str, str, float | None]:
+    """Status, message and value of the check of the quiet time under a limit of the rest time [s]."""
+    design = design_of()
+    limits = design.case.table.limits.model_copy(update={"rest_time_s": longest})
+    table = design.case.table.model_copy(update={"limits": limits})
+    found = start_checks(replace(design, case=replace(design.case, table=table)), runs, None)
+    check = next(check for check in found if check.code == "ABU702")
+    return check.status, check.message, check.value
+
+
+def test_rest_times_are_judged_where_the_file_limits_them() -> None:
+    """Both races must rest in time at the given drag rate; in hot or cold oil a late one warns. Quiet alone decides
+    without that limit.
+    """
+    run = TwoRaceRun(StartCase("bunched"), (1e-5, 1e-5), (1e-5,), (1e-4,), 9.0, 0.1, 0.4, 0.0, True, 300.0)
+    hot = replace(run, case=StartCase("bunched", 1 / 3), rest_time=0.6)
+    never = replace(run, rest_time=None)
+    assert late_by(None, run, hot)[0] == late_by(None, never, hot)[0] == late_by(0.7, run, hot)[0] == "pass"
+    status, message, value = late_by(0.5, run, hot)
+    assert status == "warn" and "rest after 0.60 s (limit 0.5 s)" in message and value == 0.1
+    assert late_by(0.3, run, hot)[0] == late_by(0.5, never)[0] == "fail"
+    late = replace(run, quiet_time=1.0 + design_of().case.table.limits.longest_quiet_time)
+    assert late_by(None, late)[0] == late_by(None, replace(run, quiet_time=None))[0] == "fail"
 
 
 def test_both_ends_of_a_speed_range_are_started() -> None:
@@ -143,4 +168,5 @@ def test_a_run_at_an_end_is_that_of_a_machine_of_that_speed() -> None:
     assert isinstance(ranged, TwoRaceRun) and isinstance(alone, TwoRaceRun)
     assert ranged.displacements == alone.displacements
     assert ranged.settling_time == alone.settling_time
+    assert (ranged.quiet_time, ranged.rest_time) == (alone.quiet_time, alone.rest_time)
     assert ranged.speed == pytest.approx(120 * math.pi)

@@ -21,6 +21,8 @@ from abu_calc.features.two_races.start_cases import (
     StartCase,
     TwoRaceRun,
     all_work,
+    quiet_time,
+    rest_time,
     revolution_times,
     run_of,
     runs_of,
@@ -32,6 +34,7 @@ from abu_calc.features.two_races.start_cases import (
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import ChaoticError
 from abu_calc.foundation.progress import silent
+from abu_calc.foundation.units import velocity_from_level
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.simulate import Simulation, simulate
 
@@ -144,6 +147,21 @@ def test_settling_agrees_with_an_own_integration() -> None:
         settled = max(settled, until[np.flatnonzero(left > 0.1 * abs(need))[-1] + 1])
     needs = wheels_share(design, 0, start), wheels_share(design, 1, start)
     assert settling_time(ours, states, needs) == pytest.approx(settled, abs=1e-9)
+    # Nothing is left, so that |U − U_end| is |U|: they rest when that has settled, between two samples.
+    assert rest_time(ours, states, needs) == pytest.approx(settled, abs=until[1])
+    # A turn of the velocity at each place, less its mean and the change since the turn before.
+    limit, without_balls = velocity_from_level(case.table.limits.vibration_level_db), 2e-4
+    limit, until_quiet = min(limit, without_balls * W / math.sqrt(2)), 0
+    for held in case.places:
+        for axis in (0, 1):
+            rate = own.y[4 + axis] + held.place * own.y[6 + axis]
+            for k in range(16, len(rate)):
+                turn = rate[k - 15 : k + 1]
+                trend = (rate[k] - rate[k - 16]) / 16 * (np.arange(16) - 7.5)
+                if math.sqrt(np.mean((turn - turn.mean() - trend) ** 2)) > limit:
+                    until_quiet = max(until_quiet, k)
+    assert 16 < until_quiet < len(until) - 2
+    assert quiet_time(ours, states, case, without_balls) == pytest.approx(until[until_quiet], abs=2 * until[1])
     # Balls that move along the spindle with their tilting race, as start cases have them, change next to nothing.
     leaning = scene_of(design, start)
     assert leaning.support.axial_inertia
@@ -162,7 +180,7 @@ def test_what_fails_is_told() -> None:
 def test_chaotic_runs_that_all_end_balanced_count_with_their_doubt(
     monkeypatch: pytest.MonkeyPatch, doubt: float, counts: bool
 ) -> None:
-    """Settling time and displacements of the finest run, times one and the difference of the runs."""
+    """Times and displacements of the finest run, times one and the difference of the runs."""
     design, case = design_of(), StartCase("spread", 1.0, (0.0,))
     calm = run_of(design, case, 0.05)
     assert isinstance(calm, TwoRaceRun)
@@ -175,8 +193,11 @@ def test_chaotic_runs_that_all_end_balanced_count_with_their_doubt(
     monkeypatch.setattr(start_cases_module, "simulate", chaotic)
     run = run_of(design, case, 0.05)
     assert isinstance(run, TwoRaceRun) is counts
-    if isinstance(run, TwoRaceRun) and calm.settling_time is not None:
+    if isinstance(run, TwoRaceRun):
+        assert calm.settling_time and calm.quiet_time and calm.rest_time
         assert run.settling_time == pytest.approx(1.1 * calm.settling_time)
+        assert run.quiet_time == pytest.approx(1.1 * calm.quiet_time)
+        assert run.rest_time == pytest.approx(1.1 * calm.rest_time)
         assert run.displacements == pytest.approx([1.1 * each for each in calm.displacements])
 
 

@@ -11,7 +11,7 @@ ENTRIES = {
     "status": "pass",
     "autobalancer": {"ball_count": 4, "mass_g": 100.0},
     "fits": ({"fit": "k6", "interference_um": (2.0, 15.0)},),
-    "simulation": ({"settling_time_s": 1.0},),
+    "simulation": ({"quiet_time_s": 1.0, "rest_time_s": 2.0},),
 }
 
 
@@ -30,8 +30,9 @@ def test_a_path_leads_to_its_value_or_to_nothing(path: str, value: object) -> No
         ("autobalancer.mass_g", 100.09, None, True),  # a thousandth by default
         ("autobalancer.mass_g", 100.2, None, False),
         ("autobalancer.mass_g", 100.2, 0.01, True),
-        ("simulation.0.settling_time_s", 1.019, None, True),  # two hundredths of what is simulated
-        ("simulation.0.settling_time_s", 1.03, None, False),
+        ("simulation.0.quiet_time_s", 1.019, None, True),  # two hundredths of what is simulated
+        ("simulation.0.quiet_time_s", 1.03, None, False),
+        ("simulation.0.rest_time_s", 2.03, None, True),
         ("status", "pass", None, True),
         ("status", "fail", 1.0, False),
         ("fits.0.interference_um", [2.0, 15.01], None, True),

@@ -155,14 +155,13 @@ def test_starts_are_those_of_the_ensemble() -> None:
     assert len(views) <= 12
     ensemble = result.ensemble
     assert ensemble is not None
-    times = {(one.start, one.drag_per_s): one.settling_time_s for one in ensemble.settling_by_start}
+    times = {(one.start, one.drag_per_s): one.quiet_time_s for one in ensemble.settling_by_start}
     given = {one.start for one in views if one.drag_per_s == result.starts.drag_per_s}
     rated = {start for start, drag in times if drag == result.starts.drag_per_s and "rpm" not in start}
     assert rated < {start for start, _ in times} and rated <= given
     slowest = [one for one in views if not one.why]
-    assert [one.settling_time_s for one in slowest] == [times[one.start, one.drag_per_s] for one in slowest]
+    assert [one.quiet_time_s for one in slowest] == [times[one.start, one.drag_per_s] for one in slowest]
     for one in views:
-        # A start whose balls creep where no verdict can change is not followed to its end: its level may still move.
         assert one.view.level_db[-1] == pytest.approx(one.level_db, abs=1.0)
         assert len(one.view.t_s) <= 250
     assert ensemble.level_db.worst == max(one.level_db for one in views)
