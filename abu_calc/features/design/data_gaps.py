@@ -20,7 +20,7 @@ from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.sizing.actions import followed, pins
 from abu_calc.sizing.balls import sound
-from abu_calc.sizing.design import Design, with_worst
+from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_of
 
 MOST: Final = 3
@@ -171,13 +171,7 @@ def quiet_time_with(design: Design, slowest: StartOutcome, entries: Mapping[str,
     if other is None:
         return math.nan
     try:
-        time = _time_of_start(other, slowest, accuracy)
-        # The bound of friction allows more to be left; it takes long to find, so it is asked where that may decide.
-        return time if math.isfinite(time) else _time_of_start(with_worst(other), slowest, accuracy)
+        run = run_of_start(other, slowest.member, accuracy, first_tolerance(other), early_end=True)
+        return run.outcome.quiet_time_or_inf
     except NotTrustworthyError:
         return math.nan
-
-
-def _time_of_start(design: Design, start: StartOutcome, accuracy: float) -> float:
-    run = run_of_start(design, start.member, accuracy, first_tolerance(design), early_end=True)
-    return run.outcome.quiet_time_or_inf
