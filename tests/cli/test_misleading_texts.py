@@ -112,12 +112,12 @@ def test_a_small_benefit_is_named_at_the_top_and_an_action_finer_than_practice_s
 @pytest.mark.slow
 def test_an_action_is_no_command_that_repeats_a_start_case() -> None:
     """The whole report has the command, with the file and the entries of the result."""
-    options = ("--set", "autobalancer.rolling_friction_mm=0.0021")
+    options = ("--set", "limits.quiet_time_s=0.6")
     for words in ((), ("--full",)):
         assert "To repeat the" not in once("size", "avtovaz-707-305", *options, *words).out
     whole = flat(once("size", "avtovaz-707-305", *options, "--full").out)
     told = re.search(
-        r"ABU702, slowest: `abu simulate avtovaz-707-305 --set autobalancer.rolling_friction_mm=0.0021 .*?`", whole
+        r"ABU702, slowest: `abu simulate avtovaz-707-305 --set limits.quiet_time_s=0.6 .*?`", whole
     )
     assert told and "FILE" not in told[0]
 

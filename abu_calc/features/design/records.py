@@ -265,11 +265,12 @@ class FrictionBound(Record):
 
     @classmethod
     def of(cls, design: Design, levels: Iterable[float]) -> Self | None:
-        """Record beside the levels [dB] of all simulated starts; None where balls cannot balance."""
+        """Record beside the levels [dB] of all simulated starts; None where balls cannot balance, or leave nothing."""
         if design.speed_levels is None:
             return None
         bound, found = design.speed_levels.arranged.level_after, list(levels)
-        return cls(level_db=bound, reached_within_1_db=sum(level > bound - 1 for level in found), runs=len(found))
+        near = sum(level > bound - 1 for level in found)
+        return cls(level_db=bound, reached_within_1_db=near, runs=len(found)) if math.isfinite(bound) else None
 
 
 @record
@@ -289,7 +290,7 @@ class NewWheel(Record):
         def levels(imbalance: float) -> tuple[float, float]:
             """Levels [dB] without and with the balls at an imbalance [kg m]."""
             worst = idle_vibration(case, imbalance, balls, design.frequency.balancing_possible).worst
-            return worst.before or math.inf, math.inf if worst.after is None else worst.after
+            return -math.inf if worst.before is None else worst.before, math.inf if worst.after is None else worst.after
 
         def helps(imbalance: float) -> bool:
             """True if the balls lower the level."""
@@ -302,7 +303,8 @@ class NewWheel(Record):
         while high > 1.001 * low:
             middle = math.sqrt(low * high)
             low, high = (low, middle) if helps(middle) else (middle, high)
-        return cls(break_even_imbalance_g_mm=from_si(high, "g_mm"), level_db=levels(high)[0])
+        level = levels(high)[0]
+        return cls(break_even_imbalance_g_mm=from_si(high, "g_mm"), level_db=level) if math.isfinite(level) else None
 
 
 @record
