@@ -116,9 +116,7 @@ def test_an_action_is_no_command_that_repeats_a_start_case() -> None:
     for words in ((), ("--full",)):
         assert "To repeat the" not in once("size", "avtovaz-707-305", *options, *words).out
     whole = flat(once("size", "avtovaz-707-305", *options, "--full").out)
-    told = re.search(
-        r"ABU702, slowest: `abu simulate avtovaz-707-305 --set limits.quiet_time_s=0.6 .*?`", whole
-    )
+    told = re.search(r"ABU702, slowest: `abu simulate avtovaz-707-305 --set limits.quiet_time_s=0.6 .*?`", whole)
     assert told and "FILE" not in told[0]
 
 
