@@ -44,7 +44,7 @@ EQUATIONS = register(Formula(
 
 SETTLING_TIME = register(Formula(
     "formulas.motion:settling_time",
-    "Settling time as published ones, to the time after which the residual imbalance stays near its final value",
+    "Settling time as it is published, from full speed until the residual imbalance stays near its final value",
     f"|U(t)| ≤ mean |U| of the last turns + {SETTLED:g}·max(m₀e, 1 % of Σ m·R_p)",
     "s",
     where=(

@@ -201,13 +201,11 @@ def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, ear
         sentences.append(f"The balls rest after {rested.rest_time:#.3g} s at the latest{allowed}")
     value = None if late is None or math.isinf(late.quiet_time_or_inf) else late.quiet_time_or_inf
     action: Action | str | None = _see(earlier)
-    if action is None and change is not None:
-        rested_late = all(outcome.quiet_time_or_inf <= limit for outcome in ensemble.outcomes)
-        action = (
-            change.action(LAST_AT_REST, lambda outcome: outcome.rest_time_or_inf, "s", longest)
-            if rested_late
-            else change.action(SLOWEST, lambda outcome: outcome.quiet_time_or_inf, "s", limit)
-        )
+    if action is None and change is not None and any(not outcome.in_time(limits) for outcome in ensemble.outcomes):
+        if any(outcome.quiet_time_or_inf > limit for outcome in ensemble.outcomes):
+            action = change.action(SLOWEST, lambda outcome: outcome.quiet_time_or_inf, "s", limit)
+        else:
+            action = change.action(LAST_AT_REST, lambda outcome: outcome.rest_time_or_inf, "s", longest)
     return coded("ABU702", status, ". ".join(sentences), value, limit, "s", None if status == "pass" else action)
 
 

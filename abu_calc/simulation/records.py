@@ -185,7 +185,7 @@ class SimulatedScene(Record):
     ]
     creeping: Annotated[bool, Quantity("balls still creep at the end")]
     settling_time_s: Annotated[
-        float | None, Quantity("settling time", "", 3, "as published ones: until |imbalance| stays near its end")
+        float | None, Quantity("settling time", "", 3, "as it is published: until |imbalance| stays near its end")
     ]
     residual_imbalance_g_mm: Annotated[float, Quantity("imbalance left", "", 3, "|m₀e + Σ m·R_p·e^{iθ}| at the end")]
     axis_amplitude_mm: Annotated[

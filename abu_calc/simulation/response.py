@@ -168,7 +168,7 @@ class Response:
 
     @property
     def quiet_time(self) -> float | None:
-        """Quiet time [s] from full speed; the latest where the threshold is grazed; None: never."""
+        """Quiet time [s] from full speed; None: never."""
         return self.quiet.time
 
     @property

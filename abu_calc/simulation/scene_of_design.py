@@ -102,7 +102,9 @@ Sizing takes the same angle.
 """
 
 QUIET: Final = frozenset({"idle", "run-up", "swing-arm-idle"})
-"""Scenes that the limits of a file are for."""
+"""Scenes that the limits of a file are for, and that are followed until their balls are at rest, as far as that
+matters.
+"""
 
 LAGS = 3.0
 """Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
@@ -396,7 +398,6 @@ def velocity_of_level(design: Design, wanted: float) -> float:
     Found by bisection of its logarithm: the level rises with the velocity, whatever place is loudest.
     """
     case = design.case
-
     most = case.table.limits.a_hv_m_per_s2
 
     def louder(velocity: float) -> bool:
@@ -409,7 +410,7 @@ def velocity_of_level(design: Design, wanted: float) -> float:
     low, high = -30.0, math.log(1e3 * velocity_from_level(wanted))
     if louder(math.exp(low)):
         return 0.0
-    for _ in range(60):
+    for _ in range(32):  # to 1e-8
         middle = (low + high) / 2
         low, high = (low, middle) if louder(math.exp(middle)) else (middle, high)
     return math.exp(low)

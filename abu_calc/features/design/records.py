@@ -268,9 +268,9 @@ class FrictionBound(Record):
         """Record beside the levels [dB] of all simulated starts; None where balls cannot balance, or leave nothing."""
         if design.speed_levels is None:
             return None
-        bound, found = design.speed_levels.arranged.level_after, list(levels)
-        near = sum(level > bound - 1 for level in found)
-        return cls(level_db=bound, reached_within_1_db=near, runs=len(found)) if math.isfinite(bound) else None
+        bound, simulated = design.speed_levels.arranged.level_after, list(levels)
+        near = sum(level > bound - 1 for level in simulated)
+        return cls(level_db=bound, reached_within_1_db=near, runs=len(simulated)) if math.isfinite(bound) else None
 
 
 @record

@@ -313,8 +313,8 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
         label = f"  loudest of {many(further.members, 'further start case')}"
         cases.append(judged(label, further.level_db, decides=False))
     if vibration.worst_arrangement is not None:
-        told = result.friction_bound
-        label = "  bound of friction" + (f": {told.reached_within_1_db} of {told.runs} runs near" if told else "")
+        bound = result.friction_bound
+        label = "  bound of friction" + (f": {bound.reached_within_1_db} of {bound.runs} runs near" if bound else "")
         worst, upright = vibration.worst_arrangement, vibration.worst_arrangement_vertical
         cases.append(TableCase(label, _db(worst.level_after_db)))
         if upright is not None and upright.level_after_db >= worst.level_after_db + TENTH:

@@ -104,11 +104,11 @@ def _loud(outcome: StartOutcome, design: Design) -> bool:
 
 
 def _time_in_words(outcome: StartOutcome) -> str:
-    return (
-        "are never quiet"
-        if math.isinf(outcome.quiet_time_or_inf)
-        else f"are quiet too late, the slowest after {outcome.quiet_time_or_inf:.3g} s"
+    quiet, rest = (
+        "never" if math.isinf(time) else f"after {time:.3g} s"
+        for time in (outcome.quiet_time_or_inf, outcome.rest_time_or_inf)
     )
+    return f"are late: the slowest is quiet {quiet}, at rest {rest}"
 
 
 NOT_TRIED: Final = "No change was simulated; --full prints a command that repeats the start case, to try one."

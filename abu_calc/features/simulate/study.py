@@ -35,6 +35,7 @@ from abu_calc.simulation.response import Response, settling_count
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import level_at, levels_at_places, loudest, one_run_checks
+from abu_calc.simulation.scene_of_design import QUIET
 from abu_calc.simulation.simulate import ACCURACY, Simulation
 from abu_calc.simulation.start_cases import idle_speed
 from abu_calc.simulation.subject import Source, Subject, subject_of
@@ -163,10 +164,6 @@ class SimulateResult(SimulatedScene, Result):
         return self.motion.to_xarray()
 
 
-FOLLOWED: Final = ("idle", "run-up", "swing-arm-idle")
-"""Scenes of a machine that are followed until their balls are at rest, as far as that matters."""
-
-
 @checked
 def simulate(
     source: Source,
@@ -248,7 +245,7 @@ def simulate(
 def _followed_until(subject: Subject, run: Simulation) -> float | None:
     """Time [s] until which a machine's idle scene is followed whose balls are not at rest at its end, as in `size`."""
     whole = len(run.trajectory.t) > settling_count(run.scene)
-    if subject.design is None or subject.scene.name not in FOLLOWED or run.rung != "equations" or not whole:
+    if subject.design is None or subject.scene.name not in QUIET or run.rung != "equations" or not whole:
         return None
     return followed_until(subject.design, run.scene, run.response, run.trajectory)
 
