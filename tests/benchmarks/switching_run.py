@@ -12,23 +12,20 @@ from pathlib import Path
 
 import numpy as np
 
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.scene import with_parted_balls
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation import response
+from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing import size
 
-MOST, LONG, REPEATS = 12_000_000, 3.0, 5
+MOST, LONG, REPEATS = 12_000_000, 1.0, 3
 """Evaluations of a run, seconds beyond which it is not repeated, and how often others are."""
 
 
 def equations_of(preset: str, which: str):  # type: ignore[no-untyped-def]
     """A machine's scene with all its effects."""
-    try:
-        from abu_calc.dynamics.equations.assemble import assemble
-        from abu_calc.simulation.scene_of_design import scene_of_design
-    except ModuleNotFoundError:
-        pass  # MERGED
     read = read_machine(preset)
     tables = read.whole("simulate") if hasattr(read, "whole") else read.machine
     return assemble(with_parted_balls(scene_of_design(size(tables), which))[0])
