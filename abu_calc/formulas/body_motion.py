@@ -118,29 +118,6 @@ class HandsOnHandles:
 
 
 @dataclass(frozen=True)
-class SpringsAtPlaces:
-    """Springs [N/m] and dampers [N·s/m] along x, y and z at places of the body."""
-
-    places: tuple[Vector, ...]
-    stiffnesses: tuple[Vector, ...]
-    dampings: tuple[Vector, ...]
-
-    def factor(self, speed: float) -> complex | None:
-        """None: the springs hold each place."""
-        return None
-
-    def stiffness(self, body: RigidBody, speed: complex) -> "Matrix6":
-        """Σ Tᵀ(k + iΩc)T."""
-        import numpy as np
-
-        total: Matrix6 = np.zeros((6, 6), complex)
-        for place, k, c in zip(self.places, self.stiffnesses, self.dampings, strict=True):
-            way = _way(place)
-            total = total + way.T @ np.diag(np.array(k) + 1j * speed * np.array(c)) @ way
-        return total
-
-
-@dataclass(frozen=True)
 class BodyMotion:
     """A body that imbalances shake at the speed Ω [rad/s]; `suspension` None: free, as far above the suspension."""
 

@@ -95,21 +95,20 @@ def _quieter(design: Design) -> Design:
     case, least = design.case, loudness(design)
     if not any(least) or not design.frequency.balancing_possible:
         return design
-    fails, chosen, refused = least[0] > 0, design, [(design.autobalancer, TOO_LOUD)]
+    chosen, refused = design, [(design.autobalancer, TOO_LOUD)]
     for runner_up, _ in design.choice.runners_up:
         if not usable(case, runner_up):
             continue
         if not _free(case, runner_up):
             refused.append((runner_up, MAY_HANG))
             continue
-        if fails or _keeps_level(design, runner_up):
-            other = instead(design, runner_up, refused)
-            if not no_worse(other, design):
-                continue
-            if (level := loudness(other)) < least:
-                chosen, least = other, level
-            if not any(level):
-                break
+        other = instead(design, runner_up, refused)
+        if not no_worse(other, design):
+            continue
+        if (level := loudness(other)) < least:
+            chosen, least = other, level
+        if not any(level):
+            break
         refused.append((runner_up, TOO_LOUD))
     return chosen if chosen is design else replace(chosen, warnings=(_instead_of(design, chosen), *chosen.warnings))
 
@@ -129,13 +128,6 @@ def no_worse(other: Design, design: Design) -> bool:
 def _free(case: Case, candidate: Candidate) -> bool:
     """True if friction hardly ever holds a ball on the heavy side."""
     return candidate.ball_count >= FREE or band(replace(case, speed=case.speed_range[1]), candidate) == 0
-
-
-def _keeps_level(design: Design, candidate: Candidate) -> bool:
-    """True if the expected idle level with a candidate keeps its limit."""
-    case = design.case
-    levels = speed_levels(case, design.imbalance.value, candidate, (), possible=True)
-    return levels is not None and levels.highest.level_after <= case.level_limit
 
 
 def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:

@@ -278,18 +278,21 @@ def vibration_checks(
         allowed = {"ABU401": limit, "ABU402": before}
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     message = "The idle level with the autobalancer must be below the level without it"
-    measurable = measurably_lower(idle)
-    if idle.lowered and not measurable:
-        message += f". It is lower by less than {LEAST_GAIN:g} dB, which no measurement tells from none"
+    measurable, alike = measurably_lower(idle), before is not None and abs(after - before) < LEVEL_ERROR
+    if not measurable and (idle.lowered or alike):
+        much = f"lower by less than {LEAST_GAIN:g} dB" if idle.lowered else f"higher by less than {LEVEL_ERROR:g} dB"
+        message += f". It is {much}, which no measurement tells from none"
     return (
         _level_check(case, candidate, levels, loudest_place(idle), band),
-        coded("ABU402", verdict(idle.lowered, measurable), message, after, before, "dB",
+        coded("ABU402", verdict(idle.lowered or alike, measurable), message, after, before, "dB",
               None if measurable else _lower(case, candidate, after)),
     )  # fmt: skip
 
 
 LEAST_GAIN: Final = 1.0
 """Reduction of the idle level [dB] that a measurement tells from none (engineering practice, unverified)."""
+LEVEL_ERROR: Final = 0.3
+"""Error of a level [dB]: a smaller difference is none."""
 
 
 def measurably_lower(idle: VibrationLevels) -> bool:

@@ -14,7 +14,6 @@ import pytest
 from abu_calc.formulas.body_motion import (
     BodyMotion,
     BodySprings,
-    SpringsAtPlaces,
     imbalance_at,
     vector_total,
     velocity_rms,
@@ -183,16 +182,6 @@ def test_springs_keep_their_stiffness_when_mass_is_added() -> None:
     assert BodyMotion(heavier, 500.0, springs).effective_mass(wheel) == pytest.approx(
         BodyMotion(heavier, 500.0).effective_mass(wheel), rel=0.04
     )
-
-
-def test_springs_at_places_that_add_up_to_those_of_one_frequency() -> None:
-    """Four equal springs at the corners of a rectangle: a body whose turns have their frequencies by geometry."""
-    a, k, M = 0.1, 1000.0, 4.0
-    places = tuple((x, y, 0.0) for x in (a, -a) for y in (a, -a))
-    held = SpringsAtPlaces(places, ((k, k, k),) * 4, ((1.0, 1.0, 1.0),) * 4)
-    body = RigidBody(M, Inertia(M * a**2, M * a**2, 2 * M * a**2))
-    equal = BodySprings(((4 * k / M) ** 0.5,) * 2, (4.0 / (2 * (4 * k * M) ** 0.5),) * 2)
-    assert held.stiffness(body, 50.0) == pytest.approx(equal.stiffness(body, 50.0), rel=1e-9, abs=1e-9)
 
 
 def test_undamped_resonance_is_refused() -> None:
