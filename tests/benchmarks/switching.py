@@ -28,7 +28,7 @@ CASES = (
     ("avtovaz-707-222", "grinding"),
     ("swing-arm-grinder", "idle"),
     ("msh-230", "idle"),
-    ("avtovaz-707-370", "idle"),
+    ("avtovaz-707-305", "idle"),
 )
 OLD_WAYS = ("compiled-rk45", "plain-rk45")
 WAYS = (*OLD_WAYS, "compiled-dop853", "scipy-dop853")
@@ -56,8 +56,8 @@ def main() -> None:
                 rows[name] = quicker(rows.get(name), measured(python, preset, which, way, few, scene, moments, true))
             for name in sorted(name for name in rows if name.endswith(way)):
                 report(preset, which, name, rows[name])
-        cases[f"{preset} {which}"] = {"runs": rows, "times_faster": compared(rows)}
-        print(f"  times faster {cases[f'{preset} {which}']['times_faster']}", flush=True)
+        cases[f"{preset} {which}"] = {"runs": rows, "older_over_this": compared(rows)}
+        print(f"  older over this: {cases[f'{preset} {which}']['older_over_this']}", flush=True)
     command = "python -m tests.benchmarks.switching" + (" PYTHON" if older else "")
     what = "CPU time of the integration alone, best of a few, with all effects; the older version is commit c4c95f6"
     print(keep("switching", what, command, machine("not bound"), 0, cases))
@@ -84,19 +84,20 @@ def quicker(rows: list[dict[str, Any]] | None, again: list[dict[str, Any]]) -> l
     return [min(pair, key=lambda row: row["cpu_s"]) for pair in zip(rows or again, again, strict=True)]
 
 
-def at_error(rows: list[dict[str, Any]], error: float) -> float | None:
-    """CPU time [s] of the quickest run that is as accurate as asked for."""
-    return min((row["cpu_s"] for row in rows if row["error"] <= error), default=None)
+def at_error(rows: list[dict[str, Any]], error: float) -> dict[str, Any] | None:
+    """The quickest run that is as accurate as asked for."""
+    return min((row for row in rows if row["error"] <= error), key=lambda row: row["cpu_s"], default=None)
 
 
-def compared(rows: dict[str, list[dict[str, Any]]]) -> dict[str, dict[str, float]]:
-    """How many times faster than the older version, each way than itself, at each error that both reach."""
-    found: dict[str, dict[str, float]] = {}
+def compared(rows: dict[str, list[dict[str, Any]]]) -> dict[str, dict[str, tuple[float, float]]]:
+    """The older version's time and evaluations over those of this one, each way, at each error that both reach."""
+    found: dict[str, dict[str, tuple[float, float]]] = {}
     for way in OLD_WAYS:
         for error in ERRORS:
             ours, theirs = (at_error(rows.get(name, []), error) for name in (way, f"older {way}"))
             if ours and theirs:
-                found.setdefault(way, {})[f"{error:g}"] = round(theirs / ours, 2)
+                time, evaluations = (round(theirs[key] / ours[key], 2) for key in ("cpu_s", "evaluations"))
+                found.setdefault(way, {})[f"{error:g}"] = time, evaluations
     return found
 
 
