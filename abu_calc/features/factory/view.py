@@ -179,7 +179,7 @@ def _soft_races(races: Sequence[SoftRaceLevel]) -> list[Block]:
 
 DEVICES = (
     "Balls as built, the rest as in the file; in brackets: published. The source gives no bore, wall or start. Slim: "
-    "bore Ø16, walls of 2 mm. Required: in the state named, without margin. Never: not from every start case."
+    "bore Ø16, walls of 2 mm. Required: in the state named, without margin. Never: from some start cases not."
 )
 
 
