@@ -38,6 +38,7 @@ def test_the_picture_is_what_the_program_makes(tmp_path: Path) -> None:
     assert made.read_text("utf-8") == (ROOT / shown[1]).read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_measured_and_predicted_levels_are_those_of_the_factory_comparison() -> None:
     """Every row that the model predicts, with its range, median and miss; 0.15 dB are left for other platforms."""
     rows = once("factory", "--json").document["result"]["rows"]

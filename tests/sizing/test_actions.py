@@ -83,7 +83,9 @@ def parsed(entries: tuple[str, ...]) -> dict[str, object]:
     return {override.key: override.value for override in parse_overrides(list(entries))}
 
 
-@pytest.mark.parametrize(("imbalance", "grade"), [(70.0, "fail"), (80.0, "fail"), (82.0, "warn"), (92.0, "warn"), (150.0, "pass")])
+@pytest.mark.parametrize(
+    ("imbalance", "grade"), [(70.0, "fail"), (80.0, "fail"), (82.0, "warn"), (92.0, "warn"), (150.0, "pass")]
+)
 def test_a_gain_that_cannot_be_measured_is_no_pass(imbalance: float, grade: str) -> None:
     """The lighter the imbalance, the less the balls lower the level: PASS needs a gain that an instrument shows."""
     check = check_of(size(machine(wheel__imbalance_g_mm=imbalance)), "ABU402")

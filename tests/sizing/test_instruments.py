@@ -138,6 +138,7 @@ def test_what_does_not_go_together_is_refused(settings: tuple[str, ...], word: s
     assert seen.status == 2 and word in seen.err, seen.err
 
 
+@pytest.mark.slow
 def test_every_report_of_levels_has_it_beside_the_prediction(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     mean = 5e-8 * (10 ** (102 / 20) + 10 ** (103 / 20)) / 2

@@ -128,6 +128,7 @@ def test_a_rim_too_fast_at_the_no_load_speed_is_told() -> None:
     assert "173 m/s" in text
 
 
+@pytest.mark.slow
 def test_levels_are_told_at_the_idle_speed_too() -> None:
     """The keys at the rated speed keep their meaning; those at the idle speed are those of a file rated at it."""
     there = abu_calc.read(MACHINES / "motor-no-load-speed.toml")

@@ -182,6 +182,7 @@ def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
     assert rolling.status == "fail" and "no dry friction" in rolling.message
 
 
+@pytest.mark.slow
 def test_friction_that_does_not_hold_every_start_fails() -> None:
     check = region_of("msh-230", *FLUTTERING).check
     assert check.status == "fail" and " simulated start cases" in check.message

@@ -336,6 +336,7 @@ def test_handles_stand_on_the_screen_axis_by_axis() -> None:
     assert document["result"]["body"]["estimated"] is True
 
 
+@pytest.mark.slow
 def test_one_total_beside_the_readings_of_a_handle() -> None:
     """The vector total of readings is that of the axes, not √2 of one."""
     for handle in once("size", ESTIMATED, "--json").document["result"]["vibration"]["handles"]:

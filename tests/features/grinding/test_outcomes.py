@@ -177,6 +177,7 @@ def test_the_level_of_an_angle_grinder_does_not_jump_with_contact_or_drag(cases:
 
 
 @pytest.mark.parametrize("case", [(1e5, 15.0), (2e5, 15.0)])
+@pytest.mark.slow
 def test_friction_holds_the_balls_of_every_start_case(case: tuple[float, float]) -> None:
     """Both sides of the boundary of stability: levels over 8 dB, none as low as with balls put where they balance."""
     result = _hands(*case)

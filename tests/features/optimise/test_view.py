@@ -3,12 +3,16 @@
 import tomllib
 from pathlib import Path
 
+import pytest
+
 import abu_calc
 from abu_calc.features.optimise.result import OptimiseResult
 from abu_calc.features.optimise.view import front_plot, optimise_blocks, optimise_screen
 from abu_calc.features.optimise.written import written_text
 from abu_calc.reporting.screen import LINES
 from abu_calc.reporting.text import height
+
+pytestmark = pytest.mark.slow  # an optimisation, however small
 
 
 def test_it_fits_one_screen(small: OptimiseResult) -> None:
