@@ -2,7 +2,7 @@
 
     python -m tests.mutants draw [count] [seed]      draws mutants of this checkout and keeps them in MUTANTS
     python -m tests.mutants trace FOLDER [slow] ...  one run of a suite that notes which tests pass by which mutants
-    python -m tests.mutants run FOLDER [slow]        each mutant against those tests, quickest first, up to a failure
+    python -m tests.mutants run FOLDER [slow]        each mutant against those tests, nearest and quickest first, to a failure
     python -m tests.mutants table FOLDER             how many were killed, and processor time of the suites by folder
 
 A run that takes four times as long as its tests did counts as killed. What `run` has answered stands in FOLDER and is
@@ -17,9 +17,9 @@ import subprocess
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
-from itertools import accumulate
+from itertools import accumulate, takewhile
 from pathlib import Path
 from random import Random
 from typing import Any, Final
@@ -270,15 +270,15 @@ def run(folder: Path, suite: str) -> None:
     """Each mutant against its tests, two side by side."""
     seconds, tests = traced(folder, suite)
     answers = folder / f"{suite}.jsonl"
-    done = {json.loads(line)["number"] for line in answers.read_text().splitlines()} if answers.exists() else set()
+    judged = {json.loads(line)["number"] for line in answers.read_text().splitlines()} if answers.exists() else set()
     alive = {row["number"] for row in _rows(folder, "default") if row["how"] == "survived"}
-    wanted = [each for each in known() if each.number not in done and (suite == "default" or each.number in alive)]
+    wanted = [each for each in known() if each.number not in judged and (suite == "default" or each.number in alive)]
     trees = [copied(folder / f"tree-{k}") for k in range(2)]
     free = list(trees)
 
     def judge(mutant: Mutant) -> dict[str, Any]:
         tree = free.pop()
-        names = sorted(tests[mutant.number], key=lambda name: seconds[name])
+        names = sorted(tests[mutant.number], key=lambda name: (-_near(mutant.file, name), seconds[name]))
         whole, place = (tree / mutant.file).read_text(encoding="utf-8"), tree.with_suffix(".json")
         (tree / mutant.file).write_text(mutant.applied(whole), encoding="utf-8")
         place.write_text(json.dumps(names))
@@ -304,8 +304,15 @@ def run(folder: Path, suite: str) -> None:
         return {"number": mutant.number, "how": how, "tests": len(names), "by": last[:160]}
 
     with ThreadPoolExecutor(len(trees)) as pool, answers.open("a") as file:
-        for row in pool.map(judge, wanted):
-            print(json.dumps(row), file=file, flush=True)
+        for done in as_completed([pool.submit(judge, mutant) for mutant in wanted]):
+            print(json.dumps(done.result()), file=file, flush=True)
+
+
+def _near(file: str, test: str) -> int:
+    """How many parts of its path a test shares with a file of the package: those of one place notice first."""
+    mirrored = test.partition("::")[0].replace("tests/", "abu_calc/", 1).replace("/test_", "/")
+    pairs = zip(file.split("/"), mirrored.split("/"), strict=False)
+    return len(list(takewhile(lambda pair: pair[0] == pair[1], pairs)))
 
 
 def _rows(folder: Path, suite: str) -> list[dict[str, Any]]:
