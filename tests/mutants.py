@@ -2,7 +2,7 @@
 
     python -m tests.mutants draw [count] [seed]      draws mutants of this checkout and keeps them in MUTANTS
     python -m tests.mutants trace FOLDER [slow] ...  one run of a suite that notes which tests pass by which mutants
-    python -m tests.mutants run FOLDER [slow]        each mutant against those tests, nearest and quickest first, to a failure
+    python -m tests.mutants run FOLDER [slow]        each mutant against those tests, the nearest first, to a failure
     python -m tests.mutants table FOLDER             how many were killed, and processor time of the suites by folder
 
 A run that takes four times as long as its tests did counts as killed. What `run` has answered stands in FOLDER and is
