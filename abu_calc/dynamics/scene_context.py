@@ -27,6 +27,7 @@ class Holding:
 class Circumstances(ABC):
     """Speed Ω [rad/s], imbalance m₀e [kg m], its angle [rad], duration [s], start of the support.
 
+    `largest_imbalance` [kg m]: of the machine, where this run has less; what is left is small against it.
     `couple`: χ(J_t − J_p) [kg m²] of a polar axis that leans by χ toward `couple_angle` [rad], on supports that tilt.
     Raises RangeError, InputError.
     """
@@ -42,6 +43,7 @@ class Circumstances(ABC):
     start_velocity: tuple[float, ...]
     couple: float = 0.0
     couple_angle: float = 0.0
+    largest_imbalance: float = 0.0
 
     def __post_init__(self) -> None:
         Range("speed", 0, LARGEST, "rad/s", open_low=True).check(self.speed)

@@ -322,7 +322,7 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),
         imbalance=response.residual_imbalance,
-        allowed=allowed_imbalance(design, scene.imbalance, felt_mass(design, scene)),
+        allowed=allowed_imbalance(design, max(scene.imbalance, scene.largest_imbalance), felt_mass(design, scene)),
         ball_angles=response.final.ball_angles,
         velocity=response.velocity_rms,
     )

@@ -74,6 +74,10 @@ class StartOutcome:
         rests = limits.rest_time_s is None or self.rest_time_or_inf <= limits.rest_time_s
         return self.quiet_time_or_inf <= limits.longest_quiet_time and rests
 
+    def holds(self, limits: Limits, level: float) -> bool:
+        """True if it balances, in time, and at most at a level [dB]."""
+        return self.balanced and self.in_time(limits) and self.level <= level
+
     @property
     def loudest(self) -> float:
         """The level it might have risen to [dB]."""

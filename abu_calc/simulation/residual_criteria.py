@@ -84,7 +84,7 @@ def linger(design: Design, scene: Scene, imbalance: float) -> bool:
 
     On a horizontal spindle gravity shakes them loose, see `shaken_drag`.
     """
-    held = design.case.friction_arm > 0 and not _shaken(design, scene)
+    held = _friction_arm(scene) > 0 and not _shaken(design, scene)
     return not held and abs(imbalance - abs(_balanced(design, scene))) > LINGERING * reference_imbalance(scene)
 
 
@@ -103,8 +103,13 @@ def _balanced(design: Design, scene: Scene) -> complex:
 
 def _shaken(design: Design, scene: Scene) -> float:
     """Drag rate [1/s] that friction adds where gravity shakes the balls; 0 on a vertical spindle."""
-    case, autobalancer = design.case, design.autobalancer
-    if case.table.machine.spindle_axis != "horizontal":
+    autobalancer = design.autobalancer
+    if scene.effect("gravity") is None:
         return 0.0
-    radius = autobalancer.ball_diameter / 2
-    return shaken_drag(case.friction_arm, radius, autobalancer.pitch_radius, scene.speed, case.inertia_factor)
+    arm, radius = _friction_arm(scene), autobalancer.ball_diameter / 2
+    return shaken_drag(arm, radius, autobalancer.pitch_radius, scene.speed, design.case.inertia_factor)
+
+
+def _friction_arm(scene: Scene) -> float:
+    """Lever arm of dry rolling friction [m]; 0 without it."""
+    return float(getattr(scene.effect("dry_rolling_friction"), "lever_arm", 0.0))

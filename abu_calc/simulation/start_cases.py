@@ -6,9 +6,10 @@
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Final, Literal
 
 from abu_calc.dynamics.scene import Scene
+from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
@@ -33,6 +34,17 @@ compiled once more.
 
 
 @dataclass(frozen=True)
+class Variation:
+    """How a machine may differ from its file: factors on values, and how it is held; None: as the file says."""
+
+    race_eccentricity: float = 1.0
+    imbalance: float = 1.0
+    friction_arm: float = 1.0
+    natural_frequency: float = 1.0
+    spindle_axis: Literal["horizontal", "vertical"] | None = None
+
+
+@dataclass(frozen=True)
 class Member:
     """One start: where from, the drag h₀ [1/s], and the time [s] from standstill to full speed, 0 at full speed.
 
@@ -50,6 +62,9 @@ class Member:
     """Angles of the balls from the imbalance [rad], if they are `placed`."""
     on_arm: bool = False
     """True if the machine idles on its swing arm, off the workpiece."""
+    varied: Variation = Variation()
+    promised: bool = True
+    """True if all that differs is within what file and drawing promise."""
 
     @property
     def race_centre_deg(self) -> float:
@@ -118,8 +133,12 @@ def idle_speed(case: Case) -> float | None:
 
 def scene_of_member(design: Design, member: Member) -> Scene:
     """The idle scene of a machine started so, with every effect its file has data for."""
-    scene = "swing-arm-idle" if member.on_arm else "run-up" if member.run_up else "idle"
-    return scene_of_design(_with(design, member), scene, member.start, member.eccentricity)
+    which = "swing-arm-idle" if member.on_arm else "run-up" if member.run_up else "idle"
+    scene = scene_of_design(_with(design, member), which, member.start, member.eccentricity)
+    if member.varied.imbalance == 1:
+        return scene
+    # Quiet, at rest and balanced are judged by the imbalance of the file, however little there is.
+    return replace(scene, imbalance=member.varied.imbalance * scene.imbalance, largest_imbalance=scene.imbalance)
 
 
 def grinding_scene_of_member(design: Design, member: Member) -> Scene:
@@ -137,8 +156,21 @@ def _with(design: Design, member: Member) -> Design:
     if member.run_up:
         run_up = (given or RunUp()).model_copy(update={"time_s": member.run_up})
         table = table.model_copy(update={"run_up": run_up, "motor": table.motor if member.by_motor else None})
-    idle = case.idle_speed if member.by_motor else None
-    case = replace(case, drag=member.drag, speed=member.speed or case.speed, idle_speed=idle, table=table)
+    idle, varied = case.idle_speed if member.by_motor else None, member.varied
+    if varied.spindle_axis is not None:
+        machine = table.machine.model_copy(update={"spindle_axis": varied.spindle_axis})
+        table = table.model_copy(update={"machine": machine})
+    suspension = case.suspension
+    if isinstance(suspension, Springs) and varied.natural_frequency != 1:
+        stiffness = tuple(varied.natural_frequency**2 * each for each in suspension.stiffness)
+        # The damping ratio stays.
+        damping = tuple(varied.natural_frequency * each for each in suspension.damping)
+        suspension = Springs(stiffness, damping)  # type: ignore[arg-type]
+    case = replace(
+        case, drag=member.drag, speed=member.speed or case.speed, idle_speed=idle, table=table, suspension=suspension,
+        race_eccentricity=varied.race_eccentricity * case.race_eccentricity,
+        friction_arm=varied.friction_arm * case.friction_arm,
+    )  # fmt: skip
     return replace(design, case=case, track=track(case, design.autobalancer, design.frequency.natural_frequencies))
 
 

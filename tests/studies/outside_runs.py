@@ -8,7 +8,7 @@ Settled: |U(t)| within the mean of the end and a tenth of the imbalance. Balance
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -38,6 +38,8 @@ class Start:
     speeds: tuple[float, ...]
     rotor: float = 0.0
     full: float = 0.0
+    of_file: Machine | None = None
+    """The machine as its file has it, by which the run is judged; None: that which runs."""
 
 
 @dataclass(frozen=True)
@@ -180,6 +182,53 @@ def starts(file: Json, result: Json, seed: int, random: int = 50, run_ups: int =
             yield _run_up(machine, "motor" in file, words, rng)
 
 
+def band_starts(
+    file: Json, result: Json, seed: int, promised: int = 80, usual: int = 40
+) -> Iterator[tuple[Start, bool]]:
+    """Machines within the band, half of the starts with the balls together; and whether all of it is promised.
+
+    Promised: the race's eccentricity from none to the file's at any angle, 0.1 … 1 of the imbalance, any position of a
+    machine in the hands. Usual, too: oil from hot to cold, friction, speed, suspension, mass of the balls, run-ups.
+    """
+    rng, of_file = np.random.default_rng(20_000 + seed), machine_of(file, result)
+    top, suspension = file["machine"], file["suspension"]
+    any_way = suspension["model"] == "hands" or max(suspension["natural_frequencies_hz"]) <= 8
+    for k in range(promised + usual):
+        is_usual = k >= promised
+        share = rng.uniform(0.1, 1) if rng.random() < 0.6 else 1.0
+        turned = any_way and rng.random() < 0.5
+        gravity = GRAVITY if (top["spindle_axis"] == "horizontal") != turned else 0.0
+        machine = of_file._replace(
+            offset=of_file.offset * rng.uniform(), offset_angle=float(rng.uniform(0, math.tau)), gravity=gravity,
+            imbalance=share * of_file.imbalance, carried=share * of_file.carried, speed=_speed(file, result, rng),
+        )  # fmt: skip
+        if is_usual:
+            stiffer = rng.uniform(0.7, 1.3) if suspension["model"] == "springs" else 1.0
+            machine = machine._replace(
+                drag=machine.drag * math.exp(rng.uniform(-1, 1) * math.log(3)),
+                friction=machine.friction * math.exp(rng.uniform(math.log(0.3), math.log(2))),
+                ball_mass=machine.ball_mass * rng.uniform(0.995, 1.005),
+                stiffness=machine.stiffness * stiffer**2, damping=machine.damping * stiffer,
+                speed=machine.speed * (1.0 if "motor" in file else rng.uniform(0.95, 1.05)),
+            )  # fmt: skip
+        if rng.random() < 0.15:
+            start = _run_up(machine, "motor" in file, "", rng)
+            if not is_usual and not start.machine.stall:
+                own = file.get("run_up", {}).get("time_s", 1.0)
+                start = replace(start, machine=start.machine._replace(ramp=own), full=own, kind="run-up of the file")
+        else:
+            start = _anywhere(machine, "motor" in file, "", rng)
+            if not is_usual:
+                turning = machine.speed * float(rng.choice([0.0, 1.0, 1.0]))
+                start = replace(start, speeds=(turning,) * machine.balls)
+            if rng.random() < 0.5:
+                middle = rng.uniform(0, math.tau)
+                together = tuple(middle + (j - (machine.balls - 1) / 2) * machine.gap * 1.0001
+                                 for j in range(machine.balls))  # fmt: skip
+                start = replace(start, angles=together, kind=f"together, {start.kind}")
+        yield replace(start, of_file=of_file._replace(gravity=gravity)), not is_usual
+
+
 def _speed(file: Json, result: Json, rng: np.random.Generator) -> float:
     """The rated one, an idle speed of a motor; of two speeds either, of a range any."""
     top = file["machine"]
@@ -218,7 +267,7 @@ def with_motor(start: Start, file: Json) -> Start:
     torque = file["motor"]["stall_torque_N_m"]
     machine = start.machine._replace(stall=torque)
     full = 5 * machine.inertia * machine.no_load / torque if start.full else 0.0
-    return Start(start.kind, machine, start.angles, start.speeds, start.rotor, full)
+    return replace(start, machine=machine, full=full)
 
 
 def ended(
@@ -230,7 +279,7 @@ def ended(
     `permitted` [dB]: the limit of the level. `loudest` [dB]: a level that falls below it need not be followed to its
     end.
     """
-    p, n = start.machine, start.machine.balls
+    p, n, of_file = start.machine, start.machine.balls, start.of_file or start.machine
     nq = len(p.stiffness)
     y = np.zeros(2 * (nq + 1 + n))
     v = nq + 1 + n
@@ -251,10 +300,10 @@ def ended(
     samples, revs, _ = run(
         p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, sums, angles, slipped
     )
-    most_quiet = min(5e-8 * 10 ** (permitted / 20), without_balls(p))
+    most_quiet = min(5e-8 * 10 ** (permitted / 20), without_balls(of_file._replace(speed=p.speed)))
     loud = turn_velocities(squares[:revs], *sums[:, :revs]) > most_quiet
     quiet_from = quiet_time(loud, times[15:samples:16], start.full)
-    return judged(p, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs], quiet_from)
+    return judged(of_file, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs], quiet_from)
 
 
 def without_balls(p: Machine) -> float:

@@ -49,8 +49,8 @@ def _damped(support: Support, speed: float) -> NDArray[np.complex128]:
 
 
 def reference_imbalance(scene: Circumstances) -> float:
-    """max(m₀e, 1 % of Σ m R_p) [kg m]: what a residual imbalance is small against."""
-    return max(scene.imbalance, HARDLY * scene.static_moment)
+    """max(m₀e, 1 % of Σ m R_p) [kg m], m₀e of the machine: what a residual imbalance is small against."""
+    return max(scene.imbalance, scene.largest_imbalance, HARDLY * scene.static_moment)
 
 
 def weighing_amplitude(scene: Circumstances) -> float:

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final
 
-from abu_calc.features.design.start_search import RARE, SearchResult, loudness, slowness
-from abu_calc.foundation.checks import Check
+from abu_calc.features.design.start_search import RARE, SearchResult, fails, loudness, slowness
+from abu_calc.foundation.checks import Check, Grade
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
@@ -79,7 +79,11 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
             f"{searched.foreseen:.3g} s (limit {limit:g} s). The slowest further start case is quiet after "
             f"{worst.quiet_time_or_inf:.3g} s"
         )
-    return replace(check, status="warn", message=f"{check.message}. {share}", remedy=check.remedy or NOT_TRIED)
+    surely = [
+        outcome for outcome in broken if fails(design, outcome) and not _within_error(check.code, outcome, design)
+    ]
+    status: Grade = "fail" if surely else "warn"
+    return replace(check, status=status, message=f"{check.message}. {share}", remedy=check.remedy or NOT_TRIED)
 
 
 def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str, str, str]]:
@@ -101,6 +105,11 @@ def _late(outcome: StartOutcome, design: Design) -> bool:
 def _loud(outcome: StartOutcome, design: Design) -> bool:
     """True if the level, with the error of a simulated one, is not below its limit."""
     return outcome.loudest + SLACK > design.case.level_limit
+
+
+def _within_error(code: str, outcome: StartOutcome, design: Design) -> bool:
+    """True if a level exceeds its limit by less than the error of its simulation, or not at all."""
+    return code == "ABU401" and outcome.loudest <= design.case.level_limit + SLACK
 
 
 def _time_in_words(outcome: StartOutcome) -> str:

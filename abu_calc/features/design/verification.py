@@ -7,8 +7,9 @@ named.
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 
-from abu_calc.features.design.start_search import SearchResult, search
+from abu_calc.features.design.start_search import SearchResult, fails, search
 from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import AbuError
@@ -130,8 +131,7 @@ def change_for_oils(
 
 def _good(design: Design, outcome: StartOutcome) -> bool:
     """True if a start case balances, in time and within the level."""
-    in_time = outcome.in_time(design.case.table.limits)
-    return outcome.balanced and in_time and outcome.level <= design.case.level_limit
+    return outcome.holds(design.case.table.limits, design.case.level_limit)
 
 
 def changes(design: Design, first: Ensemble) -> Iterator[MachineChange]:
@@ -222,6 +222,11 @@ class Proven:
     starts: str = FULL
     """Start cases that were simulated: all, one or none of them."""
 
+    @property
+    def holds(self) -> bool:
+        """True if no promised start case that was searched breaks a limit."""
+        return self.searched is None or not any(map(partial(fails, self.design), self.searched.outcomes))
+
 
 def proven(
     design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1, starts: str = FULL
@@ -236,12 +241,14 @@ def proven(
     if starts != FULL:
         return Proven(design, simulate_first(design, accuracy) if starts == ONE else None, starts=starts)
     first = simulate_members(design, accuracy, progress, workers)
+    proof = Proven(design, first)
     if passes(design, first):
-        proof = _with_search(Proven(design, first), accuracy, progress, workers)
-        # After the search, whose time the patience that was asked for must not go to what only advises.
-        return replace(proof, change=change_for_oils(design, first, accuracy, progress, workers))
+        proof = _with_search(proof, accuracy, progress, workers)
+        if proof.holds:
+            # After the search, whose time the patience that was asked for must not go to what only advises.
+            return replace(proof, change=change_for_oils(design, first, accuracy, progress, workers))
     if not design.frequency.balancing_possible or patience.over():
-        return Proven(design, first)
+        return proof
     spent, refused = first.work, [(design.autobalancer, LATE)]
     others = [candidate for candidate, _ in design.choice.runners_up if usable(design.case, candidate)]
     # Those that were passed over for a calculated check come last.
@@ -259,12 +266,15 @@ def proven(
                 f"{_words(runner_up)} balls do. Pin them for other commands: "
                 f"{' '.join(f'--set {entry}' for entry in overrides(pins(runner_up)))}"
             )
-            proof = Proven(other, ensemble, warnings=(text,))
-            proof = _with_search(proof, accuracy, progress, workers, every_part=True)
-            return replace(proof, change=change_for_oils(other, ensemble, accuracy, progress, workers))
+            another = Proven(other, ensemble, warnings=(text,))
+            another = _with_search(another, accuracy, progress, workers, every_part=True)
+            if another.holds:
+                return replace(another, change=change_for_oils(other, ensemble, accuracy, progress, workers))
         refused.append((runner_up, LATE))
+    if passes(design, first):
+        return proof
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
-    return Proven(design, first, tried_change(design, first, left, accuracy, progress, workers))
+    return replace(proof, change=tried_change(design, first, left, accuracy, progress, workers))
 
 
 def _with_search(

@@ -1,0 +1,151 @@
+"""What a verdict covers: how a machine may differ from its file, within what that promises or as is usual.
+
+Promised are the race's eccentricity from none to the value of the file, at any angle, the imbalance from that of a new
+wheel to the value, and any position of a machine that is turned in use. Usual are hot and cold oil, other friction and
+suspension, speeds and run-ups. `varied` draws from both: a low-discrepancy sequence, so that few starts cover much.
+"""
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import count, cycle, islice, product
+from typing import Final, Literal
+
+from abu_calc.formulas.suspension import Springs
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.scene_of_design import Start
+from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Member, Variation, usual_run_up
+from abu_calc.sizing.design import Design
+
+NEW_WHEEL: Final = 0.1
+"""Imbalance of a new wheel, as a share of the worst."""
+SOFTLY_HELD: Final = 8.0
+"""Natural frequency [Hz] above which a machine is not taken for one that is held in the hands."""
+
+SIDES: Final[tuple[Start, ...]] = ("behind", "bunched")
+TRUER: Final = (0.1, 0.3, 0.5, 0.75)
+"""Starts and shares of the race's eccentricity at which designs break most."""
+PART, USUAL = 100, 10
+"""Most starts of a part, and the part of the sequence that the usual band takes."""
+
+Factors = tuple[float, float]
+FRICTION: Final[Factors] = (0.3, 2.0)
+NATURAL_FREQUENCY: Final[Factors] = (0.7, 1.3)
+SPEED: Final[Factors] = (0.95, 1.05)
+RUN_UPS: Final[Factors] = (0.3, 3.0)
+"""Usual factors on values of a file, and run-ups [s]; engineering practice (unverified)."""
+
+
+@dataclass(frozen=True)
+class Varied:
+    """One value of the file and how far it varies, in the file's unit; a share of the rated speed's is in rpm."""
+
+    key: str
+    low: float
+    high: float
+    promised: bool
+
+
+def turned_in_use(design: Design) -> bool:
+    """True if the spindle may be horizontal and vertical: by machine.held, else for machines held in the hands."""
+    table, springs = design.case.table, design.case.suspension
+    if table.machine.held is not None:
+        return table.machine.held == "any"
+    soft = True
+    if isinstance(springs, Springs):
+        given = table.suspension.frequencies
+        soft = given is None or max(given) <= SOFTLY_HELD
+    return soft and table.swing_arm is None
+
+
+def band(design: Design) -> tuple[Varied, ...]:
+    """All values that vary, promised ones first."""
+    case, table = design.case, design.case.table
+    abu, imbalance, speed = table.autobalancer, from_si(design.imbalance.value, "g_mm"), table.machine.speed_rpm
+    shares = case.drag_shares
+    drag = [share * case.drag for share in shares]
+    rows = [
+        Varied("autobalancer.race_eccentricity_mm", 0.0, abu.race_eccentricity_mm, promised=True),
+        Varied("wheel.imbalance_g_mm", NEW_WHEEL * imbalance, imbalance, promised=True),
+        Varied("autobalancer.rolling_drag_per_s", min(drag), max(drag), promised=False),
+        Varied("autobalancer.rolling_friction_mm", *_times(FRICTION, abu.rolling_friction_mm), promised=False),
+        Varied("machine.speed_rpm", *_times(SPEED, speed), promised=False),
+        Varied("run_up.time_s", *RUN_UPS, promised=False),
+    ]
+    given = table.suspension.frequencies
+    if given is not None and isinstance(case.suspension, Springs):
+        low, high = NATURAL_FREQUENCY[0] * min(given), NATURAL_FREQUENCY[1] * max(given)
+        rows.append(Varied("suspension.natural_frequencies_hz", low, high, promised=False))
+    return tuple(rows)
+
+
+def _times(factors: Factors, value: float) -> Factors:
+    return factors[0] * value, factors[1] * value
+
+
+def sequence(dimensions: int) -> Iterator[tuple[float, ...]]:
+    """Points of the unit cube without gaps or lumps: k·(1/g, 1/g², …) mod 1, g^(d+1) = g + 1.
+
+    Source: Roberts 2018, The unreasonable effectiveness of quasirandom sequences, after Kronecker.
+
+    >>> [round(x, 3) for x in next(sequence(1))]
+    [0.118]
+    """
+    g = 2.0
+    for _ in range(50):
+        g = (1 + g) ** (1 / (dimensions + 1))
+    steps = [g ** -(k + 1) for k in range(dimensions)]
+    yield from (tuple((0.5 + k * step) % 1.0 for step in steps) for k in count(1))
+
+
+def promised(design: Design, starts: Iterable[Member], part: int = 0) -> Iterator[Member]:
+    """Starts of machines within the promised band, in every position in turn; `part`: of the sequence of values."""
+    axes: tuple[str | None, ...] = (None,)
+    if turned_in_use(design):
+        given = design.case.table.machine.spindle_axis
+        axes = (None, "vertical" if given == "horizontal" else "horizontal")
+    points = islice(sequence(3), part * PART, None)
+    for start, axis, (eccentricity, imbalance, side) in zip(starts, cycle(axes), points, strict=False):
+        # A third of them has all the imbalance.
+        share = min(NEW_WHEEL + (1 - NEW_WHEEL) * 1.5 * imbalance, 1.0)
+        varied = Variation(eccentricity, share, spindle_axis=axis)  # type: ignore[arg-type]
+        yield replace(start, varied=varied, eccentricity=math.tau * (1 - side))
+
+
+def corners(design: Design) -> Iterator[Member]:
+    """Starts of a horizontal spindle with a truer race, from either side of the imbalance.
+
+    There friction holds one of four balls on the heavy side for long (own trial: 8 of 9 machines that broke).
+    """
+    given = design.case.table.machine.spindle_axis
+    if given != "horizontal" and not turned_in_use(design):
+        return
+    axis: Literal["horizontal"] | None = None if given == "horizontal" else "horizontal"
+    for start, share, side in product(SIDES, TRUER, (ALIKE, OPPOSITE)):
+        yield Member(start, design.case.drag, 0.0, side, varied=Variation(share, spindle_axis=axis))
+
+
+def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
+    """Starts of machines within the usual band and the promised one; every third in a run-up."""
+    case, file_run_up = design.case, usual_run_up(design)
+    low, high = min(case.drag_shares), max(case.drag_shares)
+    for k, (start, (drag, friction, frequency, speed, run_up)) in enumerate(
+        zip(promised(design, starts, USUAL), sequence(5), strict=False)
+    ):
+        varied = replace(
+            start.varied,
+            friction_arm=_between(FRICTION, friction),
+            natural_frequency=_between(NATURAL_FREQUENCY, frequency),
+        )
+        changed = replace(start, varied=varied, drag=case.drag * _between((low, high), drag), promised=False)
+        if not file_run_up.by_motor:
+            changed = replace(changed, speed=case.speed * _between(SPEED, speed))
+            if k % 3 == 0:
+                changed = replace(changed, run_up=_between(RUN_UPS, run_up))
+        yield changed
+
+
+def _between(ends: Factors, place: float) -> float:
+    """Value at a place from 0 to 1 between two ends, by its logarithm."""
+    return ends[0] * (ends[1] / ends[0]) ** place if ends[0] > 0 else ends[0] + place * (ends[1] - ends[0])
