@@ -101,11 +101,12 @@ def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] | N
         for drag in dict.fromkeys(share * case.drag for share in shares or case.drag_shares):
             both = speed is None and drag == case.drag and case.race_eccentricity > 0
             for angle in (ALIKE, OPPOSITE) if both else (ALIKE,):
-                yield from (Member(start, drag, 0.0, angle, speed=speed) for start in starts)
+                given = drag == case.drag
+                yield from (Member(start, drag, 0.0, angle, speed=speed, promised=given) for start in starts)
                 if not usual.by_motor or speed is None:
-                    yield replace(usual, drag=drag, eccentricity=angle, speed=usual.speed or speed)
+                    yield replace(usual, drag=drag, eccentricity=angle, speed=usual.speed or speed, promised=given)
                 if drag < doubtful and usual.run_up < SLOW:
-                    yield Member("bunched", drag, SLOW, angle, speed=speed)
+                    yield Member("bunched", drag, SLOW, angle, speed=speed, promised=given)
     yield from members_on_arm(design)
 
 

@@ -13,7 +13,8 @@ from typing import Annotated, Final, Self
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.features.design.searched_checks import worst_further
+from abu_calc.features.design.band import band
+from abu_calc.features.design.searched_checks import decisive, repeated, worst_further
 from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -268,10 +269,41 @@ class FurtherStarts(Record):
 
 
 @record
+class BandRow(Record):
+    """A value of the file that start cases vary: its least and largest value; promised by the file, or usual."""
+
+    key: Annotated[str, Quantity("key")]
+    low: Annotated[float, Quantity("lowest", "", 4)]
+    high: Annotated[float, Quantity("highest", "", 4)]
+    promised: Annotated[bool, Quantity("promised")]
+
+
+@record
+class DecisiveRun(Record):
+    """The start case that decides the verdict, and the options of `abu simulate` that repeat it."""
+
+    start: Annotated[str, Quantity("start")]
+    promised: Annotated[bool, Quantity("within what is promised")]
+    quiet_time_s: Annotated[float | None, Quantity("quiet time", "t_q", 3)]
+    level_db: Annotated[float, Quantity("level", "L")]
+    options: Annotated[str, Quantity("options of `abu simulate`")]
+
+    @classmethod
+    def of(cls, design: Design, ensemble: Ensemble, searched: SearchResult | None) -> Self | None:
+        """Record of the decisive start case; None without any."""
+        outcome = decisive(design, ensemble, searched)
+        return None if outcome is None else cls.read(
+            outcome, start=outcome.member.name, promised=outcome.member.promised, level_db=outcome.level,
+            quiet_time_s=outcome.quiet_time, options=repeated(outcome, design),
+        )  # fmt: skip
+
+
+@record
 class EnsembleResult(Record):
     """The idle machine switched on in many ways: starts, run-ups, and the drag of oil that is hot, as meant, cold."""
 
     members: Annotated[int, Quantity("start cases")]
+    runs: Annotated[int, Quantity("start cases, further ones included")]
     balanced: Annotated[int, Quantity("that balance")]
     hanging: Annotated[int, Quantity("with stalled balls")]
     quiet_time_s: Annotated[Spread, Quantity("quiet time", "t_q")]
@@ -285,6 +317,8 @@ class EnsembleResult(Record):
     worst_member: Annotated[WorstMember | None, Quantity("worst start case")]
     settling_by_start: tuple[SettlingOfStart, ...]
     further_starts: FurtherStarts | None
+    band: tuple[BandRow, ...]
+    worst_run: DecisiveRun | None
 
     @classmethod
     def of(
@@ -307,4 +341,7 @@ class EnsembleResult(Record):
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
             settling_by_start=SettlingOfStart.all_of(ensemble),
             further_starts=FurtherStarts.of(searched, design),
+            runs=ensemble.members + (0 if searched is None else len(searched.outcomes) + searched.lost),
+            band=() if searched is None else tuple(map(BandRow.read, band(design))),
+            worst_run=DecisiveRun.of(design, ensemble, searched),
         )
