@@ -69,6 +69,7 @@ FULL: dict[str, dict[str, str]] = {
         "speed_rpm": "5800",
         "speed_range_rpm": "[5800, 5800]",
         "spindle_axis": '"horizontal"',
+        "held": '"any"',
         "transverse_inertia_kg_m2": "0.10",
         "center_of_mass_to_wheel_mm": "200.0",
         "length_mm": "450.0",

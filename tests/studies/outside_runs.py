@@ -303,7 +303,8 @@ def ended(
     most_quiet = min(5e-8 * 10 ** (permitted / 20), without_balls(of_file._replace(speed=p.speed)))
     loud = turn_velocities(squares[:revs], *sums[:, :revs]) > most_quiet
     quiet_from = quiet_time(loud, times[15:samples:16], start.full)
-    return judged(of_file, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs], quiet_from)
+    seen = moduli[:samples], times[:samples], squares[:revs], angles[:revs]
+    return judged(of_file, result, start.full, *seen, quiet_from)
 
 
 def without_balls(p: Machine) -> float:

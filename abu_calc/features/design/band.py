@@ -8,7 +8,7 @@ suspension, speeds and run-ups. `varied` draws from both: a low-discrepancy sequ
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import count, cycle, islice, product
+from itertools import count, cycle, product
 from typing import Final, Literal
 
 from abu_calc.formulas.suspension import Springs
@@ -26,8 +26,12 @@ SOFTLY_HELD: Final = 8.0
 SIDES: Final[tuple[Start, ...]] = ("behind", "bunched")
 TRUER: Final = (0.1, 0.3, 0.5, 0.75)
 """Starts and shares of the race's eccentricity at which designs break most."""
-PART, USUAL = 100, 10
-"""Most starts of a part, and the part of the sequence that the usual band takes."""
+FEW: Final = 4
+"""Balls at most of which such designs break."""
+
+PRIMES: Final = (2, 3, 5, 7, 11, 13, 17, 19)
+OF_PROMISED, OF_USUAL = slice(3), slice(3, 8)
+"""Axes of the sequence for what is promised, and for what is usual."""
 
 Factors = tuple[float, float]
 FRICTION: Final[Factors] = (0.3, 2.0)
@@ -62,7 +66,7 @@ def turned_in_use(design: Design) -> bool:
 def band(design: Design) -> tuple[Varied, ...]:
     """All values that vary, promised ones first."""
     case, table = design.case, design.case.table
-    abu, imbalance, speed = table.autobalancer, from_si(design.imbalance.value, "g_mm"), table.machine.speed_rpm
+    abu, imbalance, speed = case.autobalancer, from_si(design.imbalance.value, "g_mm"), table.machine.speed_rpm
     shares = case.drag_shares
     drag = [share * case.drag for share in shares]
     rows = [
@@ -84,29 +88,27 @@ def _times(factors: Factors, value: float) -> Factors:
     return factors[0] * value, factors[1] * value
 
 
-def sequence(dimensions: int) -> Iterator[tuple[float, ...]]:
-    """Points of the unit cube without gaps or lumps: k·(1/g, 1/g², …) mod 1, g^(d+1) = g + 1.
+def sequence(axes: slice) -> Iterator[tuple[float, ...]]:
+    """Points of the unit cube without gaps or lumps: ½ + k·√p mod 1, k = 1, 2 …, for a prime p on each axis.
 
-    Source: Roberts 2018, The unreasonable effectiveness of quasirandom sequences, after Kronecker.
+    Source: Niederreiter 1978, Quasi-Monte Carlo methods and pseudo-random numbers; the steps are Richtmyer's.
 
-    >>> [round(x, 3) for x in next(sequence(1))]
-    [0.118]
+    >>> [round(x, 3) for x in next(sequence(slice(2)))]
+    [0.914, 0.232]
     """
-    g = 2.0
-    for _ in range(50):
-        g = (1 + g) ** (1 / (dimensions + 1))
-    steps = [g ** -(k + 1) for k in range(dimensions)]
-    yield from (tuple((0.5 + k * step) % 1.0 for step in steps) for k in count(1))
+    steps = [math.sqrt(prime) for prime in PRIMES[axes]]
+    for k in count(1):
+        yield tuple((0.5 + k * step) % 1.0 for step in steps)
 
 
-def promised(design: Design, starts: Iterable[Member], part: int = 0) -> Iterator[Member]:
-    """Starts of machines within the promised band, in every position in turn; `part`: of the sequence of values."""
+def promised(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
+    """Starts of machines within the promised band, in every position in turn."""
     axes: tuple[str | None, ...] = (None,)
     if turned_in_use(design):
         given = design.case.table.machine.spindle_axis
         axes = (None, "vertical" if given == "horizontal" else "horizontal")
-    points = islice(sequence(3), part * PART, None)
-    for start, axis, (eccentricity, imbalance, side) in zip(starts, cycle(axes), points, strict=False):
+    points = zip(starts, cycle(axes), sequence(OF_PROMISED), strict=False)
+    for start, axis, (eccentricity, imbalance, side) in points:
         # A third of them has all the imbalance.
         share = min(NEW_WHEEL + (1 - NEW_WHEEL) * 1.5 * imbalance, 1.0)
         varied = Variation(eccentricity, share, spindle_axis=axis)  # type: ignore[arg-type]
@@ -119,7 +121,7 @@ def corners(design: Design) -> Iterator[Member]:
     There friction holds one of four balls on the heavy side for long (own trial: 8 of 9 machines that broke).
     """
     given = design.case.table.machine.spindle_axis
-    if given != "horizontal" and not turned_in_use(design):
+    if design.autobalancer.ball_count > FEW or (given != "horizontal" and not turned_in_use(design)):
         return
     axis: Literal["horizontal"] | None = None if given == "horizontal" else "horizontal"
     for start, share, side in product(SIDES, TRUER, (ALIKE, OPPOSITE)):
@@ -131,7 +133,7 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
     case, file_run_up = design.case, usual_run_up(design)
     low, high = min(case.drag_shares), max(case.drag_shares)
     for k, (start, (drag, friction, frequency, speed, run_up)) in enumerate(
-        zip(promised(design, starts, USUAL), sequence(5), strict=False)
+        zip(promised(design, starts), sequence(OF_USUAL), strict=False)
     ):
         varied = replace(
             start.varied,
@@ -140,7 +142,7 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
         )
         changed = replace(start, varied=varied, drag=case.drag * _between((low, high), drag), promised=False)
         if not file_run_up.by_motor:
-            changed = replace(changed, speed=case.speed * _between(SPEED, speed))
+            changed = replace(changed, speed=(start.speed or case.speed) * _between(SPEED, speed))
             if k % 3 == 0:
                 changed = replace(changed, run_up=_between(RUN_UPS, run_up))
         yield changed

@@ -11,6 +11,7 @@ The neighbourhood of the slowest and of the loudest is searched last.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import cycle
 from typing import Final
 
 from abu_calc.features.design.band import corners, promised, usual
@@ -238,14 +239,23 @@ def loudness(outcome: StartOutcome) -> float:
 
 
 def design_part(design: Design, part: int) -> Iterator[Member]:
-    """The designed starts of one part, at the rated speed and at others of a range, over what is promised; no part has
-    a start of another. The first has the corners of the band and what is usual, too.
+    """The designed starts of one part, at the rated speed and at others of a range; no part has a start of another.
+
+    The first has those of machines anywhere in the band, too.
     """
-    yield from promised(design, (*designed(design, part), *at_other_speeds(design, part)), part)
+    yield from designed(design, part)
+    yield from at_other_speeds(design, part)
     if not part:
+        yield from promised(design, anywhere(design, PARTS))
         yield from corners(design)
-        places = (*bunches(design, PARTS), *spreads(design, PARTS))
-        yield from usual(design, (Member("placed", design.case.drag, angles=angles) for angles in places))
+        yield from usual(design, anywhere(design, PARTS + 1))
+
+
+def anywhere(design: Design, part: int) -> Iterator[Member]:
+    """Balls together and spread anywhere at the places of a part, at the speeds of a range in turn."""
+    ranged: list[float | None] = [] if usual_run_up(design).by_motor else [*_other_speeds(design)]
+    for angles, speed in zip((*bunches(design, part), *spreads(design, part)), cycle([None, *ranged]), strict=False):
+        yield Member("placed", design.case.drag, speed=speed, angles=angles)
 
 
 def designed(design: Design, part: int = 0) -> Iterator[Member]:

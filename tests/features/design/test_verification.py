@@ -26,7 +26,8 @@ def start(**values: Any) -> SimpleNamespace:
     usual = {"balanced": True, "hanging": False, "slip": 0.0, "level": 99.0}
     times = {"quiet_time_or_inf": 0.3, "rest_time_or_inf": 9.0, "settling_time_or_inf": 9.0}
     made = SimpleNamespace(member=member, **(usual | times | values))
-    made.in_time = partial(StartOutcome.in_time, made)  # its own rule, by these times
+    made.in_time = partial(StartOutcome.in_time, made)  # its own rules, by these values
+    made.holds = partial(StartOutcome.holds, made)
     return made
 
 

@@ -1,0 +1,159 @@
+"""The band that a verdict covers: what varies and how far, and by what its runs are judged."""
+
+import math
+import shlex
+from itertools import islice
+from typing import Any
+
+import numpy as np
+import pytest
+
+import abu_calc
+from abu_calc.features.design.band import (
+    FRICTION,
+    NATURAL_FREQUENCY,
+    RUN_UPS,
+    SPEED,
+    band,
+    corners,
+    promised,
+    sequence,
+    turned_in_use,
+    usual,
+)  # fmt: skip
+from abu_calc.features.design.searched_checks import decisive, repeated
+from abu_calc.features.design.start_search import SearchResult, fails
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.ensemble import first_tolerance, run_of_start
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.start_cases import ALIKE, Member, Variation, scene_of_member
+from abu_calc.sizing import size
+from abu_calc.sizing.design import Design
+from tests.cli.runner import abu
+from tests.sizing.machines import machine
+
+AUTOBALANCER = {"max_outer_diameter_mm": 68.0, "max_width_mm": 32.0}
+
+
+def design_of(**given: Any) -> Design:
+    return size(machine(**{"autobalancer": AUTOBALANCER, **given}))
+
+
+@pytest.fixture(scope="module")
+def design() -> Design:
+    return design_of()
+
+
+def starts(design: Design) -> list[Member]:
+    return [Member("bunched", design.case.drag)] * 60
+
+
+def test_a_sequence_leaves_no_large_gap() -> None:
+    """Of 64 points each of 16 equal slices of every axis has three to five; no two points are alike."""
+    points = np.array(list(islice(sequence(slice(8)), 64)))
+    for axis in points.T:
+        assert np.histogram(axis, 16, (0, 1))[0].min() >= 3 and np.histogram(axis, 16, (0, 1))[0].max() <= 5
+    assert len({tuple(point) for point in points}) == 64 and points.min() >= 0 and points.max() < 1
+
+
+def test_promised_is_what_the_file_says_at_most(design: Design) -> None:
+    members = list(promised(design, starts(design)))
+    shares = [member.varied.race_eccentricity for member in members]
+    imbalances = [member.varied.imbalance for member in members]
+    assert 0 <= min(shares) < 0.05 and 0.95 < max(shares) <= 1
+    assert 0.1 <= min(imbalances) < 0.15 and 10 < sum(share == 1 for share in imbalances) < 30 and max(imbalances) == 1
+    assert {member.varied.spindle_axis for member in members} == {None, "vertical"}
+    assert all(member.promised and member.drag == design.case.drag for member in members)
+    assert all(member.varied.friction_arm == member.varied.natural_frequency == 1 for member in members)
+
+
+def test_usual_stays_within_the_band_and_is_not_promised(design: Design) -> None:
+    rows = {row.key: row for row in band(design)}
+    assert [row.promised for row in rows.values()] == [True, True, *[False] * 5]
+    for member in usual(design, starts(design)):
+        assert not member.promised and member.speed is not None
+        assert FRICTION[0] <= member.varied.friction_arm <= FRICTION[1]
+        assert NATURAL_FREQUENCY[0] <= member.varied.natural_frequency <= NATURAL_FREQUENCY[1]
+        assert SPEED[0] <= member.speed / design.case.speed <= SPEED[1]
+        assert member.run_up == 0 or RUN_UPS[0] <= member.run_up <= RUN_UPS[1]
+        drag = rows["autobalancer.rolling_drag_per_s"]
+        assert drag.low <= member.drag <= drag.high
+
+
+@pytest.mark.parametrize(
+    ("given", "any_position"),
+    [
+        ({}, True),
+        ({"machine__held": "as-given"}, False),
+        ({"suspension__natural_frequencies_hz": [8.5, 2.5]}, False),
+        ({"suspension__natural_frequencies_hz": [8.5, 2.5], "machine__held": "any"}, True),
+        ({"suspension": {"model": "hands"}}, True),
+    ],
+)
+def test_what_is_held_in_the_hands_is_turned_in_use(given: dict[str, Any], any_position: bool) -> None:
+    design = design_of(**given)
+    assert turned_in_use(design) is any_position
+    axes = {member.varied.spindle_axis for member in promised(design, starts(design))}
+    assert axes == ({None, "vertical"} if any_position else {None})
+
+
+def test_a_vertical_spindle_that_stays_so_has_no_corners() -> None:
+    """Corners are those of gravity."""
+    four = {**AUTOBALANCER, "ball_count": 4}
+    assert not list(corners(design_of(machine__spindle_axis="vertical", machine__held="as-given", autobalancer=four)))
+    turned = list(corners(design_of(machine__spindle_axis="vertical", autobalancer=four)))
+    assert turned and all(member.varied.spindle_axis == "horizontal" for member in turned)
+    assert not list(corners(design_of(autobalancer={**AUTOBALANCER, "ball_count": 5})))
+
+
+def test_a_scene_has_what_varies_and_is_judged_by_the_file(design: Design) -> None:
+    """Small motions, gravity and friction are those of the variation; quiet and at rest are judged as ever."""
+    nominal = scene_of_member(design, Member("bunched", design.case.drag))
+    varied = Variation(0.5, 0.25, 2.0, 1.2, "vertical")
+    scene = scene_of_member(design, Member("bunched", design.case.drag, varied=varied))
+    assert scene.imbalance == 0.25 * nominal.imbalance and scene.largest_imbalance == nominal.imbalance
+    assert nominal.effect("gravity") is not None and scene.effect("gravity") is None
+    true, smooth = (scene.effect(name) for name in ("race_eccentricity", "dry_rolling_friction"))
+    assert getattr(true, "magnitude", None) == pytest.approx(0.5 * design.case.race_eccentricity)
+    assert getattr(smooth, "lever_arm", None) == pytest.approx(2 * design.case.friction_arm)
+    stiffness, before = (np.array(getattr(each.support, "stiffness")) for each in (scene, nominal))  # noqa: B009
+    assert stiffness == pytest.approx(1.44 * before)
+    new = scene_of_member(design, Member("bunched", design.case.drag, varied=Variation(imbalance=0.25)))
+    assert new.quiet_velocity == nominal.quiet_velocity
+
+
+def test_a_new_wheel_is_not_late_for_being_light(design: Design) -> None:
+    """At a tenth of the imbalance balls cannot better it much; all the same the machine is quiet and balanced."""
+    member = Member("behind", design.case.drag, 0.0, ALIKE, varied=Variation(imbalance=0.1))
+    outcome = run_of_start(design, member, 0.01, first_tolerance(design)).outcome
+    assert outcome.holds(design.case.table.limits, design.case.level_limit)
+
+
+def outcome_of(member: Member, quiet: float, *, confirmed: bool = True) -> StartOutcome:
+    return StartOutcome(member, quiet, quiet, quiet, False, 1e-6, 90.0, 0.0, 0.1, 1.0, confirmed=confirmed)
+
+
+def test_the_decisive_run_is_the_worst_that_was_promised(design: Design) -> None:
+    within, beyond = Member("bunched", design.case.drag), Member("spread", design.case.drag, promised=False)
+    listed = Ensemble(design.case.drag, (outcome_of(within, 0.2),), ())
+    late, later = outcome_of(within, 1.5), outcome_of(beyond, math.inf)
+    assert decisive(design, listed, SearchResult((late, later))) is late
+    assert decisive(design, listed, SearchResult((outcome_of(within, 0.3), later))) is later
+    assert decisive(design, listed, None) is listed.outcomes[0]
+    assert fails(design, late) and not fails(design, later)
+    assert not fails(design, outcome_of(within, 1.5, confirmed=False))
+
+
+def test_the_printed_options_repeat_a_varied_run() -> None:
+    """All that differs from the file stands in them, so that the same machine runs."""
+    file = abu_calc.read("avtovaz-707-222")
+    design = size(file.whole("size"))
+    varied = Variation(0.3, 1.0, 0.7, 1.2, "vertical")
+    member = Member("placed", 1.5 * design.case.drag, 0.0, 2.0, 0.97 * design.case.speed, angles=(0.1, 1.3, 2.6, 4.0),
+                    varied=varied, promised=False)  # fmt: skip
+    outcome = run_of_start(design, member, 0.01, first_tolerance(design)).outcome
+    seen = abu("simulate", "avtovaz-707-222", *shlex.split(repeated(outcome, design)), "--json")
+    assert seen.status == 0, seen.err
+    result = seen.document["result"]
+    assert result["quiet_time_s"] == pytest.approx(outcome.quiet_time, rel=0.02, abs=0.002)
+    assert result["residual_imbalance_g_mm"] == pytest.approx(from_si(outcome.imbalance, "g_mm"), abs=1.0)
