@@ -177,7 +177,7 @@ def search(
 
     starts = list(design_part(design, 0))
     found, asked, limit = run(starts), len(starts), design.case.table.limits.longest_quiet_time
-    none_late = max(map(slowness, found), default=math.inf) <= limit
+    none_late = max((slowness(each) for each in found if each.member.promised), default=math.inf) <= limit
     seems_late = limit < SearchResult(found, listed=listed).foreseen <= NEAR * limit
     if none_late and (seems_late or every_part):
         for part in range(1, PARTS):
