@@ -29,7 +29,7 @@ TRUER: Final = (0.1, 0.3, 0.5, 0.75)
 FEW: Final = 4
 """Balls at most of which such designs break."""
 
-PRIMES: Final = (2, 3, 5, 7, 11, 13, 17, 19)
+PRIMES: Final[tuple[int, ...]] = (2, 3, 5, 7, 11, 13, 17, 19)
 OF_PROMISED, OF_USUAL = slice(3), slice(3, 8)
 """Axes of the sequence for what is promised, and for what is usual."""
 

@@ -6,9 +6,17 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.features.design.start_search import RARE, SearchResult, fails, loudness, slowness
-from abu_calc.foundation.checks import Check, Grade
+from abu_calc.foundation.checks import Action, Check, coded
 from abu_calc.foundation.units import from_si
-from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check
+from abu_calc.simulation.ensemble_checks import (
+    LEFT,
+    LOUDEST,
+    SLOWEST,
+    STALLED,
+    TriedChange,
+    ensemble_checks,
+    level_check,
+)
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
 from abu_calc.simulation.start_cases import Member, Variation
 from abu_calc.sizing.design import Design
@@ -23,7 +31,7 @@ def start_checks(
     """
     closed = next(check for check in design.checks if check.code == "ABU401")
     listed = (level_check(closed, ensemble, change), *ensemble_checks(design, ensemble, change))
-    return {check.code: with_searched(check, searched, design) for check in listed}
+    return {check.code: with_searched(check, searched, design, change) for check in listed}
 
 
 def repeated(outcome: StartOutcome, design: Design) -> str:
@@ -93,8 +101,12 @@ def decisive(design: Design, ensemble: Ensemble, searched: SearchResult | None) 
     return max(outcomes, key=order, default=None)
 
 
-def with_searched(check: Check, searched: SearchResult | None, design: Design) -> Check:
-    """A check of the listed starts that passes, with what a searched one breaks of it: that warns."""
+def with_searched(
+    check: Check, searched: SearchResult | None, design: Design, change: TriedChange | None = None
+) -> Check:
+    """A check of the listed starts that passes, with what a searched one breaks of it: that warns, or fails if all of
+    it is promised. `change`: one with which no promised start breaks a limit, or what was tried.
+    """
     if searched is None or check.status not in ("pass", "warn") or check.code not in BROKEN:
         return check
     breaks, order, words = BROKEN[check.code]
@@ -122,8 +134,24 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
     surely = [
         outcome for outcome in broken if fails(design, outcome) and not _within_error(check.code, outcome, design)
     ]
-    status: Grade = "fail" if surely else "warn"
-    return replace(check, status=status, message=f"{check.message}. {share}", remedy=check.remedy or NOT_TRIED)
+    message = f"{check.message}. {share}"
+    if not surely:
+        return replace(check, status="warn", message=message, remedy=check.remedy or NOT_TRIED)
+    action = None if change is None else mended(change, check)
+    if action is None:
+        return replace(check, status="fail", message=message, remedy=check.remedy or NOT_TRIED)
+    return coded(check.code, "fail", message, check.value, check.limit, check.unit, action)
+
+
+def mended(change: TriedChange, check: Check) -> Action:
+    """The action of a check that a promised start case fails, by the quantity that it judges."""
+    if check.code == "ABU704":
+        return change.counting(STALLED, lambda outcome: outcome.hanging, "")
+    if check.code == "ABU701":
+        return change.action(LEFT, lambda outcome: from_si(outcome.imbalance, "g_mm"), "g·mm", check.limit)
+    if check.code == "ABU702":
+        return change.action(SLOWEST, lambda outcome: outcome.quiet_time_or_inf, "s", check.limit)
+    return change.action(LOUDEST, lambda outcome: outcome.level, "dB", check.limit)
 
 
 def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str, str, str]]:

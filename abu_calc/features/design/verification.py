@@ -75,13 +75,15 @@ def design_with(design: Design, entries: Mapping[str, object]) -> Design | None:
 
 
 def tried_change(
-    design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: int
-) -> TriedChange | None:
+    design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: int,
+    searched: SearchResult | None = None,
+) -> TriedChange | None:  # fmt: skip
     """The first change with which every start at the drag given passes; else all that were tried without success.
 
     `first`: the starts of the design as it is; `most`: evaluations that all trials may take, None where it is none.
+    `searched`: its further starts, if one of those that are promised fails: then none of them may.
     """
-    tried = list[str]()
+    tried, first = list[str](), _with_promised(first, searched)
     for change in changes(design, first):
         if most <= 0:
             break
@@ -91,12 +93,24 @@ def tried_change(
             most -= ensemble.work
             if not passes(variant, ensemble):
                 break
+            if searched is not None:
+                more = search(variant, accuracy, within(progress, f"with {change.name}"), workers, ensemble.given)
+                most -= sum(outcome.work for outcome in more.outcomes)
+                if any(map(partial(fails, variant), more.outcomes)):
+                    break
+                ensemble = _with_promised(ensemble, more)
             ensembles.append(ensemble)
         if len(ensembles) == 1 + len(change.variants):
             by_oil = overriding(design.case, change.entries)
             return TriedChange(design.autobalancer, first, change.entries, ensembles[0], by_oil=by_oil)
         tried.append(change.name)
     return TriedChange(design.autobalancer, first, {}, None, tuple(tried)) if tried else None
+
+
+def _with_promised(ensemble: Ensemble, searched: SearchResult | None) -> Ensemble:
+    """Start cases with the further ones that are promised."""
+    more = () if searched is None else (outcome for outcome in searched.outcomes if outcome.member.promised)
+    return replace(ensemble, outcomes=(*ensemble.outcomes, *more))
 
 
 def change_for_oils(
@@ -271,10 +285,9 @@ def proven(
             if another.holds:
                 return replace(another, change=change_for_oils(other, ensemble, accuracy, progress, workers))
         refused.append((runner_up, LATE))
-    if passes(design, first):
-        return proof
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
-    return replace(proof, change=tried_change(design, first, left, accuracy, progress, workers))
+    found = tried_change(design, first, left, accuracy, progress, workers, proof.searched)
+    return replace(proof, change=found)
 
 
 def _with_search(

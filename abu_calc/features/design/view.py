@@ -14,7 +14,7 @@ from abu_calc.features.design.screen import (
     numbers_that_matter,
     section_picture,
 )
-from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
+from abu_calc.features.design.starts import EnsembleResult, FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.grinding.view import start_blocks
 from abu_calc.features.swing_arm.view import arm_facts, motion_blocks, printed_otherwise
@@ -54,6 +54,11 @@ WAYS = (
     "Below the optimum drag rate small disturbances decay at h₀/(2J), whatever the mass of the balls. Above it heavier "
     "balls settle faster. From standstill the balls take up the speed at h₀/J. The radius of the groove has no "
     "influence in the plane.",
+)
+BAND = (
+    "A further start case within what is promised can fail a check, one within what is usual warns. All are judged by "
+    "the limits of the file, and by the level without balls at its imbalance. `machine.held` says whether the spindle "
+    "may be turned."
 )
 REPEAT = "`abu simulate {file} --start spread --race-centre 0` repeats one listed start case."
 GAPS = (
@@ -147,6 +152,7 @@ def _ensemble(result: SizeResult) -> list[Block]:
         _ways(many.settling_by_start),
         *map(Paragraph, _ways_in_words(result.oil)),
         Paragraph(REPEAT.format(file=file_of(result))),
+        *_band(many),
         *_further(result, many.further_starts),
     ]
 
@@ -161,6 +167,20 @@ def _ways_in_words(oil: OilRecord | None) -> tuple[str, ...]:
         f"{cold.temperature_C:g} °C."
     )
     return WAYS[0], WAYS[1].replace(UNKNOWN_OIL, states), WAYS[2]
+
+
+def _band(many: EnsembleResult) -> list[Block]:
+    """How far further start cases vary the values of the file."""
+    if not many.band:
+        return []
+    rows = tuple(
+        (row.key, number(row.low, 3), number(row.high, 3), "promised" if row.promised else "usual") for row in many.band
+    )
+    return [
+        Heading("Band of the further start cases"),
+        Grid(("", "lowest", "highest", ""), rows, frozenset({1, 2})),
+        Paragraph(BAND),
+    ]
 
 
 def _further(result: SizeResult, further: FurtherStarts | None) -> list[Block]:
