@@ -34,6 +34,7 @@ from abu_calc.features.design.start_search import (
 )
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read_machine
+from abu_calc.inputs.reading.overrides import parse_overrides
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
 from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.simulation.start_cases import members
@@ -136,6 +137,19 @@ def test_balls_that_rest_late_may_be_quiet_soon(name: str) -> None:
     assert further.rest_time_s is None or further.rest_time_s > 1.0
     assert further.quiet_time_s is not None and further.quiet_time_s < 0.5
     assert check.status == "pass" and further.repeats == ()
+
+
+@pytest.mark.slow
+def test_the_action_of_what_fails_over_the_band_holds_as_printed() -> None:
+    """Followed literally no check fails any more, and the slowest start case is quiet when it says."""
+    machine = first_choice("late-between-speeds")
+    (check,) = (each for each in recalled("size", machine).checks if each.code == "ABU702")
+    told = re.search(r"falls from (\S+) to (\S+) s \(simulated\)", check.remedy or "")
+    assert check.status == "fail" and told is not None and check.overrides
+    after = recalled("size", machine.changed({each.key: each.value for each in parse_overrides(list(check.overrides))}))
+    assert after.status == "pass" and after.ensemble is not None and after.ensemble.further_starts is not None
+    slowest = max(after.ensemble.further_starts.quiet_time_s or math.inf, after.ensemble.quiet_time_s.worst or math.inf)
+    assert float(told[2]) < 1.0 < float(told[1]) and slowest >= float(told[2]) - 0.005
 
 
 @pytest.mark.slow
