@@ -70,11 +70,10 @@ def test_only_balls_that_nothing_holds_linger() -> None:
     assert linger(found, scene, balanced + 1.01 * tenth) and not linger(found, scene, balanced + 0.99 * tenth)
     true = replace(scene, effects=tuple(each for each in scene.effects if each.name != "race_eccentricity"))
     assert linger(found, true, balanced) and not linger(found, true, 0.0)
-    machine = found.case.table.machine.model_copy(update={"spindle_axis": "vertical"})
-    table = found.case.table.model_copy(update={"machine": machine})
-    upright = replace(found, case=replace(found.case, table=table))
-    assert not linger(upright, scene, 0.0), "friction holds them"
-    assert linger(replace(upright, case=replace(upright.case, friction_arm=0.0)), scene, 0.0)
+    upright = replace(scene, effects=tuple(each for each in scene.effects if each.name != "gravity"))
+    assert not linger(found, upright, 0.0), "friction holds them"
+    smooth = tuple(each for each in upright.effects if each.name != "dry_rolling_friction")
+    assert linger(found, replace(upright, effects=smooth), 0.0)
 
 
 def test_a_machine_keeps_quiet_with_a_decibel_to_spare(design: Design) -> None:
