@@ -167,7 +167,8 @@ def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str,
 
 
 def _late(outcome: StartOutcome, design: Design) -> bool:
-    return not outcome.in_time(design.case.table.limits)
+    """True if it is late, or if its balls still creep at the end, however long it was followed."""
+    return not outcome.in_time(design.case.table.limits) or (outcome.creeping and not outcome.hanging)
 
 
 def _loud(outcome: StartOutcome, design: Design) -> bool:
@@ -185,7 +186,7 @@ def _time_in_words(outcome: StartOutcome) -> str:
         "never" if math.isinf(time) else f"after {time:.3g} s"
         for time in (outcome.quiet_time_or_inf, outcome.rest_time_or_inf)
     )
-    return f"are late: the slowest is quiet {quiet}, at rest {rest}"
+    return f"are late{' or still creep' * outcome.creeping}: the slowest is quiet {quiet}, at rest {rest}"
 
 
 NOT_TRIED: Final = "No change was simulated; --full prints a command that repeats the start case, to try one."

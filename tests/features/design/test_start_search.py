@@ -212,6 +212,16 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
     assert with_searched(other, SearchResult((bad,)), found) == other
 
 
+def test_further_balls_that_still_creep_warn() -> None:
+    """Followed for ten times the limit they have no time of rest: that is no failure, but it is told."""
+    found, check = design("avtovaz-707-222"), Check("ABU702", "", "pass", "as listed", 0.2, 1.0, "s", None)
+    creeping = replace(outcome(0.1), creeping=True, rest_time=None, confirmed=True)
+    told = with_searched(check, SearchResult((outcome(0.2), creeping)), found)
+    assert (
+        told.status == "warn" and "1 of 2 are late or still creep" in told.message and "at rest never" in told.message
+    )
+
+
 def test_a_long_tail_of_quiet_times_warns_before_one_is_too_late() -> None:
     """Balls that linger leave as e^{λt}: of 40 times with that tail the rare ones are foreseen within 25 %."""
     found, check = design("avtovaz-707-222"), Check("ABU702", "", "pass", "as listed", 0.2, 1.0, "s", None)
