@@ -5,8 +5,8 @@ motion that share nothing with the product.
     python -m tests.studies.verdicts [machines] [first] [file of lines]
 
 Each machine of six families that `abu size` passes without a warning on level, balancing, settling and stalling is
-switched on 70 times: balls anywhere in the race, turning or not, and run-ups. Runs that exceed a limit or stall are
-counted.
+switched on 190 times: 70 as its file has it, balls anywhere in the race, turning or not, and run-ups; 80 within the
+band that file and drawing promise, 40 within the usual one. Runs that exceed a limit or stall are counted.
 The file has one line of JSON for each machine; machines that are in it already are not done again.
 """
 
@@ -23,7 +23,16 @@ from typing import Any
 import abu_calc
 from tests.benchmarks.measuring import keep, machine
 from tests.studies.outside_equations import COMPILED
-from tests.studies.outside_runs import Ending, Start, broken, ended, quiet_limit, starts, with_motor
+from tests.studies.outside_runs import (
+    Ending,
+    Start,
+    band_starts,
+    broken,
+    ended,
+    quiet_limit,
+    starts,
+    with_motor,
+)  # fmt: skip
 from tests.studies.random_machines import FAMILIES, family_of, machine_text
 
 CODES = "ABU401", "ABU701", "ABU702", "ABU704"
@@ -31,7 +40,7 @@ WHOLE = 2.9
 """Quiet times permitted: nearly as long as runs last at most."""
 ENOUGH = 200
 """Machines, the least for a record."""
-EDITION = 3
+EDITION = 4
 """Of the outside equations and starts: another one runs all machines again."""
 
 
@@ -48,6 +57,9 @@ class Verdict:
     """Messages of the checks that warn, of those that a start can break."""
     runs: int = 0
     broken: int = 0
+    promised: tuple[int, int] = (0, 0)
+    """Runs within the promised band, and how many of them broke a limit."""
+    usual: tuple[int, int] = (0, 0)
     how: tuple[dict[str, Any], ...] = field(default=())
     """The runs that broke a limit: which, and by which start."""
     slowest: float = 0.0
@@ -79,33 +91,55 @@ def judged(seed: int, folder: Path) -> Verdict:
 def tried(seed: int, family: str, text: str, codes: tuple[str, ...], result: dict[str, Any]) -> Verdict:
     """Random starts and run-ups of a machine that passes."""
     file = tomllib.loads(text)
-    limits, how, count, slowest, loudest = file["limits"], [], 0, 0.0, -200.0
+    limits, how, slowest, loudest = file["limits"], [], 0.0, -200.0
     limit, permitted = quiet_limit(limits), limits["vibration_level_db"]
-    for k, (start, seen) in enumerate(endings(seed, file, result)):
+    runs, bad = Counter[str](), Counter[str]()
+    for k, (start, kind, seen) in enumerate(endings(seed, file, result)):
         # What seems to break a limit is followed to its end: a run may have ended while a vibration was dying out.
         ending = ended(start, result, limit, least=WHOLE, permitted=permitted) if broken(seen, limits) else seen
-        count += 1
+        runs[kind] += 1
         slowest = max(slowest, ending.quiet / limit)
         loudest = max(loudest, ending.level - permitted)
         if why := broken(ending, limits):
-            told = {"start": k, "kind": start.kind, "why": why, "race_centre": round(start.machine.offset_angle, 3)}
+            bad[kind] += 1
+            told = {
+                "start": k,
+                "of": kind,
+                "kind": start.kind,
+                "why": why,
+                "race_centre": round(start.machine.offset_angle, 3),
+            }
             numbers = {name: round(value, 4) for name, value in asdict(ending).items() if name != "modulus"}
             how.append(told | numbers)
-    return Verdict(seed, family, "pass", codes, (), count, len(how), tuple(how), round(slowest, 3), round(loudest, 2))
+    promised, usual = ((runs[kind], bad[kind]) for kind in (PROMISED, USUAL))
+    return Verdict(
+        seed, family, "pass", codes, (), runs[OF_FILE], bad[OF_FILE], promised, usual, tuple(how), round(slowest, 3),
+        round(loudest, 2),
+    )  # fmt: skip
 
 
-def endings(seed: int, file: dict[str, Any], result: dict[str, Any]) -> list[tuple[Start, Ending]]:
-    """Every start and what it came to; runs of the same machine, design and equations are not repeated."""
-    limits, begun = file["limits"], [with_motor(start, file) for start in starts(file, result, seed)]
+OF_FILE, PROMISED, USUAL = "file", "promised", "usual"
+
+
+def endings(seed: int, file: dict[str, Any], result: dict[str, Any]) -> list[tuple[Start, str, Ending]]:
+    """Every start, of which kind its machine is, and what it came to.
+
+    Runs of the same machine, design and equations are not repeated.
+    """
+    limits, begun = file["limits"], [(with_motor(start, file), OF_FILE) for start in starts(file, result, seed)]
+    if "swing_arm" not in file:
+        begun += [(with_motor(start, file), PROMISED if promised else USUAL)
+                  for start, promised in band_starts(file, result, seed)]  # fmt: skip
     parts = [result[key] for key in ("autobalancer", "imbalance_g_mm", "effective_mass_kg", "accuracy_budget")]
     key = hashlib.sha256(json.dumps([EDITION, file, parts, result.get("idle_speed_rpm")]).encode()).hexdigest()
     kept = Path(tempfile.gettempdir()) / "outside-runs" / f"{key}.json"
     if kept.exists():
-        return [(start, Ending(*numbers)) for start, numbers in zip(begun, json.loads(kept.read_text()), strict=True)]
+        known = json.loads(kept.read_text())
+        return [(start, kind, Ending(*numbers)) for (start, kind), numbers in zip(begun, known, strict=True)]
     time, level = quiet_limit(limits), limits["vibration_level_db"]
-    found = [(start, ended(start, result, time, level, permitted=level)) for start in begun]
+    found = [(start, kind, ended(start, result, time, level, permitted=level)) for start, kind in begun]
     kept.parent.mkdir(exist_ok=True)
-    kept.write_text(json.dumps([list(asdict(ending).values()) for _, ending in found]))
+    kept.write_text(json.dumps([list(asdict(ending).values()) for *_, ending in found]))
     return found
 
 
@@ -119,6 +153,9 @@ def summary(verdicts: list[Verdict]) -> dict[str, Any]:
     return {
         "machines": len(verdicts), **{name: statuses[name] for name in ("pass", "warn", "fail", "not-done", "refused")},
         "runs": runs, "broken": bad, "share": bad / max(runs, 1),
+        **{f"{name}_{what}": sum(getattr(one, name)[k] for one in passed)
+           for name in ("promised", "usual") for k, what in enumerate(("runs", "broken"))},
+        "machines_with_promised_broken": sum(one.promised[1] > 0 for one in passed),
         "most_of_one": max((one.broken for one in passed), default=0),
         "held_pass_share": sum(one.status == "pass" for one in held) / max(len(held), 1),
         "share_with_not_done": len(not_done) / max(len(verdicts), 1),
@@ -150,7 +187,9 @@ def _known(lines: Path) -> dict[int, Verdict]:
         return {}
     entries = (json.loads(line) for line in lines.read_text(encoding="utf-8").splitlines())
     return {
-        entry["seed"]: Verdict(**entry | {key: tuple(entry[key]) for key in ("codes", "warnings", "how")})
+        entry["seed"]: Verdict(
+            **entry | {key: tuple(entry[key]) for key in ("codes", "warnings", "how", "promised", "usual")}
+        )
         for entry in entries
     }
 
