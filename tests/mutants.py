@@ -34,6 +34,8 @@ AREAS: Final = (
 TRANSLATED: Final = "dynamics/integrators/compiled/"
 """Functions here are translated as they stand: a mutant is taken for passed where the loop goes on."""
 GATE: Final = "abu_calc/dynamics/integrators/compiled/run.py", "    def _go_on(self) -> int:"
+MOST: Final = 100.0
+"""Processor seconds of the nearest tests that a mutant has to live through to count as alive."""
 LOG, ONLY = "ABU_CALC_MUTANTS_LOG", "ABU_CALC_MUTANTS_ONLY"
 SWAPS: Final[dict[type[Any], type[Any]]] = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.Pow: ast.Mult, ast.Mod: ast.Mult,
@@ -278,7 +280,9 @@ def run(folder: Path, suite: str) -> None:
 
     def judge(mutant: Mutant) -> dict[str, Any]:
         tree = free.pop()
-        names = sorted(tests[mutant.number], key=lambda name: (-_near(mutant.file, name), seconds[name]))
+        every = sorted(tests[mutant.number], key=lambda name: (-_near(mutant.file, name), seconds[name]))
+        spent = accumulate(seconds[name] for name in every)
+        names = [name for name, until in zip(every, spent, strict=True) if until <= MOST]
         whole, place = (tree / mutant.file).read_text(encoding="utf-8"), tree.with_suffix(".json")
         (tree / mutant.file).write_text(mutant.applied(whole), encoding="utf-8")
         place.write_text(json.dumps(names))

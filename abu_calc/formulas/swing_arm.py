@@ -90,7 +90,7 @@ def lifting_angle(friction: float, ratio: float) -> float:
     (0.144, -0.022)
     """
     f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
-    return root(lambda angle: _slope(angle, f, r), 0.0, math.pi / 2, xtol=1e-12) if f > 0 and r < 1 else 0.0
+    return root(lambda angle: _slope(angle, f, r), 0.0, math.pi / 2, xtol=1e-12)
 
 
 @formula(

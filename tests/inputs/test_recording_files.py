@@ -311,6 +311,9 @@ def test_a_wav_in_volts_has_a_sensitivity_for_each_channel(tmp_path: Path) -> No
     found = read_recording(file, sensitivity=[10, "channel 4=20"], full_scale_mV=5000, handles=handles)  # type: ignore[list-item]
     tops = [float(np.abs(values).max()) for values in found.samples]
     assert tops == pytest.approx([250, 250, 250, 125], rel=1e-3) and list(found.axes_by_handle) == ["front", "rear"]
+    for numbers, expected in ((["1=10", "2=20"], [250, 125]), (["2=20", 10], [250, 125]), (["1=5", 10], [500, 250])):
+        by_number = read_recording(file, sensitivity=numbers, full_scale_mV=5000, channels=["1", "2"])  # type: ignore[arg-type]
+        assert [float(np.abs(values).max()) for values in by_number.samples] == pytest.approx(expected, rel=1e-3)
     for asked in ({"sensitivity": 10.0}, {"full_scale_mV": 5000.0}, {"scale": 1.0, "full_scale_mV": 5.0}):
         with pytest.raises(InputError):
             read_recording(file, channels=["1"], **asked)  # type: ignore[arg-type]

@@ -109,3 +109,16 @@ def test_actions_with_the_same_entries_say_each_sentence_once() -> None:
     assert said.unsaid("Set a = 1: c falls. All else holds.", ("a=1",)) == "Set a = 1: c falls."
     assert said.unsaid("Set a = 2: c falls. All else holds.", ("a=2",)) == "Set a = 2: c falls. All else holds."
     assert said.unsaid("All else holds.", ()) == said.unsaid("All else holds.", ()) == "All else holds."
+
+
+def test_entries_of_an_action_stand_once_below_it_to_be_pasted() -> None:
+    entries = ("machine.mass_kg=5.6", "autobalancer.ball_count=4")
+    asked = {"remedy": "Set both.", "overrides": entries}
+    first, second = check("ABU202", "fail", "too heavy", **asked), check("ABU301", "warn", "too few", **asked)
+    lone = check("ABU401", "warn", "too loud", remedy="Set one.", overrides=("wheel.mass_kg=1",))
+    told = reasons([first, second, lone, check("ABU402", "warn", "no action")])
+    options = "--set machine.mass_kg=5.6 --set autobalancer.ball_count=4"
+    assert [line.text for line in told if line.text.startswith("--set")] == [options, "--set wheel.mass_kg=1"]
+    place = [line.text for line in told].index(options)
+    assert told[place - 1].text.startswith("FAIL ABU202") and told[place - 1].text.endswith("Action: Set both.")
+    assert told[place].indent > told[place - 1].indent

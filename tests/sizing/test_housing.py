@@ -1,5 +1,6 @@
 """Housing of the race: mass, groove and room for the balls."""
 
+import cmath
 import math
 from typing import Any
 
@@ -7,7 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.sizing.housing import greatest_race_radius, groove_radius, housing, least_race_radius
+from abu_calc.sizing.housing import (
+    dimensions,
+    greatest_race_radius,
+    groove_radius,
+    housing,
+    last_ball_passes,
+    least_race_radius,
+)
 
 
 def test_housing_of_the_straight_grinder() -> None:
@@ -52,3 +60,20 @@ def test_the_largest_race_fills_the_outer_diameter() -> None:
 def test_the_smallest_race_leaves_half_a_millimetre_between_ball_and_hub() -> None:
     """10 mm of bore, 2.5 mm of hub, 0.5 mm of clearance, 8 mm of ball."""
     assert least_race_radius("one-piece", 20e-3, 8e-3) == pytest.approx(21e-3)
+
+
+@pytest.mark.parametrize("ball", [8e-3, 10e-3, 12e-3])
+@pytest.mark.parametrize("grooved", [True, False])
+def test_the_last_ball_passes_where_it_overlaps_no_other(ball: float, grooved: bool) -> None:
+    """The others touch in a row in the race; the last one stands opposite their middle, at the race's edge."""
+    size = dimensions("one-piece", 30e-3, ball, 20e-3, 2e-3, grooved)
+    pitch, edge = 30e-3 - ball / 2, size.shoulder_radius - ball / 2
+    step = 2 * math.asin(ball / (2 * pitch))
+    most = math.floor(2 * math.pi / step)
+    passes = []
+    for count in range(2, most + 1):
+        others = [cmath.rect(pitch, step * (k - (count - 2) / 2)) for k in range(count - 1)]
+        passes.append(min(abs(each - cmath.rect(edge, math.pi)) for each in others) > ball)
+    assert [last_ball_passes(size, count, ball) for count in range(2, most + 1)] == passes
+    assert passes[0]
+    assert not last_ball_passes(size, most + 2, ball)

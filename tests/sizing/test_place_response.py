@@ -5,6 +5,7 @@ G(p,q) = 1/M + p·q/J. Both terms are added as squares, as their angle is unknow
 """
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -13,7 +14,7 @@ from abu_calc.foundation.units import level_from_velocity
 from abu_calc.sizing import size
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.place_response import place_response, plane_rest
+from abu_calc.sizing.place_response import PlaceResponse, place_response, plane_rest
 from abu_calc.sizing.vibration import worst_residuals
 from tests.sizing.machines import machine
 
@@ -80,3 +81,18 @@ def test_a_race_in_the_wheel_plane_leaves_no_couple() -> None:
 def test_the_couple_turns_the_body_about_its_race(offset: float) -> None:
     case = read_case(machine(**BODY, autobalancer__plane_offset_mm=offset))
     assert plane_rest(case, case.race_place, 0.2) == pytest.approx((0.0, 0.0, 0.0), abs=1e-15)
+
+
+@pytest.mark.parametrize("offset", [0.0, 30.0])
+def test_the_wheel_is_judged_across_its_axis_and_a_handle_by_all_three_axes(offset: float) -> None:
+    case = read_case(machine(**BODY, autobalancer__plane_offset_mm=offset))
+    assert place_response(case, case.body.wheel, 0.2).judged == 2
+    assert place_response(case, (0.0, 0.0, PLACES["rear"]), 0.2).judged == 3
+
+
+def test_the_loudest_axis_is_one_of_those_that_are_judged() -> None:
+    """Motions of 3 and 4 add as squares to 5; along z of 6 and 8 to 10."""
+    handle = PlaceResponse((1.0, 3.0, 6.0), (0.0, 4.0, 8.0))
+    assert handle.loudest(1.0, 1.0) == pytest.approx(10.0)
+    assert replace(handle, judged=2).loudest(1.0, 1.0) == pytest.approx(5.0)
+    assert replace(handle, judged=2).loudest(1.0, 1.0, in_line=True) == pytest.approx(7.0)

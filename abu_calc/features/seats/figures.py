@@ -126,7 +126,7 @@ def _element(kind: str | None, place: tuple[float, float, float]) -> Iterator[Sh
     long, tilt = (0.7 * wide, TILT) if kind == "tapered" else (0.6 * wide, 0.0)
     if kind in ("needle", "drawn-cup"):
         long = 0.8 * wide
-    yield from _roller(middle, long, (0.65 if tilt else 1.0) * height, -tilt * (1 if outer > inner else -1),
+    yield from _roller(middle, long, (0.65 if tilt else 1.0) * height, tilt * (1 if outer > inner else -1),
                        0.75 if kind == "tapered" else 1.0)  # fmt: skip
 
 

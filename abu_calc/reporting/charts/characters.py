@@ -83,7 +83,6 @@ def _draw(field: Field, plot: Plot, line: Curve, kind: int) -> None:
     for (x, y), (after, then) in pairwise([*line.points, line.points[-1]]):
         first, last = _column(plot.across, x), _column(plot.across, after)
         reach.setdefault(first, []).append(y)
-        reach.setdefault(last, []).append(then)
         for column in range(first, last + 1 if last > first else first):
             # To the edges of each column, so that steep lines have no gaps.
             shares = ((column - first + edge) / (last - first) for edge in (-0.49, 0.49))

@@ -1,6 +1,7 @@
 """Which integrator is chosen, and why."""
 
 import importlib.util
+import math
 import warnings
 from dataclasses import replace
 
@@ -18,7 +19,7 @@ from abu_calc.dynamics.integrators.compiled import code
 from abu_calc.dynamics.integrators.run import DECISION, TooMuchWorkError, decision_work, work
 from abu_calc.dynamics.integrators.work_estimates import RUNS, counts, stiff
 from abu_calc.foundation.errors import InputError
-from tests.dynamics.scenes import coupled_scene, straight_grinder, with_effects
+from tests.dynamics.scenes import coupled_scene, dimensionless, straight_grinder, with_effects
 from tests.studies.bounded_work import scene_with_every_effect
 
 FRICTION = DryRollingFrictionEffect(8e-6, 0.008)
@@ -213,3 +214,12 @@ def test_the_same_work_is_allowed_to_all():
 
 def test_short_scenes_have_integrators_by_name():
     assert choose(assemble(coupled_scene()), "compiled", 1e-6).name == "compiled-dop853"
+
+
+@pytest.mark.parametrize(("balls", "factor"), [(1, 1.0), (4, 1.0), (6, 1.0), (13, 2**1.15), (20, 3**1.15)])
+def test_an_evaluation_of_the_loop_counts_more_with_many_balls(balls: int, factor: float) -> None:
+    """A fifth of one of SciPy's up to six balls; from there on with the power 1.15 of the balls and the rotor."""
+    angles = [2 * math.pi * k / balls for k in range(balls)]
+    chosen = choose(assemble(dimensionless(2.0, 0.001, 0.01, 0.1, 0.1, angles, 10.0)), "plain", 1e-4)
+    assert chosen.share == pytest.approx(factor / 5)
+    assert chosen.evaluations(1000) == pytest.approx(5000 / factor, abs=1)

@@ -6,8 +6,18 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.drawn import lag_of, sketch, sketch_places, sketch_words
+from abu_calc.features.balancing.drawn import (
+    ACROSS,
+    HEIGHT,
+    WIDTH,
+    lag_of,
+    plane_picture,
+    sketch,
+    sketch_places,
+    sketch_words,
+)
 from abu_calc.features.balancing.figures import balance_extras
+from abu_calc.features.balancing.records import PlaneCorrection, Share
 from tests.features.balancing.field import Fan
 from tests.features.balancing.rig import RIG, ROTOR, Workshop, written
 
@@ -51,3 +61,34 @@ def test_without_phase_the_sketch_has_no_high_spot(tmp_path: Path) -> None:
     runs = [fan.run(1500.0, phases=False), *(fan.run(1500.0, (25.0, a), phases=False) for a in (0.0, 120.0, 240.0))]
     result = abu_calc.balance(written(tmp_path, fan.plane, *runs))
     assert "h" not in {letter for letter, _, _ in sketch_places(result)}
+
+
+def plane(mass_g: float, *corrections: Share) -> PlaneCorrection:
+    """A plane whose heavy spot is at 90°."""
+    return PlaneCorrection(
+        mass_g=mass_g, angle_deg=90.0, mass_uncertainty_g=0.1, angle_uncertainty_deg=1.0, remove_at_deg=90.0,
+        add_at_deg=270.0, corrections=corrections, imbalance_g_mm=100 * mass_g, permitted_g_mm=None, rest_g_mm=1.0,
+        rest_at_most_g_mm=2.0, leftover_g_mm=0.0, printed_mass_g=None, printed_angle_deg=None,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("sense", "right"), [(1, True), (-1, False)])
+def test_a_heavy_spot_is_marked_only_where_there_is_mass(sense: int, right: bool) -> None:
+    """Against rotation, 90° is at the right of one who sees the rotor turn counterclockwise; the mark is on top."""
+    _, *rows = plane_picture(
+        "plane", plane(12.0, Share(action="remove", mass_g=12.0, angle_deg=45.0)), sense, "against rotation"
+    )
+    spots = [(row, line.index("o")) for row, line in enumerate(rows) if "o" in line]
+    assert spots == [(HEIGHT // 2, WIDTH // 2 + (ACROSS if right else -ACROSS))]
+    assert (rows[HEIGHT // 2].index("o") > rows[0].index("0")) is right
+    _, *rows = plane_picture("plane", plane(0.0), sense, "against rotation")
+    assert not any("o" in line for line in rows)
+
+
+@pytest.mark.parametrize(("sense", "above", "below"), [(1, "<---", "--->"), (-1, "--->", "<---")])
+def test_arrows_go_round_as_the_rotor_turns(sense: int, above: str, below: str) -> None:
+    """Counterclockwise, the upper half moves to the left and the lower one to the right."""
+    _, *rows = plane_picture("plane", plane(0.0), sense, "against rotation")
+    upper, lower = rows[: HEIGHT // 2], rows[HEIGHT // 2 + 1 :]
+    for half, arrow, other in ((upper, above, below), (lower, below, above)):
+        assert sum(arrow in line for line in half) == 1 and not any(other in line for line in half)

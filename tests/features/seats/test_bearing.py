@@ -1,5 +1,6 @@
 """A bearing between its shaft and its housing: sizes and services that cannot be are refused."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -62,3 +63,22 @@ def test_a_band_of_interference_must_ascend() -> None:
     with pytest.raises(InputError, match="must ascend") as caught:
         replace(bearing(), asked_interference=(28e-6, 10e-6))
     assert caught.value.place.key == "asked_interference_um"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "least", "most"),
+    [("axial_load", None, 0.0, 1e9), ("radial_load", None, 0.0, 1e9), ("speed", None, 0.0, 1e5),
+     ("inner_over_outer", None, -500.0, 500.0), ("ring_over_shaft", None, -500.0, 500.0),
+     ("housing_over_ring", None, -500.0, 500.0), ("over_mounting", None, -300.0, 500.0),
+     ("viscosity", None, None, 0.1), ("starting_torque", None, 0.0, 1e7), ("seat_friction", 0.12, 0.0, 1.0)],
+)  # fmt: skip
+def test_each_condition_of_service_has_its_range(
+    name: str, value: float | None, least: float | None, most: float
+) -> None:
+    """Both ends are permitted, but of the viscosity, which is above zero; what is beyond is refused by itself."""
+    assert getattr(Service(), name) == value
+    for within in (most, *(() if least is None else (least,))):
+        assert getattr(Service(**{name: within}), name) == within
+    for beyond in (1.001 * most, math.nan, 0.0 if least is None else least - 1.0):
+        with pytest.raises(RangeError):
+            Service(**{name: beyond})  # type: ignore[arg-type]

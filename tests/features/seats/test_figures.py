@@ -1,13 +1,15 @@
 """Figures of bearing seats: sketches, tolerance zones, interference and clearance."""
 
+import math
+
 import pytest
 
 from abu_calc.features.seats.command import NAMES
-from abu_calc.features.seats.figures import check_fit_figures, seat_sheets, zones_drawing
+from abu_calc.features.seats.figures import _element, check_fit_figures, seat_sheets, zones_drawing
 from abu_calc.features.seats.study import check_fit
 from abu_calc.inputs.read_machine import machine_of_bearings, read_machine
 from abu_calc.reporting.charts.chart import Bars
-from abu_calc.reporting.drawings.shapes import Arc, Length, Region, Text
+from abu_calc.reporting.drawings.shapes import Arc, Length, Line, Region, Text
 from tests.reporting.drawings.overlaps import check_clear
 
 
@@ -78,3 +80,33 @@ def test_one_class_stands_on_each_diameter_and_limits_are_in_mm() -> None:
     )
     assert "Ø25 m6 (+0.021 / +0.008)" in words and "Ø52 N7" in words
     assert "k5" not in words and "H7" not in words and "GOST" not in words and "µm" not in words
+
+
+def rollers(kind: str, side: int) -> list[list[tuple[float, float]]]:
+    """Corners of each roller between raceways of radii 20 and 26: (along the axis, away from it)."""
+    lines = [each for each in _element(kind, (15.0, side * 20.0, side * 26.0)) if isinstance(each, Line)]
+    corners = [(each.start[0], side * each.start[1]) for each in lines]
+    return [corners[k : k + 4] for k in range(0, len(corners), 4)]
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_large_end_of_a_tapered_roller_is_the_farther_one_from_the_axis(side: int) -> None:
+    """Cones that roll on one another share their tip, which lies on the axis beyond the small ends (ISO 355)."""
+    ((left_top, right_top, right_low, left_low),) = rollers("tapered", side)
+    small, large = (math.dist(*ends) for ends in ((left_top, left_low), (right_top, right_low)))
+    assert small < large
+    assert (left_top[1] + left_low[1]) / 2 < (right_top[1] + right_low[1]) / 2
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_spherical_rollers_are_farthest_from_the_axis_in_the_middle(side: int) -> None:
+    """The outer raceway is a sphere about a point on the axis; both rows lean against it."""
+    for corners in rollers("spherical", side):
+        near_first = sorted(corners, key=lambda corner: abs(corner[0] - 7.5))
+        assert sum(r for _, r in near_first[:2]) > sum(r for _, r in near_first[2:])
+
+
+@pytest.mark.parametrize("kind", ["cylindrical", "needle"])
+def test_straight_rollers_lie_along_the_axis(kind: str) -> None:
+    ((left_top, right_top, right_low, left_low),) = rollers(kind, 1)
+    assert left_top[1] == right_top[1] == 26.0 and left_low[1] == right_low[1] == 20.0

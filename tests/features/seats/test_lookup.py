@@ -80,3 +80,16 @@ def test_measured_limits_are_metres_inside() -> None:
     measured = looked_up.shaft.measured
     assert measured is not None and (measured.lower, measured.upper) == pytest.approx((-14e-6, -6e-6))
     assert looked_up.housing.measured is None
+
+
+def test_a_type_beside_a_designation_must_be_its_own() -> None:
+    """6205 is a deep groove ball bearing, 30205 one with tapered rollers (ISO 355)."""
+    for name, own, other in (
+        ("6205", "ball", "tapered"),
+        ("30205", "tapered", "ball"),
+        ("NU205", "cylindrical", "ball"),
+    ):
+        assert from_table(by_designation(name, bearing_type=own)).kind == own
+        with pytest.raises(InputError, match=f"bearing_type contradicts the designation {name}") as caught:
+            from_table(by_designation(name, bearing_type=other))
+        assert (caught.value.place.key, caught.value.found, caught.value.allowed) == ("bearing_type", other, own)

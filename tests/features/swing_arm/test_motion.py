@@ -135,7 +135,7 @@ def test_friction_lifts_at_small_angles() -> None:
     lowest = lifting_angle(0.45, 0.33)
     assert lowest == pytest.approx(grid[gains.argmin()], abs=1e-4) == pytest.approx(0.144, abs=5e-4)
     assert contact_gain(lowest, 0.45, 0.33) == pytest.approx(gains.min(), abs=1e-9) == pytest.approx(-0.0220, abs=5e-5)
-    assert lifting_angle(0.0, 0.33) == 0.0
+    assert lifting_angle(0.0, 0.33) == lifting_angle(0.45, 1.0) == lifting_angle(0.0, 1.0) == 0.0
 
 
 def test_below_a_gap_of_finite_mass_nothing_balances() -> None:

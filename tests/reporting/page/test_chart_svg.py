@@ -104,3 +104,15 @@ def test_the_first_series_is_filled_and_the_second_hollow() -> None:
     page = read(plot("a", Plot("A", "told", *axes, [], [MarkedPoint(0.5, 0.5, "", series) for series in (1, 2)])))
     kinds = {tag: attributes["class"] for tag, attributes in page.tags if tag in ("circle", "rect")}
     assert kinds == {"circle": "f1", "rect": "hollow s2"}
+
+
+@pytest.mark.parametrize(("at", "anchor"), [(0.0, "start"), (1.0, "start"), (3.0, "end"), (4.0, "end")])
+def test_the_words_of_a_bar_chart_s_limit_stay_inside(at: float, anchor: str) -> None:
+    """They go to the side of the limit where there is more room."""
+    words = "limit of the level 109.0 dB"
+    page = read(bars("a", Bars("A", "told", Axis("x", 0.0, 4.0), [Bar("a", 2.0, "2")], (at, words))))
+    (named,) = (attributes for _, attributes in page.tags if attributes.get("class") == "limit-name")
+    line = next(str(attributes["d"]) for _, attributes in page.tags if attributes.get("class") == "limit")
+    assert named["text-anchor"] == anchor and line.startswith(f"M{named['x']} ")
+    left = float(str(named["x"])) - (6.8 * len(words) if anchor == "end" else 0.0)
+    assert left >= 0 and left + 6.8 * len(words) <= 420

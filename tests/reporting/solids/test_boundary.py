@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 
@@ -61,3 +62,37 @@ def test_an_arc_about_a_centre_below_the_axis_is_refused() -> None:
     lens = RevolvedSolid("lens", ((0, 2, 0), (8, 2, 0.1)), "steel", 7800.0)
     with pytest.raises(ValueError, match="lens: an arc has its centre below the axis"):
         written(lens)
+
+
+@pytest.mark.parametrize("profile", [
+    ((0, 11, -0.1), (4, 11, 0), (4, 14, 0), (0, 14, 0)), ((-1, 5, 0.6), (1, 6, 0.9)), ((-1, 5, 1.0), (1, 5, 1.0)),
+    ball_profile(8.0),
+])  # fmt: skip
+def test_arcs_of_the_profile_count_their_angle_from_where_they_start(
+    profile: tuple[tuple[float, float, float], ...],
+) -> None:
+    """A circle's angle is 0 in its reference direction; both ends lie on the circle."""
+    lines = dict(line.rstrip(";").split("=", 1) for line in written(RevolvedSolid("part", profile, "steel", 7800.0)))
+
+    def parts(number: str) -> tuple[str, list[str]]:
+        keyword, _, rest = lines[number].partition("(")
+        return keyword, re.findall(r"#\d+", rest)
+
+    def numbers(number: str) -> np.ndarray:
+        return np.array([float(each) for each in re.findall(r"-?[\d.]+(?:E-?\d+)?", lines[number].partition("(")[2])])
+
+    meridians = 0
+    for number in lines:
+        keyword, refers = parts(number)
+        if keyword != "EDGE_CURVE" or parts(refers[2])[0] != "CIRCLE":
+            continue
+        start, end = (numbers(parts(each)[1][0]) for each in refers[:2])
+        centre, axis, across = (numbers(each) for each in parts(parts(refers[2])[1][0])[1])
+        radius = float(lines[refers[2]].rpartition(",")[2].rstrip(")"))
+        for place in (start, end):
+            assert np.linalg.norm(place - centre) == pytest.approx(radius)
+            assert (place - centre) @ axis == pytest.approx(0.0, abs=1e-9)
+        if axis[1]:  # across the axis of the solid: an arc of the profile
+            meridians += 1
+            assert start == pytest.approx(centre + radius * across, abs=1e-9)
+    assert meridians == 2 * sum(bool(bulge) for *_, bulge in profile)

@@ -86,3 +86,30 @@ def test_the_kernel_finds_random_parts(tmp_path: Path, part: RevolvedSolid) -> N
     file.write_text(step_text(SolidAssembly("one", "one", (PlacedSolid("part", part),))), encoding="ascii")
     (found,) = read_step(file).items
     assert found.valid and found.volume == pytest.approx(part.volume_mm3, rel=1e-6)
+
+
+def test_each_part_is_tied_to_its_material_and_density() -> None:
+    """Programs find a property from its definition, which holds the part, over the link to what it says."""
+    bush = RevolvedSolid("bush", ((0, 2, 0), (5, 2, 0), (5, 4, 0), (0, 4, 0)), "aluminium alloy", 2700.0)
+    items = (*PAIR.items, PlacedSolid("bush", bush, (40.0, 0.0, 0.0)))
+    text = step_text(SolidAssembly("three", "three", items))
+    entities: dict[str, str] = dict(re.findall(r"^#(\d+)=(.*);$", text, re.M))
+
+    def follow(number: str, *keywords: str) -> str:
+        """The entity that one refers to over others, each by its keyword."""
+        for keyword in keywords:
+            (number,) = (n for n in re.findall(r"#(\d+)", entities[number]) if entities[n].startswith(f"{keyword}("))
+        return entities[number]
+
+    said = dict[str, list[str]]()
+    for number, body in entities.items():
+        if body.startswith("PROPERTY_DEFINITION_REPRESENTATION("):
+            way = "PROPERTY_DEFINITION", "PRODUCT_DEFINITION", "PRODUCT_DEFINITION_FORMATION", "PRODUCT"
+            name = follow(number, *way).split("'")[1]
+            in_words = "'material name'" in follow(number, "PROPERTY_DEFINITION")
+            item = "DESCRIPTIVE_REPRESENTATION_ITEM" if in_words else "MEASURE_REPRESENTATION_ITEM"
+            said.setdefault(name, []).append(follow(number, "REPRESENTATION", item))
+    assert set(said) == {"ball", "bush"}
+    for solid, (material, density) in ((BALL, said["ball"]), (bush, said["bush"])):
+        assert f"'{solid.material}'" in material
+        assert f"({solid.density:.0f}.)" in density

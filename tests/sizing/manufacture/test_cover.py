@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from abu_calc.formulas.press_fit import SMOOTHING
-from abu_calc.sizing.manufacture.cover import cover_rings, seat_growth
+from abu_calc.sizing.manufacture.cover import axial_load, cover_rings, seat_growth
 from tests.reporting.drawings.samples import result
 
 
@@ -31,3 +31,10 @@ def test_the_wall_grows_by_its_share_of_the_interference(name: str, interference
 
 def test_clearance_widens_nothing() -> None:
     assert seat_growth(result("one-piece").parts, 0.0) == 0.0
+
+
+def test_a_cover_is_pushed_by_all_balls_together_or_by_the_shock_of_handling() -> None:
+    """Four balls of 100 N at a slope of one half are 200 N; 50 g on 1 kg are 490 N."""
+    assert axial_load(4, 100.0, 0.5, 0.1) == pytest.approx(200.0)
+    assert axial_load(8, 100.0, 0.5, 0.1) == pytest.approx(400.0)
+    assert axial_load(4, 100.0, 0.5, 1.0) == pytest.approx(50 * 9.80665)

@@ -14,7 +14,7 @@ from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.manufacture.construction import construct
-from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
+from abu_calc.sizing.manufacture.eccentricity import _stretched, eccentricity_check, split_eccentricity
 from abu_calc.sizing.manufacture.spindle_fit import standard_fits
 from abu_calc.standards.tolerance_classes import part_limits
 
@@ -139,3 +139,16 @@ def test_a_bearings_ring_brings_its_own_run_out() -> None:
     assert split.least > sized().eccentricity.least + 3.9e-6
     seat = next(each for each in design.construction.parts.body.surfaces if each.name == "ring seat")
     assert seat.geometrical[0].value == pytest.approx(2 * split.race - 8e-6)
+
+
+@pytest.mark.parametrize(("rule", "fixed"), [("rss", (6e-6, 8e-6)), ("worst-case", (6e-6, 4e-6))])
+def test_run_outs_are_stretched_in_proportion_until_all_parts_use_up_the_total(
+    rule: str, fixed: tuple[float, float]
+) -> None:
+    """26² = 10² + 24², and 10 = √(6² + 8²); 24 = 10·2.4 = √(6² + 8²)·2.4. In line: 26 − 10 = 16 of 3 + 4."""
+    needed = (6e-6, 8e-6) if rule == "rss" else (3e-6, 4e-6)
+    race, spindle = _stretched(needed, fixed, 26e-6, rule)
+    parts = (race, spindle, *fixed)
+    total = sum(parts) if rule == "worst-case" else math.sqrt(sum(part**2 for part in parts))
+    assert total == pytest.approx(26e-6, rel=1e-12)
+    assert race / spindle == pytest.approx(3 / 4, rel=1e-12)

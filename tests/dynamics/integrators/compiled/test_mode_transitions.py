@@ -67,3 +67,21 @@ def test_work_and_wheel_change_between_touching_and_apart() -> None:
         assert numbers[2] == touching
     count[arrays.FOUND] = 5  # of an effect whose modes are not known here
     assert not switched(0.0, run, nothing, nothing)
+
+
+def test_friction_watches_three_numbers_of_each_ball_and_what_follows_is_not_its_own() -> None:
+    """Speed, pull and side of three balls are the numbers 4 to 12 from place 4 on; a speed that falls to nothing turns
+    the direction round.
+    """
+    lay, count = layout(FRICTION=4), [0] * arrays.COUNTS
+    nothing: Any = np.zeros(6)
+    known = []
+    for fell in range(16):
+        y, numbers = np.array((0, 0, 0, 0.5, 0.5, 0.5)), np.array((1.0, 1.0, 1.0, 1, 1, 1))
+        count[arrays.FOUND] = fell
+        run = arrays.RunArrays(y, numbers, nothing, lay, [0.0] * 8, nothing, count)  # type: ignore[arg-type]
+        known.append(switched(0.0, run, nothing, nothing))
+        at_rest = [k == fell - 4 for k in range(3)]
+        assert y[RATES:].tolist() == [0.0 if still else 0.5 for still in at_rest]
+        assert numbers[:3].tolist() == [-1.0 if still else 1.0 for still in at_rest]
+    assert known == [4 <= fell < 13 for fell in range(16)]

@@ -206,3 +206,11 @@ def test_wrong_records_are_refused_with_their_line(tmp_path: Path, text: str, pa
     with pytest.raises(InputError) as error:
         read_rig_record(path)
     assert part in str(error.value) and error.value.place.line == line and error.value.place.file == str(path)
+
+
+def test_time_that_goes_back_is_told_with_the_time_before_it(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("time,left,right,mark\n5,1,2,3\n6,1,2,3\n8,1,2,3\n7,1,2,3\n9,1,2,3\n")
+    with pytest.raises(InputError, match="time does not go on") as error:
+        read_rig_record(path)
+    assert (error.value.place.line, error.value.found) == (5, "7 after 8")
