@@ -63,6 +63,12 @@ def turned_in_use(design: Design) -> bool:
     return soft and table.swing_arm is None
 
 
+def measured(design: Design) -> bool:
+    """True if the imbalance is found from a measured value: that is no maximum."""
+    wheel = design.case.table.wheel
+    return wheel.imbalance_g_mm is None and wheel.balance_grade is None
+
+
 def band(design: Design) -> tuple[Varied, ...]:
     """All values that vary, promised ones first."""
     case, table = design.case, design.case.table
@@ -77,6 +83,9 @@ def band(design: Design) -> tuple[Varied, ...]:
         Varied("machine.speed_rpm", *_times(SPEED, speed), promised=False),
         Varied("run_up.time_s", *RUN_UPS, promised=False),
     ]
+    if measured(design):
+        most = abu.capacity_margin * imbalance
+        rows.append(Varied("wheel.imbalance_g_mm", imbalance, most, promised=False))
     given = table.suspension.frequencies
     if given is not None and isinstance(case.suspension, Springs):
         low, high = NATURAL_FREQUENCY[0] * min(given), NATURAL_FREQUENCY[1] * max(given)
@@ -129,14 +138,19 @@ def corners(design: Design) -> Iterator[Member]:
 
 
 def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
-    """Starts of machines within the usual band and the promised one; every third in a run-up."""
+    """Starts of machines within the usual band and the promised one; every third in a run-up.
+
+    Where the imbalance is measured, wheels as bad as that have all that the margin of the capacity allows for.
+    """
     case, file_run_up = design.case, usual_run_up(design)
     low, high = min(case.drag_shares), max(case.drag_shares)
     for k, (start, (drag, friction, frequency, speed, run_up)) in enumerate(
         zip(promised(design, starts), sequence(OF_USUAL), strict=False)
     ):
+        worse = case.autobalancer.capacity_margin if measured(design) and start.varied.imbalance == 1 else 1.0
         varied = replace(
             start.varied,
+            imbalance=worse * start.varied.imbalance,
             friction_arm=_between(FRICTION, friction),
             natural_frequency=_between(NATURAL_FREQUENCY, frequency),
         )

@@ -88,15 +88,11 @@ def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
 def decisive(design: Design, ensemble: Ensemble, searched: SearchResult | None) -> StartOutcome | None:
     """The start case that decides the verdict: one that fails before one that breaks a limit, then the latest."""
     outcomes = (*ensemble.outcomes, *(() if searched is None else searched.outcomes))
-    limits, level = design.case.table.limits, design.case.level_limit
 
-    def order(outcome: StartOutcome) -> tuple[bool, bool, bool, float, float]:
+    def order(outcome: StartOutcome) -> tuple[bool, bool, float, float]:
         """The decisive one last."""
-        kept = outcome.holds(limits, level)
-        return (
-            outcome.member.promised and not kept, not kept, not outcome.balanced,
-            outcome.quiet_time_or_inf, outcome.level,
-        )  # fmt: skip
+        broken = any(breaks(outcome, design) for breaks, *_ in BROKEN.values())
+        return outcome.member.promised and broken, broken, outcome.quiet_time_or_inf, outcome.level
 
     return max(outcomes, key=order, default=None)
 
@@ -171,6 +167,11 @@ def _late(outcome: StartOutcome, design: Design) -> bool:
     return not outcome.in_time(design.case.table.limits) or (outcome.creeping and not outcome.hanging)
 
 
+def _unbalanced(outcome: StartOutcome, design: Design) -> bool:
+    """True if it does not balance; beyond what is promised, where friction leaves more, if it is not quiet either."""
+    return not outcome.balanced and (outcome.member.promised or outcome.hanging or outcome.quiet_time is None)
+
+
 def _loud(outcome: StartOutcome, design: Design) -> bool:
     """True if the level, with the error of a simulated one, is not below its limit."""
     return outcome.loudest + SLACK > design.case.level_limit
@@ -206,7 +207,7 @@ BROKEN: Final[dict[str, Broken]] = {
         loudness,
         lambda outcome: f"may be too loud, the loudest with {outcome.loudest:.1f} ± {SLACK:g} dB",
     ),
-    "ABU701": (lambda outcome, _: not outcome.balanced, lambda outcome: outcome.imbalance, lambda _: "do not balance"),
+    "ABU701": (_unbalanced, lambda outcome: outcome.imbalance, lambda _: "do not balance"),
     "ABU702": (_late, slowness, _time_in_words),
     "ABU704": (lambda outcome, _: outcome.hanging, lambda outcome: outcome.slip, lambda _: "leave stalled balls"),
 }

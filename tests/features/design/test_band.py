@@ -80,6 +80,17 @@ def test_usual_stays_within_the_band_and_is_not_promised(design: Design) -> None
         assert drag.low <= member.drag <= drag.high
 
 
+def test_a_measured_imbalance_is_no_maximum(design: Design) -> None:
+    """The usual band has wheels as bad as the margin of the capacity allows for; a given one is the worst."""
+    found = design_of(wheel__imbalance_g_mm=None, wheel__measured_level_db=111.0)
+    margin = found.case.autobalancer.capacity_margin
+    assert margin > 1 and max(member.varied.imbalance for member in usual(found, starts(found))) == margin
+    assert max(member.varied.imbalance for member in promised(found, starts(found))) == 1
+    assert max(member.varied.imbalance for member in usual(design, starts(design))) == 1
+    own = [row for row in band(found) if row.key == "wheel.imbalance_g_mm"]
+    assert [row.promised for row in own] == [True, False] and own[1].high == pytest.approx(margin * own[0].high)
+
+
 @pytest.mark.parametrize(
     ("given", "any_position"),
     [
