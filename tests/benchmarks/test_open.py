@@ -30,6 +30,7 @@ def test_errors_are_relative_of_the_axis_and_round_the_circle_of_the_balls() -> 
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.slow
 def test_abu_calc_comes_within_eight_digits_of_each_reference(name: str) -> None:
     case, reference = case_of(case_path(name)), reference_of(name)
     assert max(reference["differ_axis"], reference["differ_balls_rad"]) <= 1e-10
@@ -123,6 +124,7 @@ def test_a_ball_that_gravity_pulls_slips_where_friction_ends() -> None:
     assert first.kind == "slip" and excess(math.pi / 2 + 10 * first.time) == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_samples_do_not_change_the_motion_of_balls_that_stick() -> None:
     """Steps end where the series of the axis do, too, not only at the balls'."""
     case = scene(mass_kg=10.0, stiffness_N_per_m=[10.0, 10.0], imbalance_kg_m=0.1, rolling_friction=0.5)

@@ -81,6 +81,7 @@ def test_a_new_scene_is_a_real_machine(tmp_path: Path) -> None:
     assert result["settling_time_s"] < 1 and result["residual_imbalance_g_mm"] < 0.05 * 256
 
 
+@pytest.mark.slow
 def test_the_effects_of_a_new_scene_can_be_switched_on(tmp_path: Path) -> None:
     file = tmp_path / "scene.toml"
     abu("init", "--scene", str(file))

@@ -90,6 +90,7 @@ def test_a_drag_that_settles_nothing_leaves_the_design_standing(drag: float) -> 
     assert unsettled and all(check["status"] in ("not-done", "fail") for check in unsettled)
 
 
+@pytest.mark.slow
 def test_zero_imbalance_has_finite_numbers() -> None:
     _, checks, result = _hasty(STRAIGHT, "wheel.imbalance_g_mm=0", "autobalancer.ball_count=2")
     assert result["imbalance_g_mm"] == 0

@@ -119,6 +119,7 @@ def test_a_terminal_that_goes_away_ends_the_line_alone() -> None:
         tell("more")
 
 
+@pytest.mark.slow
 def test_nothing_of_it_in_a_pipe() -> None:
     assert abu("simulate", "avtovaz-707-305", "--duration", "0.05").err == ""
 

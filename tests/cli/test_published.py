@@ -162,6 +162,7 @@ start_angles_deg = [55.0, 15.0]
         pytest.param(0.35, 1, [110.8259, 243.9415], marks=pytest.mark.slow),
     ],
 )
+@pytest.mark.slow
 def test_balls_under_load(tmp_path: Path, friction: float, sense: int, golden: list[float]) -> None:
     """Kladiev 1996, (4), with the friction it leaves out, and (9): the axis runs backward on a circle of radius ε.
 
@@ -219,6 +220,7 @@ runout_angle_deg = {math.degrees(at)}
         *(pytest.param(*one, marks=pytest.mark.slow) for one in ((2.0, 12.0, 0.0), (0.75, 4.0, 2.3))),
     ],
 )
+@pytest.mark.slow
 def test_balls_on_a_swing_arm(tmp_path: Path, ratio: float, duration: float, larger: float) -> None:
     """Kovalenko 2010, (1) and (2) in full: above its natural frequency the arm is balanced, balls at ± 131.8°.
 

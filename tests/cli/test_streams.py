@@ -36,6 +36,7 @@ def shell(line: str) -> subprocess.CompletedProcess[str]:
         ("abu presets >&- 2>&- <&-", 0),
     ],
 )
+@pytest.mark.slow
 def test_nobody_reads_on(line: str, status: int) -> None:
     done = shell(line)
     assert (done.returncode, done.stderr) == (status, "")
@@ -43,6 +44,7 @@ def test_nobody_reads_on(line: str, status: int) -> None:
 
 @posix
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.slow
 def test_a_full_disk_is_told_with_what_was_computed() -> None:
     done = shell(f"abu {' '.join(FAILING)} > /dev/full")
     assert done.returncode == 2
@@ -53,6 +55,7 @@ def test_a_full_disk_is_told_with_what_was_computed() -> None:
 @pytest.mark.few(1)
 @posix
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+@pytest.mark.slow
 def test_signals_end_a_command_in_good_order(name: str, tmp_path: Path) -> None:
     """One line, 128 and the number, and nothing written."""
     number = getattr(signal, name)
@@ -123,6 +126,7 @@ def test_an_outlet_takes_all_and_raises_nothing(error: Exception, fault: str | N
 
 
 @posix
+@pytest.mark.slow
 def test_consoles_of_few_signs_get_others(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     file.write_text(BEARINGS.replace("fleshing", "µ²\\uD7FF"), encoding="utf-8")

@@ -62,6 +62,7 @@ def test_each_script_runs(page: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert len(checks) > 8 and all(line.startswith("ABU") for line in checks)
 
 
+@pytest.mark.slow
 def test_each_table_of_a_machine_file_is_read(tmp_path: Path) -> None:
     """Tables that a page shows are added to a preset, which is validated."""
     blocks = {
@@ -88,6 +89,7 @@ def test_each_table_of_a_machine_file_is_read(tmp_path: Path) -> None:
         assert seen.status == 0, f"{named(page)}: {block}\n{seen.out}{seen.err}"
 
 
+@pytest.mark.slow
 def test_each_example_file_is_valid() -> None:
     examples = sorted((DOCS / "examples").glob("*.toml"))
     assert len(examples) >= 3

@@ -1,6 +1,7 @@
 """Sums over chains of joined balls against sums written out, for any rings and gaps."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -31,6 +32,7 @@ def behind(ring: tuple[int, ...], gaps: list[float], ball: int) -> list[int]:
 
 
 @given(chains())
+@pytest.mark.slow
 def test_sums_are_those_of_the_chains(case: tuple[Chains, np.ndarray]) -> None:
     """Exactly: powers of two."""
     mates, x = case

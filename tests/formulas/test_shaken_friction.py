@@ -42,6 +42,7 @@ def test_a_ball_stays_just_within_the_band_that_a_level_spindle_leaves(number: f
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("number", [0.2, 0.6, 0.9])
+@pytest.mark.slow
 def test_below_one_any_pull_moves_a_ball(number: float) -> None:
     band = number * SHAKE
     steady = _crept(0.0, band)

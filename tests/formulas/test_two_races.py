@@ -139,6 +139,7 @@ def test_quantiles_of_the_phase_agree_with_a_count() -> None:
         assert resultant_quantile((3.0, 1.2), share) == pytest.approx(float(np.quantile(found, share)), abs=0.01)
 
 
+@pytest.mark.slow
 def test_worst_resultants_are_reached_and_never_exceeded() -> None:
     for rotor, rng in random_rotors(10):
         races, speed = (rng.uniform(0.1, 0.4), rng.uniform(-0.4, -0.1)), rng.uniform(50, 300)

@@ -69,6 +69,7 @@ def test_ranges_said_to_be_checked_are_checked(one: Formula) -> None:
             assert f"{name}.check(" in inspect.getsource(module)
 
 
+@pytest.mark.slow
 def test_formulas_are_there_without_docstrings() -> None:
     done = subprocess.run(
         [sys.executable, "-OO", "-m", "abu_calc", "explain", "capacity"],

@@ -25,6 +25,7 @@ def statuses(*arguments: str) -> dict[tuple[str, str], str]:
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["avtovaz-707-222", "swing-arm-grinder"])
+@pytest.mark.slow
 def test_past_it_a_check_is_not_done_and_never_another_verdict(name: str) -> None:
     whole, hasty = statuses(name), statuses(name, "--patience", "1e-6")
     assert hasty["ABU701", "balances from every start"] == "not-done"

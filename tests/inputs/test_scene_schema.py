@@ -35,6 +35,7 @@ def test_good_scenes_validate(text: str) -> None:
 
 @settings(deadline=None, derandomize=True, max_examples=300)
 @given(place=st.sampled_from(PLACES), how=st.sampled_from(["replace", "remove", "add"]), value=st.sampled_from(VALUES))
+@pytest.mark.slow
 def test_schema_and_models_agree(place: tuple[int, tuple[Any, ...]], how: str, value: Any) -> None:
     number, path = place
     data = mutated(SAMPLES[number], path, how, value)

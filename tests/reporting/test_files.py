@@ -95,6 +95,7 @@ def test_a_format_without_its_package_is_refused_with_what_installs_it(monkeypat
     assert "abu-calc[report]" in str(caught.value)
 
 
+@pytest.mark.slow
 def test_toml_begins_with_the_verdict_and_its_codes(tmp_path: Path) -> None:
     """The status of a pass with warnings is "pass", so a comment says the rest."""
     output = tmp_path / "out.toml"

@@ -24,6 +24,7 @@ def endless(name: str, equations: Any, tolerance: float, times: Any, most: int) 
     raise AssertionError("nobody broke it off")
 
 
+@pytest.mark.slow
 def test_a_reference_without_end_is_broken_off(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(accuracy, "_load", lambda *_: None)
     monkeypatch.setattr(choice, "integrate_with", endless)
@@ -58,6 +59,7 @@ def test_loading_is_no_part_of_the_time(monkeypatch: pytest.MonkeyPatch) -> None
     assert len(begun) == 1
 
 
+@pytest.mark.slow
 def test_an_audit_has_what_the_run_leaves_of_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
     allowed = list[int]()
 

@@ -29,6 +29,7 @@ def test_durations_are_bounded_by_work_and_run_up(tmp_path: Path) -> None:
     assert lasting(ramped, None, "x") == ramped
 
 
+@pytest.mark.slow
 def test_duration_is_seven_decay_times_within_bounds() -> None:
     slow = size(machine(suspension__natural_frequencies_hz=[1.0, 2.5], suspension__damping_ratios=[0.4, 0.5]))
     rate = 0.4 * 2 * math.pi * slow.case.body.effective_mass() / slow.system_mass

@@ -61,6 +61,7 @@ weights = st.lists(st.one_of(st.none(), st.floats(0, 0.1)), max_size=8)
 
 @given(weights, st.floats(1e-4, 0.5))
 @settings(max_examples=200, deadline=None, derandomize=True)
+@pytest.mark.slow
 def test_what_is_left_out_weighs_no_more_than_its_share(known: list[float | None], accuracy: float) -> None:
     effects = tuple(Weighed(f"e{k}", value) for k, value in enumerate(known))
     ledger = chosen(scene(*effects), accuracy)
@@ -151,6 +152,7 @@ def test_race_eccentricity_weighs_what_it_changes(magnitude: float) -> None:
 
 
 @pytest.mark.parametrize("name", [*VERY_UNLIKE, *(pytest.param(one, marks=pytest.mark.slow) for one in OTHERS)])
+@pytest.mark.slow
 def test_what_is_left_out_of_a_machine_changes_no_more_than_promised(name: str) -> None:
     """Idle, friction aside: at an accuracy that lets something pass, and with everything that can be weighed out."""
     full = subject_of(read_machine(name), "idle").scene

@@ -65,6 +65,7 @@ def judged(name: str, doubtful: float = 0.0, **changed: object) -> dict[str, str
 
 
 @pytest.mark.parametrize("drag", [3.0, pytest.param(4.0, marks=pytest.mark.slow)])
+@pytest.mark.slow
 def test_balls_hang_from_standstill(drag: float) -> None:
     """130 dB, where one easy start at full speed ends at 97."""
     found = judged("hanging-balls", rolling_drag_per_s=drag)
@@ -97,6 +98,7 @@ def test_hands_are_not_chaotic() -> None:
     assert found == {"ABU401": "pass", "ABU701": "pass", "ABU702": "pass", "ABU704": "pass"}
 
 
+@pytest.mark.slow
 def test_workers_change_nothing() -> None:
     """One after the other and by threads: the same numbers."""
     found = design("msh-230")
@@ -168,6 +170,7 @@ def test_a_member_is_its_scene() -> None:
     assert slow.effects[0].name == "run_up"
 
 
+@pytest.mark.slow
 def test_a_race_without_drag() -> None:
     """Has no hot and cold oil; balls at rest never take up the speed of the race."""
     found = design("msh-230", rolling_drag_per_s=0)
@@ -407,6 +410,7 @@ def test_a_start_that_rests_ends_early() -> None:
     "name, member",
     [("msh-230", Member("behind", 15.0)), ("swing-arm-grinder", Member("spread", 15.0))],
 )
+@pytest.mark.slow
 def test_a_start_near_a_limit_does_not_end_early(name: str, member: Member) -> None:
     """What creeps on makes it louder, and what it settles to is less: a run that ends early must not be the easier."""
     found = design(name)
@@ -420,6 +424,7 @@ def test_a_start_near_a_limit_does_not_end_early(name: str, member: Member) -> N
     assert isinstance(loud, StartOutcome) and loud.level > whole.level - 0.2
 
 
+@pytest.mark.slow
 def test_balls_that_linger_are_followed_until_they_leave() -> None:
     """Equations outside the product say 2.98 s and 95.7 dB; the scene lasts 1.17 s, where it is 108.7 dB still.
 
@@ -454,6 +459,7 @@ def test_balls_that_still_creep_are_followed_ten_times_the_limit(monkeypatch: py
     assert until(creeping=True, quiet_time=1.1 * limit) is None and until(creeping=True, slip=0.5) is None
 
 
+@pytest.mark.slow
 def test_friction_that_gravity_shakes_makes_balls_creep() -> None:
     """Standing still they settle in 0.89 s, by equations outside the product; a scene for h₀ alone ended at 0.6 s."""
     text = (Path(__file__).parents[1] / "machines" / "creeping-balls.toml").read_text(encoding="utf-8")

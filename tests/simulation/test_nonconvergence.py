@@ -50,6 +50,7 @@ def test_a_calm_motion_is_not():
     assert "rounding decides" in reason(CALM, 1e-8, 2e-8)
 
 
+@pytest.mark.slow
 def test_settling_that_hangs_on_the_end_is_told():
     told = reason(CALM, 0.01, math.inf, ({"settling_time": None}, {"settling_time": 37.9}))
     assert "differ in whether they settle" in told and "--duration" in told

@@ -42,6 +42,7 @@ def test_it_is_the_median_of_all_start_cases() -> None:
     assert result.measured_after.difference_db == pytest.approx(mean - result.ensemble.predicted_level_db, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_no_start_case_is_simulated_without_a_measurement() -> None:
     assert starts_for_measurement(size(machine(**PINNED))) is None
     weak = size(machine(**PINNED, wheel__imbalance_g_mm=5000.0, measured_after={"measured_level_db": 100.0}))
@@ -50,6 +51,7 @@ def test_no_start_case_is_simulated_without_a_measurement() -> None:
     assert compared is not None and compared.predicted is None and predicted_level(weak, None) is None
 
 
+@pytest.mark.slow
 def test_a_place_elsewhere_has_its_own_level() -> None:
     handles = [{"name": name, "from_center_of_mass_mm": at} for name, at in (("rear", -200.0), ("front", 50.0))]
     body = {

@@ -207,6 +207,7 @@ def test_a_motion_that_dies_out_is_quiet_at_a_hundredth_of_that_without_balls() 
     assert time is not None and exact < time < exact + math.pi
 
 
+@pytest.mark.slow
 def test_a_machine_above_its_level_without_balls_is_never_quiet() -> None:
     """Below its natural frequency the balls gather on the heavy side, far below a limit of 200 dB."""
     stiff = {"model": "springs", "natural_frequencies_hz": [200.0, 200.0], "damping_ratios": [0.05, 0.05]}

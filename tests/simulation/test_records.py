@@ -52,6 +52,7 @@ def test_simulating_returns_what_the_command_prints(file: Path) -> None:
     assert result.motion is None and result.title == "scene.toml"
 
 
+@pytest.mark.slow
 def test_stability_and_effects_return_what_their_commands_print(file: Path) -> None:
     scene, machine = abu_calc.read_scene(file), abu_calc.read("avtovaz-707-222")
     same(abu_calc.stability(scene, speeds_rpm=(5, 190)), "stability", str(file), "--speeds", "5:190")
@@ -61,6 +62,7 @@ def test_stability_and_effects_return_what_their_commands_print(file: Path) -> N
     same(known_effects(), "effects")
 
 
+@pytest.mark.slow
 def test_accuracy_returns_what_the_command_prints(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One measurement for both, a short one: what is quickest is the clock's."""
     file.write_text(SCENE.replace("700.0", "20.0"), encoding="utf-8")
@@ -79,6 +81,7 @@ def test_accuracy_returns_what_the_command_prints(file: Path, monkeypatch: pytes
     assert {check.code: check.value for check in result.checks} == {"ABU811": result.chosen.error}
 
 
+@pytest.mark.slow
 def test_sizing_and_simulating_agree_on_a_scene() -> None:
     """With the same effects, to the last digit."""
     machine = abu_calc.read("avtovaz-707-222")

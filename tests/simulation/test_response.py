@@ -42,6 +42,7 @@ def both(monkeypatch: pytest.MonkeyPatch, scene: Scene, **how: object) -> tuple[
 
 
 @pytest.mark.parametrize("integrator", ["scipy", "compiled"])
+@pytest.mark.slow
 def test_results_of_long_runs_are_those_of_runs_held_whole(monkeypatch: pytest.MonkeyPatch, integrator: str) -> None:
     whole, long = both(monkeypatch, SCENE, integrator=integrator, sample_times=WANTED)
     assert long.response == whole.response
@@ -97,6 +98,7 @@ def test_a_run_that_cannot_fit_is_not_begun() -> None:
         scipy_.integrate(equations, 1e-4, [300.0], most_evaluations=1000)
 
 
+@pytest.mark.slow
 def test_a_second_run_that_cannot_fit_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
     scene, begun = replace(SCENE, effects=()), []
     free = simulate(scene, integrator="scipy").cost.work
@@ -136,6 +138,7 @@ def test_samples_of_many_balls_are_refused_where_they_would_fill_the_memory() ->
 
 
 @pytest.mark.parametrize("held", [2**22, 0])
+@pytest.mark.slow
 def test_samples_change_no_remark(monkeypatch: pytest.MonkeyPatch, held: int) -> None:
     """Gravity tells of the first of the times that results need, not of those asked for between them."""
     monkeypatch.setattr(response_module, "HELD", held)

@@ -86,6 +86,7 @@ def test_the_level_where_no_handle_is_given(idle: SimulateResult) -> None:
 
 
 @pytest.mark.parametrize("offset", [15.0, pytest.param(0.0, marks=pytest.mark.slow)])
+@pytest.mark.slow
 def test_levels_at_the_handles(offset: float) -> None:
     """Forces of imbalance at the wheel and of balls in the race plane on a free rigid body, Newton and Euler."""
     held = abu_calc.read("msh-230").changed({**HELD, "autobalancer.plane_offset_mm": offset})

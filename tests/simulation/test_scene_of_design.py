@@ -75,6 +75,7 @@ def test_presets_make_each_of_their_scenes(designs, name, which):
     run(found, 1.5)
 
 
+@pytest.mark.slow
 def test_grinder_scene_has_the_numbers_of_its_design(designs):
     design = design_of(designs, "avtovaz-707-222")
     one, found = design.autobalancer, scene_of_design(design, "grinding")

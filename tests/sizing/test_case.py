@@ -126,6 +126,7 @@ def _check_sized(changes: dict[str, Any]) -> None:
 
 @given(machines(), st.floats(1.0, 5.0))
 @RANDOM
+@pytest.mark.slow
 def test_more_runout_never_needs_less_capacity(changes: dict[str, Any], factor: float) -> None:
     runout = changes.pop("wheel__runout_mm") + 0.01
     needs = []
@@ -137,6 +138,7 @@ def test_more_runout_never_needs_less_capacity(changes: dict[str, Any], factor: 
 
 @given(machines())
 @RANDOM
+@pytest.mark.slow
 def test_runout_as_the_gauge_shows_it_is_the_same_runout(changes: dict[str, Any]) -> None:
     runout = changes.pop("wheel__runout_mm")
     one = read_case(machine(**changes, wheel__runout_mm=runout))
@@ -146,6 +148,7 @@ def test_runout_as_the_gauge_shows_it_is_the_same_runout(changes: dict[str, Any]
 
 @given(machines(), st.sampled_from([0.01, 0.1, 10.0]))
 @RANDOM
+@pytest.mark.slow
 def test_need_scales_with_all_masses(changes: dict[str, Any], factor: float) -> None:
     """All masses, inertia and contact stiffness × k: the need × k, since frequencies stay."""
     grinding = dict(changes.get("grinding") or {})
@@ -222,6 +225,7 @@ def test_pinned_values_are_respected() -> None:
     assert (best.ball_count, best.ball_diameter, best.race_radius) == (4, pytest.approx(0.016), pytest.approx(0.031))
 
 
+@pytest.mark.slow
 def test_a_rounded_inch_size_is_the_stock_size() -> None:
     best = size(
         machine(

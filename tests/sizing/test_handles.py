@@ -108,6 +108,7 @@ def test_action_holds_when_it_is_followed() -> None:
     assert followed.status == "pass" and followed.value is not None and followed.value <= limit
 
 
+@pytest.mark.slow
 def test_top_speed_of_the_range_decides() -> None:
     limit = {"limits": {"a_hv_m_per_s2": 100.0}}
     slow = check_of(size(angle_grinder(**limit)), "ABU404")

@@ -20,6 +20,7 @@ def test_imbalance_of_111_db_by_place(inertance: float, grams: float) -> None:
     assert 1e6 * found == pytest.approx(grams, abs=1.0)
 
 
+@pytest.mark.slow
 def test_background_is_taken_off_the_measured_level() -> None:
     level = {"wheel__imbalance_g_mm": None, "wheel__measured_level_db": 111.0}
     quiet = size(machine(**level))

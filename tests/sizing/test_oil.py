@@ -77,6 +77,7 @@ def test_oil_that_the_race_cannot_hold_or_the_formula_cannot_judge_is_refused(
     assert key is None or found.value.place.key == key
 
 
+@pytest.mark.slow
 def test_an_action_that_sets_a_drag_rate_speaks_of_the_oil_it_overrides() -> None:
     case, key = oiled().case, "autobalancer.rolling_drag_per_s"
     more, less = overriding(case, {key: 10 * case.drag}), overriding(case, {key: 0.1 * case.drag})

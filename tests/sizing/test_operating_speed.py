@@ -45,6 +45,7 @@ VARIETY = [
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("table", [*VARIETY[:4], *(pytest.param(each, marks=pytest.mark.slow) for each in VARIETY[4:])])
+@pytest.mark.slow
 def test_a_motor_settles_at_the_idle_speed(table: Any) -> None:
     """The speed against an equation of its own, by the simulated amplitude, and against the simulation itself."""
     design = size(table)

@@ -55,6 +55,7 @@ def test_a_lighter_candidate_that_is_too_loud_is_passed_over(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["avtovaz-707-370", "angle-grinder-125"])
+@pytest.mark.slow
 def test_the_bound_of_friction_decides_nothing(name: str) -> None:
     """Above the limit with the lightest balls, and lower with another candidate: it is told, and no more."""
     chosen = design(name)

@@ -45,6 +45,7 @@ def test_a_rigid_body_is_judged() -> None:
     ],
     ids=["point mass", "no test wheel", "no weighting", "cannot balance", "beyond the capacity"],
 )
+@pytest.mark.slow
 def test_others_are_not(changes: dict[str, Any]) -> None:
     assert not judged(rigid(**changes))
 

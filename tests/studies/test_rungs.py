@@ -20,6 +20,7 @@ def one(request) -> Ladder:
 
 
 @pytest.mark.parametrize("name", sorted(REFUSED))
+@pytest.mark.slow
 def test_the_envelope_is_not_offered_where_it_would_be_wrong(name: str) -> None:
     scene = smooth(name)
     refused = offer(scene, WIDEST, needed_times(scene))
@@ -33,6 +34,7 @@ def test_the_envelope_is_as_near_as_it_says(one):
     assert max(errors) <= one.stated < 1, errors
 
 
+@pytest.mark.slow
 def test_the_envelope_holds_one_per_cent(one):
     """Of amplitude, level and settling time; angles, in which the balls are free, to 1.5°.
 

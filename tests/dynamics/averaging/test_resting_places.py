@@ -27,6 +27,7 @@ def turned(balls: SlowBalls, eccentricity: float, by_wheel: float, runs: int = R
         (S150, 10e-6, 65e-6 * (1 / 6 + 0.36), 8.84, 10.50, 19.6),
     ],
 )
+@pytest.mark.slow
 def test_displacements_of_the_reference_machines(
     balls: SlowBalls, eccentricity: float, by_wheel: float, mean: float, rms: float, high: float
 ) -> None:

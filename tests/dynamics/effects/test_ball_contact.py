@@ -131,6 +131,7 @@ def test_below_resonance_balls_stay_packed(restitution):
     assert math.hypot(*end[:2]) == pytest.approx(expected, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_above_resonance_a_bunch_spreads_and_balances():
     """Σ e^{iθ} = −U/(m R_p), with contact as without."""
     plain = scene_of(3.0, bunch(4), 300.0)

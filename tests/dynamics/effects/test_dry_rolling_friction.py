@@ -136,6 +136,7 @@ def test_without_a_lever_arm_there_is_no_friction():
     assert zero.events == 0
 
 
+@pytest.mark.slow
 def test_a_start_that_chatters_is_gone_through():
     """Free vibration of the support shakes the balls loose and lets them stick again, ever less."""
     scene = dimensionless(SPEED, 0.01, 0.0, 0.02, 0.1, (1.6, -1.4), 200.0)
@@ -204,6 +205,7 @@ def test_a_ball_off_the_outer_side_of_its_race_is_told():
     st.floats(-5, -1),
     st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1)),
 )
+@pytest.mark.slow
 def test_every_start_obeys_the_law_of_coulomb(balls, exponent, position):
     """Balls as heavy as the support: sticking ones are held by |F| ≤ f n, and their speed is 0; others roll with σ."""
     angles, masses, speeds = (tuple(values) for values in balls)

@@ -81,6 +81,7 @@ def by_tolerance(scene, name: str) -> tuple[float, int]:
 
 @pytest.mark.few(2)
 @pytest.mark.parametrize(("scene", "name"), CASES)
+@pytest.mark.slow
 def test_errors_are_proportional_to_the_tolerance(scene, name):
     found, _ = by_tolerance(SMOOTH[scene], name)
     assert 0.7 < found < 1.3
@@ -88,6 +89,7 @@ def test_errors_are_proportional_to_the_tolerance(scene, name):
 
 @pytest.mark.parametrize("name", [pytest.param(one, marks=[pytest.mark.slow] * (one in MANY_LOOKS)) for one in QUICK])
 @pytest.mark.parametrize("scene", SWITCHING)
+@pytest.mark.slow
 def test_switches_leave_them_so(scene, name):
     """Events located in time cost no order."""
     found, events = by_tolerance(SWITCHING[scene], name)

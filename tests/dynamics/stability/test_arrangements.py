@@ -100,6 +100,7 @@ def test_every_arrangement_by_the_characteristic_equation(speed: float, share: f
     ],
     ids=["alike", "unlike", "hands"],
 )
+@pytest.mark.slow
 def test_two_modes_are_all_of_the_motion(support: PlanarSupport) -> None:
     """Against the equations themselves, of every ball."""
     scale = 1.0 if len(support.names) == 2 else 300.0
@@ -172,6 +173,7 @@ def test_crossings_tell_how_many_grow() -> None:
     )
 
 
+@pytest.mark.slow
 def test_the_start_decides_where_balls_go() -> None:
     """From two and two to two and two; from one place exactly opposite to none."""
     scene = scene_of(4, 0.2)

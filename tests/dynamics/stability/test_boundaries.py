@@ -193,6 +193,7 @@ def test_a_close_pair_is_not_missed() -> None:
     drag=st.floats(0.003, 1.0),
     balls=st.integers(2, 4),
 )
+@pytest.mark.slow
 def test_scanning_finds_no_change_that_was_missed(
     ball_mass: float, share: float, damping: float, drag: float, balls: int
 ) -> None:
@@ -214,6 +215,7 @@ def test_every_boundary_is_among_the_crossings() -> None:
 
 
 @pytest.mark.parametrize("factor", [0.98, 1.02])
+@pytest.mark.slow
 def test_the_full_motion_agrees_just_inside_and_outside(factor: float) -> None:
     """A small disturbance of the balanced state grows or dies at the rate found; ζ = .05, β = .1."""
     base = scene_of(2.0, 0.05, 0.03, 0.05, 0.1)

@@ -44,6 +44,7 @@ def test_the_arrangement_that_a_list_missed(refuted: Scene) -> None:
     assert limit.stable_above and limit.speed == pytest.approx(2.96415, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_the_growth_told_is_that_of_the_arrangement_told(refuted: Scene) -> None:
     worst = stability(refuted)
     assert worst.angles is not None
@@ -55,6 +56,7 @@ def test_the_growth_told_is_that_of_the_arrangement_told(refuted: Scene) -> None
     assert any(change.growing_below for change in crossings_of(refuted, 2.0, 4.0))
 
 
+@pytest.mark.slow
 def test_balls_drift_from_it_to_a_stable_neighbour(refuted: Scene) -> None:
     end = consequence(refuted, stability(refuted))
     assert end is not None and end.kind == "drift" and end.angles is not None and end.growth_rate is not None
@@ -64,6 +66,7 @@ def test_balls_drift_from_it_to_a_stable_neighbour(refuted: Scene) -> None:
     assert consequence(stiff, stability(stiff)) is None
 
 
+@pytest.mark.slow
 def test_the_command_tells_the_worst_and_its_consequence() -> None:
     result = abu("stability", str(REFUTED), "--json").document["result"]
     assert result["stable"] is False and result["growth_rate_per_s"] > 2.53e-4

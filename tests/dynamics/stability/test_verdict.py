@@ -106,6 +106,7 @@ CASES = {
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("name", CASES)
+@pytest.mark.slow
 def test_multipliers_are_those_of_the_whole_motion(name: str) -> None:
     """Largest first; what has died out to a tenth is left to the integrators' errors."""
     scene, neutral = CASES[name]

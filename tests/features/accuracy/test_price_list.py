@@ -42,6 +42,7 @@ def test_every_rung_and_integrator_is_measured(measured):
     assert {("equations", f"scipy-{name}") for name in ("dop853", "rk45", "lsoda", "radau", "bdf")} <= kinds
 
 
+@pytest.mark.slow
 def test_errors_fall_with_the_tolerance(measured):
     """From 1e-3 to 1e-8 of every integrator by three orders or more, or to where the reference ends."""
     for name in {point.integrator for point in measured.points if point.rung == "equations"}:

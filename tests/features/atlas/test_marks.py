@@ -41,6 +41,7 @@ def test_a_mark_needs_every_fixed_number_and_both_axes() -> None:
         assert spot_of(HORIZONTAL, lacking) is None, each.number
 
 
+@pytest.mark.slow
 def test_the_figures_of_a_machine_stand_on_its_page_with_the_nearest_cell() -> None:
     result = abu_calc.size(abu_calc.read("avtovaz-707-222"), starts="one")
     figures = {figure.name: figure for figure in size_extras(result).figures if figure.name.startswith("atlas-")}

@@ -53,6 +53,7 @@ def test_a_file_reads_back_to_the_same_coefficients(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "count", [8, pytest.param(40, marks=pytest.mark.slow), pytest.param(100, marks=pytest.mark.hard)]
 )
+@pytest.mark.slow
 def test_the_next_rotor_is_balanced_within_the_uncertainty_told(tmp_path: Path, count: int) -> None:
     """Coefficients of a noisy set of trial runs of one rotor, another rotor on the same rig: 95 of 100."""
     inside = 0

@@ -42,6 +42,7 @@ def test_explain_adds_every_formula_with_the_numbers_to_the_report() -> None:
     assert "Source: Goodman 1964" in explained.out
 
 
+@pytest.mark.slow
 def test_the_document_is_as_interface_and_schema_say() -> None:
     document = abu("balance", PRESET, "--json").document
     result = document["result"]
@@ -62,6 +63,7 @@ def test_output_formats(tmp_path: Path, suffix: str) -> None:
     assert path.stat().st_size > 500
 
 
+@pytest.mark.slow
 def test_init_validate_schema_verify_presets_and_explain_know_the_kind(tmp_path: Path) -> None:
     file = str(tmp_path / "mine.toml")
     assert "abu balance" in " ".join(abu("init", "--readings", file).out.split())
@@ -84,6 +86,7 @@ def test_init_validate_schema_verify_presets_and_explain_know_the_kind(tmp_path:
     assert abu("verify", PRESET).status == 0
 
 
+@pytest.mark.slow
 def test_it_needs_no_scipy() -> None:
     lines = ("import sys", "from abu_calc.cli.app import run", f"run(['balance', '{PRESET}', '-q'])")
     code = "; ".join((*lines, "print('scipy' in sys.modules)"))

@@ -307,6 +307,7 @@ def judged(shop: Workshop, result: BalanceResult) -> bool:
 
 
 @pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.slow
 def test_the_residual_of_two_planes_by_trials_is_within_the_uncertainty_told(tmp_path: Path, count: int) -> None:
     """Both planes of a hundred rigs within their bounds; each bound alone may be exceeded once in twenty."""
     inside = 0
@@ -317,6 +318,7 @@ def test_the_residual_of_two_planes_by_trials_is_within_the_uncertainty_told(tmp
 
 
 @pytest.mark.parametrize("count", [8, pytest.param(20, marks=pytest.mark.slow)])
+@pytest.mark.slow
 def test_two_planes_at_two_speeds_are_within_the_uncertainty_told(tmp_path: Path, count: int) -> None:
     """The same rolls with trial runs at a second speed, too: surer than at one, and as good as told."""
     inside, surer = 0, 0

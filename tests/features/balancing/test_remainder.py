@@ -185,6 +185,7 @@ def test_without_phase_two_bearings_share_the_correction_by_their_gains() -> Non
     assert [each.after for each in result.predicted] == pytest.approx(list(rest), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_too_few_planes_are_told_apart_from_runs_that_contradict(tmp_path: Path) -> None:
     W, X = random_machine(3, 4, 2)
     runs = with_trials(W, X)
@@ -212,6 +213,7 @@ def test_a_wrong_angle_at_one_speed_is_found_where_the_planes_suffice() -> None:
 
 
 @pytest.mark.parametrize("count", [30, pytest.param(100, marks=pytest.mark.hard)])
+@pytest.mark.slow
 def test_what_remains_is_at_most_what_was_told(count: int) -> None:
     """Three sensors, one plane, every number off by its error: each bound may be exceeded once in twenty."""
     rng, beyond, squares = np.random.default_rng(8), 0, []

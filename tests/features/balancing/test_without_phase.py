@@ -37,6 +37,7 @@ def test_four_runs_give_mass_and_angle(tmp_path: Path, mass: float, angle: float
 @pytest.mark.parametrize(
     "count", [12, pytest.param(40, marks=pytest.mark.slow), pytest.param(100, marks=pytest.mark.hard)]
 )
+@pytest.mark.slow
 def test_the_answer_is_within_its_uncertainty(tmp_path: Path, count: int) -> None:
     """Fans of all sizes; trial masses off by a percent, readings too: at least 95 corrections leave what was told."""
     inside = 0
@@ -105,6 +106,7 @@ def test_readings_that_contradict_each_other_are_told(tmp_path: Path) -> None:
     assert agree.status in ("warn", "fail") and agree.value > 3
 
 
+@pytest.mark.slow
 def test_a_rotor_that_is_nearly_balanced_is_left_as_it_is(tmp_path: Path) -> None:
     """The imbalance is below what the runs tell: NOT EVALUATED without a grade, PASS within one."""
     with_trial = ((5.2, 0), (5.1, 120), (5.15, 240))

@@ -27,6 +27,7 @@ def test_files_have_the_differences_and_with_full_every_entry(tmp_path: Path) ->
     assert "≠ bearing[0].shaft_fit" in more and len(more.splitlines()) > 2 * len(less.splitlines())
 
 
+@pytest.mark.slow
 def test_seats_from_the_command_line(tmp_path: Path) -> None:
     document = once(*SHAFT, "--json").document
     assert document["abu"]["command"] == "compare" and len(document["result"]["files"]) == 2
@@ -49,6 +50,7 @@ def test_files_keep_places_of_what_is_missing(tmp_path: Path) -> None:
     assert of("file", rows)["bearing[0].speed_rpm"] == ["null", 900.0]
 
 
+@pytest.mark.slow
 def test_three_and_more_machines_fit_the_screen() -> None:
     fits = ("j6", "js6", "k5", "k6", "m5", "m6", "n6")
     variants = [part for fit in fits for part in ("--variant", f"bearing[0].shaft_fit={fit}")]

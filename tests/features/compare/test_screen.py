@@ -50,6 +50,7 @@ def test_a_machine_without_an_autobalancer_has_no_level() -> None:
     assert line_of(screen, "Idle, without").split()[-1] == "–" and len(screen.splitlines()) <= 48
 
 
+@pytest.mark.slow
 def test_variants_of_one_machine_have_its_name_once_and_a_verdict_each() -> None:
     screen = as_text(compare_screen(shafts()))
     assert screen.count("MMG-3200K") == 1 and "A  FAIL: as the file stands" in screen

@@ -41,6 +41,7 @@ def of(part: str, rows: Any) -> dict[str, list[Any]]:
     return {row["path"]: row["values"] for row in rows if row["part"] == part}
 
 
+@pytest.mark.slow
 def test_what_differs_is_what_differs(compared: CompareResult, sized: tuple[SizeResult, SizeResult]) -> None:
     """Every leaf of both results, held against each other once more, here by hand."""
     rows = compared.to_dict()["differences"]

@@ -58,6 +58,7 @@ def test_an_estimated_body_has_bands(tmp_path: Path) -> None:
     assert low < result.with_.declared_m_per_s2 < high
 
 
+@pytest.mark.slow
 def test_a_body_in_space_on_its_spindle_is_that_of_one_axis(tmp_path: Path) -> None:
     """The rigid machine along its spindle, written in space: the same values but for the suspension's turns."""
     old = "transverse_inertia_kg_m2 = 0.10\ncenter_of_mass_to_wheel_mm = 200.0\n"

@@ -16,6 +16,7 @@ PRESETS = ("angle-grinder-125", "avtovaz-707-222", "avtovaz-707-305", "avtovaz-7
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.slow
 def test_presets_have_a_screen(preset: str) -> None:
     seen = once("declare", preset, "--starts", "500")
     assert seen.status == 0, seen.err
@@ -110,6 +111,7 @@ def test_recordings_of_a_command_line(tmp_path: Path) -> None:
     assert screen.width <= 80 and len(screen.out.splitlines()) <= 48
 
 
+@pytest.mark.slow
 def test_pages_and_figures(tmp_path: Path) -> None:
     page, file = tmp_path / "page.html", written(tmp_path, S150)
     assert abu("declare", file, "--starts", "500", "--output", str(page)).status == 0

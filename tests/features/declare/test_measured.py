@@ -41,6 +41,7 @@ def evaluated(path: str) -> MeasuredDeclareResult:
     return declare_recordings(read_recordings(path))
 
 
+@pytest.mark.slow
 def test_fifteen_recordings_have_their_value(tmp_path: Path) -> None:
     """a_hd = mean of the operators' means; s_R is theirs, since it exceeds 0.06 a + 0.3."""
     result = evaluated(listed(tmp_path))
@@ -252,6 +253,7 @@ def test_axes_that_are_missing_warn(tmp_path: Path, axes: int) -> None:
     assert check.status == "warn" and f"{axes} of 3 axes" in check.message
 
 
+@pytest.mark.slow
 def test_a_run_too_short_leaves_no_value(tmp_path: Path) -> None:
     path = listed(tmp_path)
     run_file(tmp_path, "operator0-run1.csv", 2.0, seconds=0.3)
@@ -319,6 +321,7 @@ def test_a_list_without_recordings_is_refused(tmp_path: Path, text: str) -> None
         evaluated(str(path))
 
 
+@pytest.mark.slow
 def test_lists_and_recordings_do_not_mix(tmp_path: Path) -> None:
     path, file = listed(tmp_path), run_file(tmp_path, "a.csv", 1.0)
     with pytest.raises(InputError, match="stands alone"):

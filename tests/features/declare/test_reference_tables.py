@@ -75,6 +75,7 @@ def test_values_of_the_handles(pair: tuple[Reference, SimulatedTest]) -> None:
         assert test.deviation_of_series(name) == pytest.approx(deviation, rel=0.05)
 
 
+@pytest.mark.slow
 def test_displacements_that_friction_leaves(pair: tuple[Reference, SimulatedTest]) -> None:
     reference, test = pair
     sizes = 1e6 * np.abs(test.ends.displacements)

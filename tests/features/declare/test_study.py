@@ -40,6 +40,7 @@ def test_rigid_machine_without_autobalancer(rigid: DeclareResult) -> None:
     assert rigid.without.K_m_per_s2 == pytest.approx(0.639, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_rigid_machine_with_autobalancer(rigid: DeclareResult) -> None:
     """The reference counts the balls' mass in both states; here the autobalancer adds 2.5 %, which moves 1 %."""
     with_ = rigid.with_
@@ -96,6 +97,7 @@ def test_point_mass(point: DeclareResult) -> None:
     assert any("point mass" in remark for remark in point.warnings)
 
 
+@pytest.mark.slow
 def test_a_gain_below_the_uncertainty_warns(point: DeclareResult) -> None:
     """A good design that gains 9 %: nothing against K."""
     grades = {check.code: check.status for check in point.checks}
@@ -103,6 +105,7 @@ def test_a_gain_below_the_uncertainty_warns(point: DeclareResult) -> None:
     assert point.status == "pass"
 
 
+@pytest.mark.slow
 def test_the_break_even_eccentricity_is_one(tmp_path: Path, rigid: DeclareResult) -> None:
     """At it the declared value is that without the autobalancer; 10 % beside it, it is not."""
     even = rigid.break_even_eccentricity_mm
@@ -113,6 +116,7 @@ def test_the_break_even_eccentricity_is_one(tmp_path: Path, rigid: DeclareResult
         assert {check.code: check.status for check in other.checks}["ABU431"] == ("pass" if lowers else "warn")
 
 
+@pytest.mark.slow
 def test_an_action_holds_when_followed(tmp_path: Path) -> None:
     other = result(tmp_path, S150, autobalancer__race_eccentricity_mm=0.030)
     check = next(check for check in other.checks if check.code == "ABU431")
@@ -150,6 +154,7 @@ def test_friction_alone_can_leave_no_break_even(tmp_path: Path) -> None:
     assert not rough.lowers
 
 
+@pytest.mark.slow
 def test_background_above_its_limit(tmp_path: Path, rigid: DeclareResult) -> None:
     """1.204 times the value of the imbalance alone."""
     limit = rigid.background_limit_m_per_s2
@@ -161,6 +166,7 @@ def test_background_above_its_limit(tmp_path: Path, rigid: DeclareResult) -> Non
     assert any("however perfect" in remark for remark in loud.warnings)
 
 
+@pytest.mark.slow
 def test_a_break_even_eccentricity_beyond_the_capacity_is_told(tmp_path: Path, rigid: DeclareResult) -> None:
     """425 g·mm carry 68.4 + 2.04·25 of the reference; three small balls carry 111."""
     assert not any("larger balls" in remark for remark in rigid.warnings)
@@ -231,6 +237,7 @@ def test_wrong_numbers_of_starts_are_refused(tmp_path: Path, starts: int) -> Non
         declare(abu_calc.read(written(tmp_path, S150)), starts)
 
 
+@pytest.mark.slow
 def test_orientations_runs_and_operators_count(tmp_path: Path) -> None:
     """Eight orientations with two runs and four operators: the spread falls as the root of all runs."""
     usual = result(tmp_path, S150)
@@ -259,6 +266,7 @@ def test_gravity_is_told_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareR
     assert lying.break_even_eccentricity_mm == pytest.approx(0.025946, rel=0.01)
 
 
+@pytest.mark.slow
 def test_friction_above_gravity_holds_balls_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareResult) -> None:
     """k_r of 20 µm: 38 m/s² against g, so that most of the friction stays."""
     rough = {"autobalancer__rolling_friction_mm": 0.02}

@@ -56,6 +56,7 @@ def test_lives_follow_from_imbalance_and_residual() -> None:
     assert [check["status"] for check in checks] == ["pass", "pass"]
 
 
+@pytest.mark.slow
 def test_without_places_the_lives_are_not_evaluated_and_do_not_decide() -> None:
     document = sized(BEARINGS.replace("position_mm", "# position_mm"))
     checks = [check for check in document["checks"] if check["code"] == "ABU636"]

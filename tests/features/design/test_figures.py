@@ -27,6 +27,7 @@ def shown() -> dict[str, object]:
     return {figure.name: figure.shown for figure in size_extras(whole()).figures}
 
 
+@pytest.mark.slow
 def test_bars_of_levels_are_those_of_the_places(shown: dict[str, object]) -> None:
     result, bars = whole(), shown["levels"]
     assert isinstance(bars, Bars) and bars.limit is not None and bars.limit[0] == 109

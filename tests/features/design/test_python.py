@@ -119,6 +119,7 @@ def test_what_fails_without_the_starts_still_fails() -> None:
         abu_calc.size(loud, starts="all")
 
 
+@pytest.mark.slow
 def test_the_numbers_that_need_no_start_are_the_same(result: abu_calc.SizeResult, without: abu_calc.SizeResult) -> None:
     for name in ("autobalancer", "vibration_loaded", "fits", "required_capacity_g_mm", "frequency"):
         if name != "vibration_loaded":
@@ -153,6 +154,7 @@ def test_the_docstring_of_each_record_lists_its_fields(kind: type[Record]) -> No
             assert quantity is LEVEL_AFTER
 
 
+@pytest.mark.slow
 def test_machines_from_text_dictionary_and_file_are_the_same(tmp_path: Path) -> None:
     machine = abu_calc.read(PRESET)
     path = tmp_path / "m.toml"
@@ -192,6 +194,7 @@ def test_xarray_and_numpy_of_a_simulation() -> None:
         abu_calc.simulate(abu_calc.read(PRESET)).to_xarray()
 
 
+@pytest.mark.slow
 def test_members_of_a_sweep_as_tables() -> None:
     seen: list[str] = []
     sweep = abu_calc.sweep(

@@ -95,6 +95,7 @@ def test_a_truer_race_keeps_verdict_and_quiet_time(share: float) -> None:
     assert before is not None and after is not None and abs(after - before) < 0.1 * before + 0.05
 
 
+@pytest.mark.slow
 def test_a_machine_is_quiet_below_its_limit_and_below_what_it_was(sized: SizeResult) -> None:
     """Under a limit that even no balls exceed, the level without balls is the stricter one: quiet stays as late.
 
@@ -130,6 +131,7 @@ def levels(machine: Machine, sized: SizeResult, imbalance: float) -> tuple[float
     return before, after
 
 
+@pytest.mark.slow
 def test_balls_help_from_the_break_even_imbalance_on(sized: SizeResult) -> None:
     """There the levels are alike; a newer wheel is louder with balls, by 6 dB at half of it.
 
@@ -188,6 +190,7 @@ def test_the_bound_of_friction_alone_is_no_warning(sized: SizeResult) -> None:
 
 
 @pytest.mark.parametrize("name", ["quiet_time_s", "settling_time_s"])
+@pytest.mark.slow
 def test_each_name_of_the_limit_is_judged(name: str) -> None:
     """Between 0.05 and 0.15 s lies the quiet time of balls that start bunched."""
     machine = abu_calc.read(PRESET)
@@ -249,6 +252,7 @@ def test_balls_that_creep_warn_and_never_rest(sized: SizeResult) -> None:
     assert judged(sized, 100.0, creeps).status == "fail"
 
 
+@pytest.mark.slow
 def test_one_run_is_judged_by_its_rest_time_too(sized: SizeResult) -> None:
     machine, alone = abu_calc.read(PRESET), sized.simulation[0]
     assert alone.rest_time_s is not None and alone.quiet_time_s is not None and alone.rest_time_s > alone.quiet_time_s

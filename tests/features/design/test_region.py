@@ -59,6 +59,7 @@ def region_of(file: str, *changes: str) -> TrueRegion:
     return true_region(design_of(file, *changes))
 
 
+@pytest.mark.slow
 def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
     """The even fan is stable from 1739 rpm on, the worst arrangement from a little more; at 1700 it shakes."""
     design = design_of(written(tmp_path))
@@ -85,6 +86,7 @@ def test_the_boundary_of_the_even_fan(tmp_path: Path) -> None:
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize(("hertz", "status"), [("[2.5, 3.75]", "pass"), ("[40.0, 60.0]", "fail"), ("[90, 90]", "fail")])
+@pytest.mark.slow
 def test_what_the_simple_rule_does_not_know(hertz: str, status: str) -> None:
     """Stiff and heavily damped, the phase lag makes the balls flutter though the speed is above both frequencies."""
     design = design_of("avtovaz-707-222", f"suspension.natural_frequencies_hz={hertz}")

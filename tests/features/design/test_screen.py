@@ -76,6 +76,7 @@ def test_presets(command: tuple[str, ...]) -> None:
     ],
     ids=" ".join,
 )
+@pytest.mark.slow
 def test_other_reports(arguments: tuple[str, ...]) -> None:
     assert fits(once(*arguments))
 
@@ -176,6 +177,7 @@ def test_balls_that_do_not_balance_are_never_quiet() -> None:
     assert "Median of the start cases" not in lines or "never" in row_of(lines, "Median of the start cases")
 
 
+@pytest.mark.slow
 def test_nothing_judged_is_no_pass(tmp_path: Path) -> None:
     """A scene given outright, and one under load, have no limits to pass."""
     file = tmp_path / "scene.toml"
@@ -289,6 +291,7 @@ def test_what_there_is_no_room_for_is_counted(sized: SizeResult, seats: CheckFit
             assert counted is None or int(counted[1]) > 0
 
 
+@pytest.mark.slow
 def test_files_and_full_have_the_whole_report(tmp_path: Path) -> None:
     path = tmp_path / "report.txt"
     seen = abu("check-fit", "mmg-3200k-knife-shaft", "--full", "--output", str(path))

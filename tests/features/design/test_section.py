@@ -61,6 +61,7 @@ def test_the_race_lies_on_its_circle_and_holds_the_ball(name: str) -> None:
     st.sampled_from(["one-piece", "bearing-ring", "light"]), st.floats(2e-3, 60e-3), st.floats(1e-3, 0.3),
     st.floats(0.0, 0.2), st.floats(1e-3, 0.02), st.booleans(),
 )  # fmt: skip
+@pytest.mark.slow
 def test_the_housing_is_the_sum_of_slices(
     design: Design, ball: float, bore: float, more: float, wall: float, grooved: bool
 ) -> None:

@@ -287,6 +287,7 @@ def test_starts_that_a_result_chose_do_not_tell_how_long_rare_ones_take() -> Non
 
 
 @pytest.mark.parametrize("name", ["avtovaz-707-222", "late-between-speeds", "motor-no-load-speed"])
+@pytest.mark.slow
 def test_parts_of_the_designed_set_have_no_start_in_common(name: str) -> None:
     found = design(name)
     parts = [list(design_part(found, part)) for part in range(PARTS)]
@@ -324,6 +325,7 @@ def test_machines_that_were_undone_for_work_are_judged() -> None:
     assert not [check.code for check in found.checks if check.requested and check.status in ("not-done", "fail")]
 
 
+@pytest.mark.slow
 def test_a_file_places_balls() -> None:
     """As many as there are; `abu simulate` starts there, `abu size` from there, too."""
     machine = abu_calc.read("avtovaz-707-222").changed({"start.angles_deg": [10.0, 100.0, 190.0, 280.0]})

@@ -89,6 +89,7 @@ def test_simulate_repeats_the_times_of_size(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.slow
 def test_one_result_holds_one_time_for_one_start(name: str) -> None:
     """The idle scene of `abu size`, the table, the check, the spread and the starts shown."""
     source, result = sized(name)
@@ -110,6 +111,7 @@ def test_one_result_holds_one_time_for_one_start(name: str) -> None:
             assert view.quiet_time_s == table[view.start, view.drag_per_s]
 
 
+@pytest.mark.slow
 def test_times_count_from_full_speed_in_a_scene_file_too() -> None:
     """The same run-up, as a scene of a machine and given outright."""
     source = abu_calc.read("avtovaz-707-222").changed({"run_up.time_s": 1.5})
@@ -121,6 +123,7 @@ def test_times_count_from_full_speed_in_a_scene_file_too() -> None:
     assert abu_calc.simulate(source).full_speed_s is None
 
 
+@pytest.mark.slow
 def test_the_race_centre_is_for_machines() -> None:
     with pytest.raises(abu_calc.InputError, match="for machines only"):
         abu_calc.simulate(abu_calc.simulate(abu_calc.read("avtovaz-707-222")).run.scene, race_centre_deg=0.0)

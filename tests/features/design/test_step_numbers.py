@@ -11,6 +11,7 @@ from tests.cli.runner import abu, once
 from tests.remembered import recalled
 
 
+@pytest.mark.slow
 def test_explain_puts_the_numbers_in() -> None:
     plain, note = (
         once("size", "swing-arm-grinder", "--full").out,

@@ -23,6 +23,7 @@ def test_all_scenes_a_file_calls_for_are_simulated() -> None:
     assert model["swing-arm-idle"]["states"][:2] == ["arm_angle", "arm_angle'"]
 
 
+@pytest.mark.slow
 def test_a_scene_that_cannot_be_simulated_leaves_the_others() -> None:
     """An arm that does not stand at the work."""
     machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.contact_angle_deg": 5.0})
@@ -42,6 +43,7 @@ def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
     assert [run.scene for run in result.simulation] == ["idle", "swing-arm-idle"]
 
 
+@pytest.mark.slow
 def test_wheel_and_work_that_part_are_a_warning() -> None:
     """c_n E (2MΩ² − …)/… of 90 µm at 0.49 MN/m is 49 N, more than the press of 45; a true wheel does not bounce."""
     warnings = once("size", "avtovaz-707-222", "--json").document["warnings"]

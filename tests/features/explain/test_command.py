@@ -43,6 +43,7 @@ def test_a_step_has_each_of_its_formulas() -> None:
     assert set(shown["formulas"]) == {formula.name for formula in STEPS["capacity"].formulas}
 
 
+@pytest.mark.slow
 def test_an_unknown_step_is_refused_with_those_there_are() -> None:
     seen = abu("explain", "capacitie")
     assert seen.status == 2 and "Did you mean capacity?" in seen.err

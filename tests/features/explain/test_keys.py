@@ -29,6 +29,7 @@ def test_every_key_of_every_table_is_found_by_its_path(monkeypatch: pytest.Monke
             assert any(key.header.strip("[]") == header.strip("[]") for key in machine_keys(path)), path
 
 
+@pytest.mark.slow
 def test_a_word_of_a_key_names_the_keys() -> None:
     assert keys_with("drag") == ["rolling_drag_per_s"]
     seen = abu("explain", "drag")

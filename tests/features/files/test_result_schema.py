@@ -64,6 +64,7 @@ def test_every_document_is_as_the_schema_says(
     jsonschema.Draft202012Validator(schema).validate(document)
 
 
+@pytest.mark.slow
 def test_the_schema_refuses_what_is_not_so(schema: dict[str, object]) -> None:
     document = once("size", "msh-230", "--json").document
     document["result"]["autobalancer"]["ball_count"] = "four"

@@ -28,6 +28,7 @@ def test_validate_tells_every_file(tmp_path: Path) -> None:
     assert seen.status == 2 and "wrong.toml" in seen.err
 
 
+@pytest.mark.slow
 def test_validate_prints_the_warnings_of_each_file(tmp_path: Path) -> None:
     odd, scene = tmp_path / "odd.toml", tmp_path / "scene.toml"
     odd.write_text(BASIC.replace("= 5800", "= 97") + "[swing_arm]\n", encoding="utf-8")

@@ -26,6 +26,7 @@ def _stiff(**grinding: Any) -> Design:
     return size(machine(wheel__runout_mm=0.09, grinding=pressed))
 
 
+@pytest.mark.slow
 def test_starts_that_have_nothing_in_common_come_to_the_same_level() -> None:
     """Balls bunched on the heavy side, or where they balance: each level is within what is promised of the other's."""
     design = _stiff()
@@ -38,6 +39,7 @@ def test_starts_that_have_nothing_in_common_come_to_the_same_level() -> None:
     assert [one.force.mean() for one in found] == pytest.approx([45.0] * 2, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_same_machine_gives_the_same_number() -> None:
     scene = scene_of_design(_stiff(), "grinding", "settled")
     assert bouncing(scene, 0.01).velocity == bouncing(scene, 0.01).velocity
@@ -71,6 +73,7 @@ def work() -> Work:
     return found
 
 
+@pytest.mark.slow
 def test_a_chaotic_machine_has_a_level_and_says_how_well_it_is_known(work: Work) -> None:
     assert work.fitted.scatter > 0 and work.fitted.failure is None
     assert work.levels.after is not None and work.levels.before is not None

@@ -70,6 +70,7 @@ def test_one_screen_verdict_first(name: str, which: str, begins: str) -> None:
     assert result.verdict.startswith(begins)
 
 
+@pytest.mark.slow
 def test_the_command_prints_the_screen_and_the_whole() -> None:
     seen = once("grinding", "avtovaz-707-370")
     assert seen.status == 0
@@ -81,6 +82,7 @@ def test_the_command_prints_the_screen_and_the_whole() -> None:
 
 
 @pytest.mark.parametrize("sense", [-1, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.slow
 def test_golden_machine(sense: int) -> None:
     """Balls, force and axis by formulas written here, from the masses and numbers that the model states."""
     found = worked(STRAIGHT, "golden") if sense == -1 else worked(STRAIGHT, "golden", sense)

@@ -28,6 +28,7 @@ FACE: dict[str, Any] = {"machine__layout": "face", "grinding": {"contact": "face
 STRAIGHT: dict[str, Any] = {"grinding": {"contact_stiffness_N_per_m": 3e5, "press_force_N": 1e3}}
 
 
+@pytest.mark.slow
 def test_axial_runout_shakes_friction_out_of_a_face_machine() -> None:
     """Above the threshold nearly nothing of the band is left within a second; well below it most of it."""
     unshaken, threshold = _shaken(**FACE)
@@ -50,6 +51,7 @@ def test_the_threshold_is_where_the_band_is_lost(share: float) -> None:
     assert found.unshaken is not None and more.shaken is not None and more.shaken < 0.4 * found.unshaken
 
 
+@pytest.mark.slow
 def test_a_little_runout_in_the_plane_shakes_nothing_out() -> None:
     """A whirl below the threshold leaves what friction holds."""
     held, threshold = _shaken(**STRAIGHT, wheel__runout_mm=0.01)

@@ -31,6 +31,7 @@ def _bound(work: Work) -> LowerBound | None:
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize(("eccentricity_mm", "holds"), [(0.005, True), (0.01, True), (0.03, False)])
+@pytest.mark.slow
 def test_the_threshold_is_one_weighted_metre_per_second_squared(eccentricity_mm: float, holds: bool) -> None:
     """a_hv = √2·W_h·Ω·v with v of the level, on both sides of the threshold."""
     work = _work(0.02, autobalancer__race_eccentricity_mm=eccentricity_mm)
@@ -43,6 +44,7 @@ def test_the_threshold_is_one_weighted_metre_per_second_squared(eccentricity_mm:
     assert "the wheel's runout" in bound.set_by and "wheel waviness" in bound.lacks
 
 
+@pytest.mark.slow
 def test_a_wheel_without_runout_is_marked_however_loud_it_is() -> None:
     """Nothing but what race and friction leave drives it: the file says that the wheel of a grinder runs true."""
     bound = _bound(_work(0.0, autobalancer__race_eccentricity_mm=0.03))
@@ -52,12 +54,14 @@ def test_a_wheel_without_runout_is_marked_however_loud_it_is() -> None:
     assert "is a lower bound" in bound.sentence and "lacks" in bound.sentence
 
 
+@pytest.mark.slow
 def test_a_face_does_not_press_and_lacks_the_force_of_its_contact() -> None:
     bound = _bound(_work(0.0, grinding={"contact": "face"}))
     assert bound is not None and "the force of the contact" in bound.lacks
     assert bound.lower_bound is (bound.total is not None and bound.total < LEAST)
 
 
+@pytest.mark.slow
 def test_a_background_of_the_file_is_not_lacking() -> None:
     without, given = _bound(_work(0.1)), _bound(_work(0.1, machine__background_level_db=95.0))
     assert without is not None and given is not None

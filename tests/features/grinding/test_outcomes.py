@@ -68,6 +68,7 @@ def test_levels_that_still_change_by_as_much_as_they_differ_are_one_motion() -> 
     assert group.count == 2 and not group.steady
 
 
+@pytest.mark.slow
 def test_each_state_by_what_its_balls_do() -> None:
     """At rest in contact: balanced near the imbalance of steady contact, else held by friction, if there is any."""
     work = _work()

@@ -60,6 +60,7 @@ def _own_imbalance(design: Design, centre: complex) -> complex:
     return -at_zero / slope * 1e-4
 
 
+@pytest.mark.slow
 def test_without_friction_every_start_case_balances_where_own_equations_say() -> None:
     """0.01 mm of race eccentricity and 0.04 mm of runout: imbalance to 1 % of the wheel's, either side of the race."""
     design = _pressed()
@@ -71,6 +72,7 @@ def test_without_friction_every_start_case_balances_where_own_equations_say() ->
         assert not outcome.parts and not outcome.stalls and not outcome.swings and outcome.drift < STEADY
 
 
+@pytest.mark.slow
 def test_friction_leaves_each_start_case_another_level() -> None:
     """A friction arm of 5 µm holds balls where they come to rest: levels differ by far more than without friction."""
     levels = []
@@ -104,6 +106,7 @@ def test_idle_outcomes_that_are_known_are_not_simulated_again() -> None:
     assert len(ensemble.pressed("at once")) == 8
 
 
+@pytest.mark.slow
 def test_a_rigid_contact_that_would_pull_gives_no_answer() -> None:
     contact = {"contact": "rigid", "press_force_N": 10.0}
     ensemble = loaded_ensemble(_pressed(grinding=contact), 0.01, most=FEW)
@@ -115,6 +118,7 @@ def test_a_face_contact_has_no_start_cases() -> None:
     assert loaded_ensemble(_pressed(grinding={"contact": "face"}), 0.01) is None
 
 
+@pytest.mark.slow
 def test_bouncing_that_does_not_settle_is_followed_for_longer() -> None:
     """One start case alone lasts as long as its scene; among others the loud one is run again."""
     design = _pressed(wheel__runout_mm=0.09, wheel__runout_angle_deg=0.0, wheel__imbalance_g_mm=256.0,

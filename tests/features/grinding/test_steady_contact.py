@@ -147,6 +147,7 @@ within a fifth of the contact's resonance, where its balls go round when they co
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("seed", USUAL)
+@pytest.mark.slow
 def test_closed_form_and_simulation_agree(seed: int) -> None:
     assert check(seed) == USUAL[seed]
 
@@ -331,6 +332,7 @@ def test_curves_hold_the_rated_machine() -> None:
     assert near[1] > max(near[0], near[2])
 
 
+@pytest.mark.slow
 def test_a_parting_wheel_is_judged_by_its_run() -> None:
     """Pressed too little for its imbalance it parts, and the level without is that of the run."""
     design = straight(press_force_N=12.0)
@@ -368,6 +370,7 @@ def left_by_friction(runout: float, seconds: float) -> float:
     return abs(run.imbalance - (steady.imbalance or 0)) / design.system_mass
 
 
+@pytest.mark.slow
 def test_whirl_above_the_threshold_shakes_friction_out_slowly() -> None:
     """k_r R_p/r = 5.75 µm: below it balls stay where they are held; three times above they creep home in seconds."""
     held, creeping, home = left_by_friction(0.004, 4.0), left_by_friction(0.02, 0.5), left_by_friction(0.02, 6.0)

@@ -32,6 +32,7 @@ def test_steady_contact_holds_while_wheel_and_work_touch() -> None:
     assert found.hasty == found.levels and not found.stays
 
 
+@pytest.mark.slow
 def test_where_they_part_the_simulated_level_stands() -> None:
     """Bunched balls come to another state, 119.6 dB, that stays; both are told, as `abu grinding` has them."""
     design = _design(
@@ -49,6 +50,7 @@ def test_where_they_part_the_simulated_level_stands() -> None:
     assert found.stays and found.hasty.worst.after == pytest.approx(119.6, abs=0.3)
 
 
+@pytest.mark.slow
 def test_the_level_is_brought_to_each_handle() -> None:
     """Motion at p per motion at the wheel a of a free rigid body: (1/M + pa/J)/(1/M + a²/J), by hand."""
     body = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
@@ -64,6 +66,7 @@ def test_the_level_is_brought_to_each_handle() -> None:
     assert found.levels.worst.after == max(level or 0 for level in levels)
 
 
+@pytest.mark.slow
 def test_without_an_answer_there_is_no_level() -> None:
     """A rigid contact cannot part, so its run tells nothing."""
     design = _design(grinding={"contact": "rigid", "press_force_N": 10.0})

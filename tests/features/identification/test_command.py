@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from abu_calc.features.identification.written import identified_text
 from tests.cli.runner import abu
 from tests.features.identification.test_study import starts
@@ -24,6 +26,7 @@ class Known:
     race_eccentricity_angle_deg = Value(69.7)
 
 
+@pytest.mark.slow
 def test_too_few_starts_end_with_1_and_say_what_to_do(tmp_path: Path) -> None:
     path, files = starts(tmp_path, 3)
     seen = abu("identify", str(path), *files)

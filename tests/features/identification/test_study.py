@@ -61,6 +61,7 @@ def test_recordings_that_cannot_be_starts_are_refused(tmp_path: Path) -> None:
         abu_calc.identify(source, [str(tmp_path / "none.csv")])
 
 
+@pytest.mark.slow
 def test_recordings_of_another_unit_or_given_twice_are_refused(tmp_path: Path) -> None:
     path, files = starts(tmp_path, 2)
     source = read_any(str(path))

@@ -120,6 +120,7 @@ def test_a_sine_reads_its_level_in_its_third_octave(index: int) -> None:
     assert why_not(sine(centre, 4 * centre, 50 / centre), third_octave_filter(third)) is not None
 
 
+@pytest.mark.slow
 def test_third_octaves_of_noise_add_up_to_their_octave_and_to_the_weighted_acceleration() -> None:
     """Energies of three thirds are that of the octave; Σ(W_h·a)² of the table is a_h² (ISO 5349-1, A.2 within 1 %)."""
     noise = np.random.default_rng(2).standard_normal(2**17)

@@ -39,6 +39,7 @@ def test_a_sine_of_the_spindle_reads_its_level_in_its_octave(tmp_path: Path) -> 
     assert result["corrected_level_db"] == pytest.approx(level, abs=0.05)
 
 
+@pytest.mark.slow
 def test_weighted_acceleration_and_exposure_of_three_axes(tmp_path: Path) -> None:
     """a_hv = √3·2πf·V·W_h, A(8) = a_hv √(T/8 h); W_h 0.160 at 100 Hz falls as 1/f there, ISO 5349-1."""
     hertz = 10 ** (20 / 10)
@@ -126,6 +127,7 @@ def test_two_handles_in_volts_each_have_their_levels_and_total(tmp_path: Path) -
     assert "third_octaves" not in plain["places"][0]
 
 
+@pytest.mark.slow
 def test_a_machine_has_third_octaves_too() -> None:
     place = abu_calc.levels("avtovaz-707-222", third_octaves=True).places[0]
     assert place.third_octaves is not None
@@ -144,6 +146,7 @@ def test_a_file_that_the_simulation_wrote_has_its_level(tmp_path: Path, samples:
     assert found.octaves[4].level_db == pytest.approx(said.document["result"]["level_db"], abs=0.03)
 
 
+@pytest.mark.slow
 def test_a_machine_has_the_level_that_its_simulation_has() -> None:
     said = once("simulate", "avtovaz-707-222", "--json").document["result"]
     found = abu_calc.levels(abu_calc.read("avtovaz-707-222"))
@@ -200,6 +203,7 @@ def test_a_machine_is_judged_by_one_start_and_that_is_said() -> None:
     assert any("One start" in one for one in abu_calc.levels("msh-230").warnings)
 
 
+@pytest.mark.slow
 def test_sources_of_every_kind(tmp_path: Path) -> None:
     file = sine_file(tmp_path)
     recorded = abu_calc.read_recording(file)

@@ -88,6 +88,7 @@ def truncated_by_midpoints(male: DeviationLimits, female: DeviationLimits, count
 
 @settings(derandomize=True, deadline=None, max_examples=25)
 @given(FIELDS.filter(lambda f: f.tolerance > 0), FIELDS.filter(lambda f: f.tolerance > 0))
+@pytest.mark.slow
 def test_truncated_agrees_with_a_double_sum(male, female):
     """The midpoint rule with 1500 steps over 6σ is good to about 1e-6, the jumps at the limits included."""
     assert truncated_clearance_probability(male, female) == pytest.approx(

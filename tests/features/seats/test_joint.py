@@ -47,6 +47,7 @@ def test_probability_agrees_with_quadrature(male, female):
     assert clearance_probability(male, female) == pytest.approx(probability, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_probability_agrees_with_drawing_parts():
     """200 000 pairs: standard error 0.0011, so 0.004 is more than three of them (seed fixed)."""
     draw = random.Random(1).gauss

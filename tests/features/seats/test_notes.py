@@ -166,6 +166,7 @@ def group_extremes(male: DeviationLimits, female: DeviationLimits, groups: int) 
 
 @settings(derandomize=True, deadline=None, max_examples=100)
 @given(WHOLE, WIDTHS, WHOLE, WIDTHS, WHOLE, st.integers(1, 60))
+@pytest.mark.slow
 def test_groups_are_the_fewest_that_do(a, wide_a, b, wide_b, low, width):
     male, female = DeviationLimits(a * 1e-6, (a + wide_a) * 1e-6), DeviationLimits(b * 1e-6, (b + wide_b) * 1e-6)
     asked = Interval(low * 1e-6, (low + width) * 1e-6)

@@ -70,6 +70,7 @@ def written(found: BearingSeats) -> dict[str, Any]:
         *(pytest.param(seed, 150, marks=pytest.mark.hard) for seed in (2, 3)),
     ],
 )
+@pytest.mark.slow
 def test_a_recommendation_never_fails_when_it_is_written_into_the_file(seed: int, count: int) -> None:
     rng, judged, whole = random.Random(seed), 0, 0
     rows = [row for row in catalogue().values() if row.ratings]

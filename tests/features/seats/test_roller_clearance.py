@@ -18,6 +18,7 @@ SHAFTS = ("h5", "j6", "k5", "k6", "m5", "m6", "n6", "p6")
 HOUSINGS = ("H7", "J7", "K7", "M7", "N7", "P7")
 
 
+@pytest.mark.slow
 def test_rollers_and_pairs_agree_with_monte_carlo() -> None:
     """Within 0.3 µm at the ends. Each raceway takes q·max(interference, 0); a pair of 40° loses that over tan 40°."""
     from scipy.special import ndtri

@@ -187,6 +187,7 @@ def test_the_recommended_fit_passes_its_own_checks(size, shaft, housing, load, i
 
 @settings(derandomize=True, deadline=None, max_examples=25)
 @given(bore=st.floats(10.5, 300.0), field=st.sampled_from(["shaft 5", "shaft 6", "housing 6", "housing 7"]))
+@pytest.mark.slow
 def test_a_tighter_field_never_lowers_the_interference(bore, field):
     seat, grade = field.split()
     letters = ["g", "h", "js", "k", "m", "n", "p"]

@@ -54,6 +54,7 @@ def test_1_sizes_of_6205_get_its_rating_and_class() -> None:
     assert any("6205" in note for note in found.shaft.notes)
 
 
+@pytest.mark.slow
 def test_1_sizes_and_designation_agree_at_a_twentieth_of_c() -> None:
     for name in DEEP_GROOVE:
         size, ratings = dimensions(name), load_ratings(name)
@@ -278,6 +279,7 @@ STEPS = ("h", "j", "k", "m", "n", "p", "r")
 
 
 @pytest.mark.parametrize("maker", OTHER_MAKERS)
+@pytest.mark.slow
 def test_54_bearings_agree_with_the_rows_of_other_makers(maker: str) -> None:
     """At most two of 216 are off by more than one class; js counts as j. NTN has h5 up to 18 mm: one step looser."""
     light, heavy = OTHER_MAKERS[maker]

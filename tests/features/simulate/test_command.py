@@ -331,6 +331,7 @@ def test_a_machine_is_simulated_as_it_is_sized() -> None:
     assert again.document["result"]["final"] == found["final"]
 
 
+@pytest.mark.slow
 def test_starts_of_a_machine() -> None:
     """Spread balls are evenly round the race; at standstill they do not turn, so they fall behind by a whole speed."""
     starts = {
@@ -352,6 +353,7 @@ def test_duration_of_a_machine() -> None:
     assert abu("simulate", "msh-230", "--duration", "0.2", "--json").document["result"]["duration_s"] == 0.2
 
 
+@pytest.mark.slow
 def test_the_report_fits_80_columns(scene: str) -> None:
     for seen in (abu("simulate", "avtovaz-707-222", "--duration", "0.3"), abu("simulate", scene, "--duration", "40")):
         assert seen.status == 0 and seen.width <= 80
@@ -478,6 +480,7 @@ def test_every_integrator_is_taken_by_name(tmp_path: Path) -> None:
     ("text", "entry"),
     [(ARM, "scene.swing_arm.contact_stiffness_N_per_m=1e11"), (PLANAR, "scene.stiffness_N_per_m=[1e11, 1e11]")],
 )
+@pytest.mark.slow
 def test_what_oscillates_too_fast_for_its_duration_is_not_begun(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, entry: str
 ) -> None:

@@ -141,6 +141,7 @@ def test_shares_have_exact_intervals() -> None:
     assert interval(20, 20) == pytest.approx((0.025 ** (1 / 20), 1.0))
 
 
+@pytest.mark.slow
 def test_shares_add_up_and_a_printed_command_ends_the_same_way() -> None:
     result = abu_calc.stability(read_any(str(TWO), ()), attractors=True, starts=12, seed=3)
     searched, groups = result.attractor_search, result.attractors

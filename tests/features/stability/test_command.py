@@ -172,6 +172,7 @@ def test_a_swing_arm(tmp_path: Path) -> None:
     assert any("dry_rolling_friction" in told and "gravity" not in told for told in document["warnings"])
 
 
+@pytest.mark.slow
 def test_a_swing_arm_alone(tmp_path: Path) -> None:
     file = written(tmp_path, ARM)
     empty = ["--set", "scene.race[0].ball_masses_g=[]", "--set", "scene.race[0].start_angles_deg=[]"]

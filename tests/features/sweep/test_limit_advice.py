@@ -54,6 +54,7 @@ def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dic
     assert any(advice.limits[limit][1] < advice.limits[limit][0] for advice in sweep.advice)
 
 
+@pytest.mark.slow
 def test_no_advice_where_nothing_fails() -> None:
     sweep = abu_calc.sweep(abu_calc.read("avtovaz-707-222"), None, 24, seed=1)
     assert sweep.meets_limits.share == 1

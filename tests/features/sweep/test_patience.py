@@ -23,6 +23,7 @@ def statuses(result: abu_calc.SweepResult) -> dict[str, str]:
     return {check.code: check.status for check in result.checks}
 
 
+@pytest.mark.slow
 def test_members_left_out_are_no_answers_and_are_computed_later(
     sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
 ) -> None:

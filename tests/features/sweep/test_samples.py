@@ -47,6 +47,7 @@ def test_a_failed_import_is_no_members_result(sweeps: Sweeps, monkeypatch: pytes
     assert (sweeps.run(resume=True).members["level_db"] > 80).all()
 
 
+@pytest.mark.slow
 def test_members_that_failed_in_the_computer_are_tried_again_and_no_others(
     sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -65,6 +66,7 @@ def test_members_that_failed_in_the_computer_are_tried_again_and_no_others(
     assert computed == [seeds[3], seeds[5]] and reasons(sweeps) == {7: "no number"}
 
 
+@pytest.mark.slow
 def test_a_member_that_took_too_long_is_tried_again_with_more_time(
     sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -58,6 +58,7 @@ def test_the_share_that_meets_a_level_is_that_of_the_eccentricity(machine: abu_c
     assert low_end < share < high_end
 
 
+@pytest.mark.slow
 def test_percentiles_and_shares_are_those_of_the_members(machine: abu_calc.Machine) -> None:
     found = abu_calc.sweep(machine, {ECCENTRICITY: "uniform(0.004, 0.016)"}, 16, seed=3)
     level = found.members["level_db"]
@@ -119,6 +120,7 @@ def test_a_store_goes_on_to_the_same_members(
         abu_calc.sweep(machine, vary, 6, store=whole, resume=True)
 
 
+@pytest.mark.slow
 def test_a_member_that_fails_or_hangs_is_recorded_and_the_others_go_on(
     machine: abu_calc.Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -148,6 +150,7 @@ def test_a_member_that_fails_or_hangs_is_recorded_and_the_others_go_on(
     assert np.isfinite(found.members["level_db"]).tolist() == [True, False, False, False, True]
 
 
+@pytest.mark.slow
 def test_no_member_with_a_number_is_no_answer(machine: abu_calc.Machine, monkeypatch: pytest.MonkeyPatch) -> None:
     def none(*_: Any) -> Any:
         raise abu_calc.NotTrustworthyError("no number")
@@ -238,6 +241,7 @@ def test_wrong_arguments_are_refused_by_name(options: dict[str, Any], key: str) 
     assert refused.value.place.key == key
 
 
+@pytest.mark.slow
 def test_saltellis_design_spends_its_runs_and_counts_each_machine_once(machine: abu_calc.Machine) -> None:
     """Members of the mixed matrices repeat the values of others: shares and percentiles are those of the first two."""
     vary = {ECCENTRICITY: "uniform(0.004, 0.016)", "wheel.imbalance_g_mm": "choice(200, 260)", **CALM}

@@ -9,6 +9,7 @@ from abu_calc.features.sweep.samples import Builds
 from tests.features.sweep.conftest import ECCENTRICITY
 
 
+@pytest.mark.slow
 def test_only_what_was_tried_with_twice_its_scatter_may_be_loosened(
     machine: abu_calc.Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -48,6 +48,7 @@ def needs_written_out(design: TwoRaceDesign, phase: float, centre: float) -> tup
     return abs(first), abs(second)
 
 
+@pytest.mark.slow
 def test_the_share_told_for_the_worst_phase_holds_in_every_sample() -> None:
     study = study_of(read_machine("pedestal-grinder"), RANGE, runs=SAMPLES, seed=41)
     design = study.design
@@ -80,6 +81,7 @@ def test_every_simulated_phase_balances_as_the_worst_was_told() -> None:
     assert {"start.phase_2_deg", "start.kind"} <= {factor.key for factor in result.varied}
 
 
+@pytest.mark.slow
 def test_tolerances_go_to_both_races_and_every_wheel() -> None:
     study = study_of(read_machine("pedestal-grinder"), tolerances=True, runs=4)
     keys = {factor.key for factor in study.sample.factors}
@@ -103,6 +105,7 @@ def test_a_known_phase_does_not_vary() -> None:
         study_of(machine, "start.phase_2_deg=uniform(0, 90)")
 
 
+@pytest.mark.slow
 def test_one_of_two_known_phases_leaves_the_other() -> None:
     machine = read_machine("pedestal-grinder", ["wheel.1.imbalance_angle_deg=130.0"])
     keys = [factor.key for factor in study_of(machine, RANGE).sample.factors if "phase" in factor.key]

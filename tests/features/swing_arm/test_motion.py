@@ -248,6 +248,7 @@ def same_side(arm: Drawn) -> None:
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("arm", drawn(3, 1), ids=lambda arm: f"k{arm.ratio:.5f}")
+@pytest.mark.slow
 def test_floquet_and_simulation_agree_on_the_side(arm: Drawn) -> None:
     same_side(arm)
 

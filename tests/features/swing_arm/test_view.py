@@ -71,6 +71,7 @@ def test_stability_shows_motion_and_tongue() -> None:
     assert "these are forced resonances" in words(full.out) and full.width <= 80
 
 
+@pytest.mark.slow
 def test_an_arm_that_is_wrong_is_told_what_to_change(tmp_path: Path) -> None:
     """By keys of its own table, whose values make the same command pass."""
     wrong = ("--set", "swing_arm.contact_angle_deg=8")
@@ -86,6 +87,7 @@ def test_an_arm_that_is_wrong_is_told_what_to_change(tmp_path: Path) -> None:
     assert again.status == 0 and again.document["result"]["swing_arm"]["changes"] == []
 
 
+@pytest.mark.slow
 def test_of_a_scene_file(tmp_path: Path) -> None:
     file = tmp_path / "arm.toml"
     file.write_text(ARM, encoding="utf-8")

@@ -42,6 +42,7 @@ def test_a_change_goes_into_both_tables() -> None:
     assert change.text == "rolling_drag_per_s = 30"
 
 
+@pytest.mark.slow
 def test_eccentricity_and_friction_reach_what_is_simulated() -> None:
     change = advice.changed(design_of(), {"race_eccentricity_mm": 0.005, "rolling_friction_mm": 0.001})
     assert change is not None
@@ -49,6 +50,7 @@ def test_eccentricity_and_friction_reach_what_is_simulated() -> None:
     assert change.design.case.friction_arm == pytest.approx(1e-6)
 
 
+@pytest.mark.slow
 def test_a_change_that_cannot_be_made_or_breaks_a_check_is_none() -> None:
     assert advice.changed(design_of(), {"max_width_mm": 1.0}) is None
     assert advice.changed(design_of(), {"max_mass_fraction": 0.001}) is None
@@ -146,6 +148,7 @@ def test_rest_times_are_judged_where_the_file_limits_them() -> None:
     assert late_by(None, late)[0] == late_by(None, replace(run, quiet_time=None))[0] == "fail"
 
 
+@pytest.mark.slow
 def test_both_ends_of_a_speed_range_are_started() -> None:
     design = design_of("machine.speed_range_rpm=[1500.0, 3600.0]")
     ends = speed_ends(design.case)

@@ -57,6 +57,7 @@ def test_the_machine_of_one_race_has_the_same_need() -> None:
     assert design.autobalancer.requirement.required == pytest.approx(need, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_a_race_alone_is_that_of_its_machine() -> None:
     """Balls, race and their checks, without what only its machine needs."""
     case = case_of()

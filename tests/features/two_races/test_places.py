@@ -18,6 +18,7 @@ def case_of(*overrides: str) -> TwoRaceCase:
     return read_case(tables)
 
 
+@pytest.mark.slow
 def test_without_a_stretch_the_given_places_stand() -> None:
     assert case_of().races == (0.3, -0.3)
     assert not list(_search_notes(choose_both(case_of())))

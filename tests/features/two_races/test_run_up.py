@@ -20,6 +20,7 @@ def design_of() -> TwoRaceDesign:
     return choose_both(read_case(tables))
 
 
+@pytest.mark.slow
 def test_the_machine_without_autobalancers_runs_up_as_an_own_integration_does() -> None:
     """M·r'' = force of both imbalances, J·Θ'' with gyroscopic moment: largest in a revolution about its mean."""
     design = design_of()

@@ -52,6 +52,7 @@ def design_of(*overrides: str) -> TwoRaceDesign:
     return choose_both(read_case(tables))
 
 
+@pytest.mark.slow
 def test_start_cases_cover_phases_starts_and_oils() -> None:
     cases = list(start_cases(design_of()))
     assert {case.start for case in cases} == {"bunched", "spread", "standstill", "run-up"}
@@ -72,6 +73,7 @@ def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
         assert abs(share - (force / 2 + moment / (2 * place))) < 1e-12
 
 
+@pytest.mark.slow
 def test_both_races_end_where_the_levers_say() -> None:
     """Without friction, eccentricity and gravity the balls' resultants are exactly opposite what the races carry."""
     design = design_of(*TRUE)
@@ -177,6 +179,7 @@ def test_what_fails_is_told() -> None:
 
 
 @pytest.mark.parametrize(("doubt", "counts"), [(0.1, True), (0.5, False)])
+@pytest.mark.slow
 def test_chaotic_runs_that_all_end_balanced_count_with_their_doubt(
     monkeypatch: pytest.MonkeyPatch, doubt: float, counts: bool
 ) -> None:

@@ -43,6 +43,7 @@ def sized(*overrides: str) -> TwoRaceSizeResult:
     return result
 
 
+@pytest.mark.slow
 def test_between_the_modes_it_fails_and_names_one_race_within_137_mm() -> None:
     result = sized(*BETWEEN)
     assert result.status == "fail"
@@ -76,6 +77,7 @@ def test_the_advice_of_one_race_is_true(place: float, stable: bool) -> None:
     assert (own < 0) == stable
 
 
+@pytest.mark.slow
 def test_a_disc_is_told_to_take_one_race() -> None:
     tables = read_machine("pedestal-grinder", ["machine.rotor_polar_inertia_kg_m2=3.5"]).two_races
     assert tables is not None
@@ -148,6 +150,7 @@ def test_screen_page_and_json_tell_of_both_races(tmp_path: Path) -> None:
     assert [race["plane_mm"] for race in entries["autobalancers"]] == [300.0, -300.0]
 
 
+@pytest.mark.slow
 def test_lost_start_cases_are_not_passed() -> None:
     tables = read_machine("pedestal-grinder").two_races
     assert tables is not None

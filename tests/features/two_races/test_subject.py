@@ -12,6 +12,7 @@ from tests.remembered import recalled
 PRESET = "pedestal-grinder"
 
 
+@pytest.mark.slow
 def test_a_run_ends_balanced_in_both_races() -> None:
     result = abu_calc.simulate(abu_calc.read(PRESET))
     assert result.status == "pass"
@@ -20,6 +21,7 @@ def test_a_run_ends_balanced_in_both_races() -> None:
     assert any("in phase" in warning for warning in result.warnings)
 
 
+@pytest.mark.slow
 def test_stability_changes_above_both_critical_speeds() -> None:
     """Critical speeds 730 and 804 rpm; two races of finite mass balance above 864.4 rpm with four balls each."""
     result = abu_calc.stability(abu_calc.read(PRESET), speeds_rpm=(700.0, 3000.0))
@@ -61,6 +63,7 @@ def test_a_changed_machine_as_text_is_read_as_the_same() -> None:
     assert abu_calc.read(machine.to_toml()).tables == machine.tables
 
 
+@pytest.mark.slow
 def test_the_command_prints_one_screen() -> None:
     seen = abu("simulate", PRESET)
     assert "2 races with 10 balls" in " ".join(seen.out.split())

@@ -64,6 +64,7 @@ def test_one_wheel_alone_gives_what_it_gives_beside_the_other() -> None:
     assert second["wheels"][0] == both["wheels"][1]
 
 
+@pytest.mark.slow
 def test_races_balance_imbalances_and_contact_as_a_lever() -> None:
     """V_1 + V_2 + ΣU + U_N = 0 and Σz·(…) = 0 about the centre of mass."""
     design = design_of()
@@ -87,6 +88,7 @@ def test_ball_angles_add_up_to_the_resultants() -> None:
         assert abs(total - resultant) < 1e-6 * abs(resultant)
 
 
+@pytest.mark.slow
 def test_simulated_contact_of_the_whole_rotor_agrees_with_the_closed_form() -> None:
     """Force and both resultants after 3 s, ideal races: within half a per cent."""
     design = design_of()
@@ -94,6 +96,7 @@ def test_simulated_contact_of_the_whole_rotor_agrees_with_the_closed_form() -> N
     assert isinstance(off, float) and off < 0.005
 
 
+@pytest.mark.slow
 def test_the_worst_phase_requires_most() -> None:
     design = design_of()
     for wheel in pressed_wheels(design.case):
@@ -106,6 +109,7 @@ def test_the_worst_phase_requires_most() -> None:
         assert needs == pytest.approx(most, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_size_adds_what_work_requires() -> None:
     """|s|·|U_N| of the wheel at work at its worst angle; nothing of a face, and nothing without [grinding]."""
     case = design_of().bare
@@ -122,6 +126,7 @@ def test_size_adds_what_work_requires() -> None:
     assert work_needs(face, face.speed) == (0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_runs_at_work_that_are_balanced_do_not_grow() -> None:
     growths = growth_rates(design_of(), pressed_wheels(design_of().case)[0])
     assert growths is not None and max(growths) < 1e-6
@@ -130,6 +135,7 @@ def test_runs_at_work_that_are_balanced_do_not_grow() -> None:
     assert unstable is not None and unstable[0] > 1.0
 
 
+@pytest.mark.slow
 def test_swapped_wheels_and_races_give_the_same() -> None:
     """The file mirrored along the spindle: every number of a wheel moves with it."""
     design = design_of()
@@ -151,6 +157,7 @@ def test_a_rigid_contact_that_would_pull_is_not_evaluated() -> None:
     assert seen["result"]["helps"] is None
 
 
+@pytest.mark.slow
 def test_below_a_critical_speed_nothing_is_promised() -> None:
     seen = document("--wheel", "1", "--set", "machine.speed_rpm=700")
     assert [(check["code"], check["status"]) for check in seen["checks"]] == [("ABU421", "not-done")]

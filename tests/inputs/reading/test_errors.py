@@ -212,6 +212,7 @@ BAD = ("nan", "+nan", "inf", "-inf", '"5"', "'x'", "true", "false", "1979-05-27"
 
 @settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(place=st.sampled_from(NUMBERS), bad=st.sampled_from(BAD))
+@pytest.mark.slow
 def test_no_number_may_be_anything_else(tmp_path: Path, place: tuple[str, str], bad: str) -> None:
     text, line = full_text(place, bad)
     error = refused(tmp_path, text)
@@ -231,6 +232,7 @@ def test_no_number_of_a_list_may_be_anything_else(tmp_path: Path, place: tuple[s
 
 @settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(junk=st.text(max_size=60), line=st.integers(0, 28))
+@pytest.mark.slow
 def test_junk_in_a_file_never_brings_anything_but_an_input_error(tmp_path: Path, junk: str, line: int) -> None:
     rows = BASIC.split("\n")
     rows.insert(line, junk)

@@ -122,6 +122,7 @@ PLACES = [(number, path) for number, sample in enumerate(SAMPLES) for path in pl
 
 @settings(deadline=None, derandomize=True, max_examples=250)
 @given(place=st.sampled_from(PLACES), how=st.sampled_from(["replace", "remove", "add"]), value=st.sampled_from(VALUES))
+@pytest.mark.slow
 def test_schema_and_models_agree(place: tuple[int, tuple[Any, ...]], how: str, value: Any) -> None:
     number, path = place
     data = mutated(SAMPLES[number], path, how, value)

@@ -62,6 +62,7 @@ def documents(draw: st.DrawFn) -> tuple[str, dict[str, int]]:
 
 @settings(deadline=None, derandomize=True)
 @given(documents())
+@pytest.mark.slow
 def test_lines_of_documents_built_with_known_lines(built: tuple[str, dict[str, int]]) -> None:
     text, lines = built
     tomllib.loads(text)  # the text is TOML indeed

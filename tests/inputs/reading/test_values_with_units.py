@@ -254,6 +254,7 @@ def test_a_dictionary_takes_them_and_errors_have_no_line() -> None:
     assert (caught.value.place.line, caught.value.place.key) == (None, "machine.mass")
 
 
+@pytest.mark.slow
 def test_files_without_them_load_nothing_for_them() -> None:
     """The table of units is not even imported."""
     code = (

@@ -69,6 +69,7 @@ def test_size_has_these_figures_and_the_help_knows_them() -> None:
 
 @pytest.mark.few(2)
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.slow
 def test_svg_is_well_formed_alike_each_time_and_its_texts_are_texts(name: str) -> None:
     one = _figures()[name]
     file = figure_file(one, ".svg")
@@ -91,6 +92,7 @@ def test_svg_is_well_formed_alike_each_time_and_its_texts_are_texts(name: str) -
 
 
 @pytest.mark.parametrize("shown", [ODD, CELLS, SPANS, DECADES], ids=["odd", "cells", "spans", "decades"])
+@pytest.mark.slow
 def test_whatever_stands_in_a_chart_is_drawn(shown: Plot | Cells | Bars) -> None:
     file = figure_file(Figure("odd", "", shown, "A caption with $, \x00 and <."), ".svg")
     texts = " ".join(_texts(file))

@@ -52,6 +52,7 @@ def test_cad_finds_nothing_to_mend(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.slow
 def test_every_dimension_is_the_result_s(name: str) -> None:
     """Measured on the geometry, and as written to the digits shown; none is missing, none is beside."""
     wanted = sorted(_expected(result(name)).values())

@@ -164,6 +164,7 @@ def test_sketch_of_bearing_seats(name: str, tmp_path: Path) -> None:
     assert any(text.endswith(" k6") for text in texts) and any(text.endswith(" H7") for text in texts)
 
 
+@pytest.mark.slow
 def test_drawing_seats_loads_no_numerics(tmp_path: Path) -> None:
     code = (
         "import sys\nfrom abu_calc.cli.app import run\n"

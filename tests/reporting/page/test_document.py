@@ -51,6 +51,7 @@ def test_page_is_well_formed_and_asks_no_network(name: str, written: Any) -> Non
 
 
 @pytest.mark.parametrize("name", PAGES)
+@pytest.mark.slow
 def test_each_number_in_tables_is_one_of_the_document(name: str, written: Any) -> None:
     text, document, _ = written(name)
     cells = [cell.replace("dB re 5e-8 m/s", "dB") for cell in read(text).cells]  # the reference of levels
@@ -185,6 +186,7 @@ ALSO_WRITTEN = (
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("words", ALSO_WRITTEN, ids=" ".join)
+@pytest.mark.slow
 def test_further_pages_advise_no_commands_and_no_options(words: tuple[str, ...], tmp_path: Path) -> None:
     target = tmp_path / "page.html"
     assert again(*words, "--output", str(target), "--quiet").status in (0, 1)

@@ -29,6 +29,7 @@ def surfaces(part: RevolvedSolid) -> Counter[str]:
 
 @settings(deadline=None)
 @given(turned_solids())
+@pytest.mark.slow
 def test_each_edge_is_used_twice_in_opposite_senses(part: RevolvedSolid) -> None:
     """So the shell is closed and oriented; with its vertices and faces it is a sphere, or a torus with a bore."""
     lines = written(part)

@@ -13,6 +13,7 @@ ROOM = {"autobalancer__design": "bearing-ring", "autobalancer__max_outer_diamete
         "autobalancer__max_width_mm": 40.0, "autobalancer__max_mass_fraction": 0.2}  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_groove_is_the_sphere_and_the_ring_is_one_of_the_catalogue() -> None:
     design = size(machine(**ROOM))
     best = design.autobalancer

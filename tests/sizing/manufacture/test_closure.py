@@ -33,6 +33,7 @@ def test_a_race_that_its_balls_cannot_enter_fails_and_the_advice_holds() -> None
     assert check(followed, "ABU305").status == "pass"
 
 
+@pytest.mark.slow
 def test_the_search_takes_no_race_that_balls_cannot_enter_if_another_one_suffices() -> None:
     for bore in (10, 16, 20, 24):
         design = sized(f"bore_diameter_mm={bore}")
@@ -68,6 +69,7 @@ def test_burst_ratio_by_slices() -> None:
     assert burst_ratio(parts, force, omega) == pytest.approx(expected, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_the_pressed_cover_holds_less_cold_in_aluminium_and_a_thread_holds_more() -> None:
     steel, light = sized().construction.cover, sized("design=light").construction.cover
     assert steel.held >= steel.needed and light.held >= light.needed
@@ -88,6 +90,7 @@ def test_slip_torque_of_a_clamp_and_what_is_missing() -> None:
     assert check(sized("clamp_force_N=1000000"), "ABU308").status == "fail"
 
 
+@pytest.mark.slow
 def test_a_shrunk_steel_housing_carries_its_torque_and_an_aluminium_one_slips_when_warm() -> None:
     assert check(sized("fastening=shrunk"), "ABU308").status == "pass"
     light = sized("fastening=shrunk", "design=light", "temperature_range_C=[0, 80]")
@@ -102,6 +105,7 @@ def test_the_guard_is_judged_if_it_is_given() -> None:
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize("hot", [20.0, 60.0, 80.0, 120.0])
+@pytest.mark.slow
 def test_the_ring_stays_tight_in_aluminium_at_every_temperature(hot: float) -> None:
     """Smallest interference of the limits, less 2.5 µm of smoothing and 11.5e-6/K over the diameter and the warming."""
     design = sized("design=light", f"temperature_range_C=[0, {hot:g}]")
@@ -112,6 +116,7 @@ def test_the_ring_stays_tight_in_aluminium_at_every_temperature(hot: float) -> N
     assert check(design, "ABU311").status == "pass"
 
 
+@pytest.mark.slow
 def test_too_wide_a_range_of_temperature_overstresses_the_body() -> None:
     assert check(sized("design=light", "temperature_range_C=[-40, 200]"), "ABU311").status == "fail"
 

@@ -32,6 +32,7 @@ def test_profiles_close_and_go_round_counter_clockwise(design: str) -> None:
 
 
 @pytest.mark.parametrize("design", DESIGNS)
+@pytest.mark.slow
 def test_the_parts_weigh_what_the_design_weighs(design: str) -> None:
     """The design's mass comes from rings and discs, the parts' from their profiles."""
     parts, mass = parts_of(design)

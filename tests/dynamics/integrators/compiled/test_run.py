@@ -94,6 +94,7 @@ def test_smooth_motion_on_every_support_is_that_of_scipy(support: str) -> None:
 
 
 @pytest.mark.parametrize("method", METHODS)
+@pytest.mark.slow
 def test_errors_fall_with_the_tolerance(method: Method) -> None:
     """At most a hundred times the tolerance where balls stick, slip and touch."""
     scene = replace(SCENES["friction and contact"], duration=6.0)
@@ -216,6 +217,7 @@ def test_numbers_that_are_none_are_told() -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows knows no SIGINT for one process")
+@pytest.mark.slow
 def test_an_interrupt_is_heard() -> None:
     """In a process of its own: whatever it meets there, it meets no other test."""
     code = """
@@ -285,6 +287,7 @@ def test_a_compiler_that_does_not_run_is_done_without(failing: str, monkeypatch:
 
 
 @pytest.mark.usefixtures("fresh")
+@pytest.mark.slow
 def test_code_that_gives_other_numbers_is_done_without(monkeypatch: pytest.MonkeyPatch) -> None:
     original = compiled_code.program
 

@@ -43,6 +43,7 @@ def test_lengths_are_a_tree_over_all_places(name: str, index: int) -> None:
 
 
 @pytest.mark.parametrize(("name", "index"), PARTS)
+@pytest.mark.slow
 def test_each_diameter_stands_once(name: str, index: int) -> None:
     """Cylinders once each, the groove at its bottom, the groove's ends in brackets, for they follow."""
     part, plan = planned(name, index)
