@@ -24,17 +24,17 @@ KEYS = {
 }  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def designs() -> dict[str, dict]:
-    """The JSON of every preset with an autobalancer."""
-    seen = {name: once("size", name, "--json") for name in PRESETS}
-    assert all(one.status == 0 for one in seen.values()), {name: one.err for name, one in seen.items()}
-    return {name: one.document for name, one in seen.items()}
+def sized(name: str) -> dict:
+    """The JSON of a preset with an autobalancer."""
+    seen = once("size", name, "--json")
+    assert seen.status == 0, seen.err
+    return seen.document
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", PRESETS)
-def test_every_preset_passes(designs: dict[str, dict], name: str) -> None:
-    document = designs[name]
+def test_every_preset_passes(name: str) -> None:
+    document = sized(name)
     assert document["status"] == "pass" and all(check["status"] in ("pass", "warn") for check in document["checks"])
     assert {"ABU101", "ABU103"} <= {check["code"] for check in document["checks"]}
     result, table = document["result"], tomllib.loads(abu("presets", name).out)
@@ -52,24 +52,25 @@ def test_every_preset_passes(designs: dict[str, dict], name: str) -> None:
     assert len(states) == 4 + 2 * abu_["ball_count"]
 
 
-def test_envelope_of_the_face_machine(designs: dict[str, dict]) -> None:
-    found = designs["avtovaz-707-370"]["result"]["autobalancer"]
+@pytest.mark.slow
+def test_envelope_of_the_face_machine() -> None:
+    found = sized("avtovaz-707-370")["result"]["autobalancer"]
     assert found["outer_diameter_mm"] <= 68 and found["width_mm"] <= 32
 
 
-def test_levels_of_the_straight_machine_are_as_published(designs: dict[str, dict]) -> None:
+def test_levels_of_the_straight_machine_are_as_published() -> None:
     """Published: 102–103 dB at most with the autobalancer, 111 dB without; read from octaves, so ± 1.5 dB."""
-    result = designs["avtovaz-707-222"]["result"]
+    result = sized("avtovaz-707-222")["result"]
     assert result["vibration"]["level_before_db"] == pytest.approx(111.0)
     assert result["vibration_loaded"]["steady_level_after_db"] == pytest.approx(102.5, abs=1.5)
     assert result["vibration"]["level_after_db"] == pytest.approx(100.4, abs=0.5)
 
 
-def test_under_load_the_level_does_not_contradict_the_simulation(designs: dict[str, dict]) -> None:
+def test_under_load_the_level_does_not_contradict_the_simulation() -> None:
     """Wheel and work part, by 49 N of variation on 45 N: bunched balls leave what the simulation of grinding shows, and
     go on so; settled ones, as one works, leave less.
     """
-    result = designs["avtovaz-707-222"]["result"]
+    result = sized("avtovaz-707-222")["result"]
     grinding = next(scene for scene in result["simulation"] if scene["scene"] == "grinding")
     loaded = result["vibration_loaded"]
     assert loaded["parts"] and loaded["at_once_stays"]
