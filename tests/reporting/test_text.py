@@ -70,6 +70,7 @@ def test_messages_about_files_are_harmless(tmp_path: Path, text: str, name: str)
 
 
 @pytest.mark.parametrize("name", ["a\nPASS: all good\x1b[31m.toml", "a\n  PASS: all good.toml"])
+@pytest.mark.slow
 def test_names_of_files_are_harmless_in_reports(tmp_path: Path, name: str) -> None:
     file = tmp_path / name
     file.write_text(BEARINGS + '[expected]\nstatus = "fail"\n', encoding="utf-8")

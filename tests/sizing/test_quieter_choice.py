@@ -72,6 +72,7 @@ def test_reasons_compare_with_the_candidate_that_was_chosen() -> None:
         assert why.startswith(f"{1e3 * (other.mass - chosen.autobalancer.mass):.1f} g heavier")
 
 
+@pytest.mark.slow
 def test_the_lightest_stays_where_no_runner_up_is_quieter() -> None:
     chosen = limited("angle-grinder-125", 1.0)
     assert failed(chosen) == {"ABU404"}

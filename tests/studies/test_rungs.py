@@ -46,6 +46,7 @@ def test_the_envelope_holds_one_per_cent(one):
     assert angles(one.scene, one.slow, one.full) < math.radians(2.5 if light else 1.5)
 
 
+@pytest.mark.slow
 def test_the_closed_form_tells_the_end_and_no_less_than_the_time(one):
     """What is left is the races' eccentricity, within the finite mass of the balls; its decay is that of the slowest
     motion, as if all of the imbalance had to die out with it.

@@ -51,6 +51,7 @@ def test_errors_fall_with_the_tolerance(measured):
         assert errors[1e-8] <= max(1e-3 * errors[1e-3], 3 * measured.reference.disagreement, 1e-9), name
 
 
+@pytest.mark.slow
 def test_the_choice_is_the_quickest_that_suffices(measured):
     chosen = measured.chosen
     assert chosen.error + measured.reference.disagreement <= 0.01

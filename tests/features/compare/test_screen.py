@@ -58,6 +58,7 @@ def test_variants_of_one_machine_have_its_name_once_and_a_verdict_each() -> None
     assert len(screen.splitlines()) <= 48 and max(map(len, screen.splitlines())) <= 80
 
 
+@pytest.mark.slow
 def test_no_raw_keys_and_every_line_that_is_left_out_is_counted() -> None:
     screen = as_text(compare_screen(shafts()))
     table = screen[screen.index("Checks that differ") :]

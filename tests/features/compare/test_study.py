@@ -60,6 +60,7 @@ def test_what_differs_is_what_differs(compared: CompareResult, sized: tuple[Size
     assert alike.keys().isdisjoint(expected) and alike["frequency.speed_hz"][0] == first["frequency.speed_hz"]
 
 
+@pytest.mark.slow
 def test_checks_stand_side_by_side_and_the_worst_is_the_status(
     compared: CompareResult, sized: tuple[SizeResult, SizeResult]
 ) -> None:

@@ -84,6 +84,7 @@ def test_displacements_that_friction_leaves(pair: tuple[Reference, SimulatedTest
     assert test.ends.moving == 0
 
 
+@pytest.mark.slow
 def test_declared_values_and_their_uncertainty(pair: tuple[Reference, SimulatedTest]) -> None:
     reference, test = pair
     without = max(test.spindle.without(reference.imbalance).values())

@@ -74,6 +74,7 @@ def test_rigid_machine_of_the_same_mass_with_autobalancer(tmp_path: Path, rigid:
     assert light.with_.no_friction_m_per_s2 == pytest.approx(0.43241, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_break_even_of_the_rigid_machine(rigid: DeclareResult) -> None:
     assert rigid.break_even_frictionless_mm == pytest.approx(0.025946, rel=0.01)
     assert rigid.break_even_eccentricity_mm == pytest.approx(0.0250, rel=0.02)

@@ -37,6 +37,7 @@ def test_bars_of_levels_are_those_of_the_places(shown: dict[str, object]) -> Non
         assert values[f"{place.name}, with: expected"] == place.level_after_db
 
 
+@pytest.mark.slow
 def test_bars_of_the_budget_make_its_sum(shown: dict[str, object]) -> None:
     """The expected residual is the root of the squares of the parts before it, the worst friction left out.
 

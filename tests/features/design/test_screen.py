@@ -55,6 +55,7 @@ def flat(text: str) -> str:
 
 @pytest.mark.few(4)
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+@pytest.mark.slow
 def test_presets(command: tuple[str, ...]) -> None:
     seen = once(*command)
     assert fits(seen) and seen.out.strip()
@@ -188,6 +189,7 @@ def test_nothing_judged_is_no_pass(tmp_path: Path) -> None:
     assert "PASS" in once("simulate", "avtovaz-707-222").out.splitlines()[1]
 
 
+@pytest.mark.slow
 def test_amplitude_without_balls_is_told_to_be_off_the_work() -> None:
     """It is of the imbalance alone; that of the wheel pressed, 41.5 µm by `abu grinding`, is another."""
     seen = " ".join(once("simulate", "avtovaz-707-222", "--scene", "grinding").out.split())

@@ -344,6 +344,7 @@ def first_choice(name: str) -> abu_calc.Machine:
     return abu_calc.read(str(MACHINES / f"{name}.toml")).changed(pins(design(name).autobalancer))
 
 
+@pytest.mark.slow
 def test_the_result_holds_the_slowest_of_the_further_start_cases() -> None:
     """What is promised and late by a closer run, too, fails; without pins other balls are taken."""
     result = recalled("size", first_choice("late-between-speeds"))

@@ -97,6 +97,7 @@ def documents() -> dict[str, dict[str, Any]]:
 
 
 @pytest.mark.parametrize(("command", "spoil"), WRONG, ids=range(len(WRONG)))
+@pytest.mark.slow
 def test_the_schema_knows_models_and_checks(
     schema: dict[str, object], documents: dict[str, dict[str, Any]], command: str, spoil: Callable[[Any], object]
 ) -> None:

@@ -84,6 +84,7 @@ def test_a_chaotic_machine_has_a_level_and_says_how_well_it_is_known(work: Work)
     assert check.status == "fail" and "bouncing is chaotic" in check.message
 
 
+@pytest.mark.slow
 def test_levels_that_scatter_over_each_other_are_not_told_apart(work: Work) -> None:
     def louder(side: Side, decibels: float) -> Side:
         run: WorkSimulation | None = side.run

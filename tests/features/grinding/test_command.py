@@ -59,6 +59,7 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> None:
         ("avtovaz-707-370", "", "The autobalancer helps under load"),
     ],
 )
+@pytest.mark.slow
 def test_one_screen_verdict_first(name: str, which: str, begins: str) -> None:
     result = worked(name, which)
     text = as_text(grinding_screen(result), 80)
@@ -127,6 +128,7 @@ def test_golden_machine(sense: int) -> None:
     assert max(result["agreement"].values()) < 0.02
 
 
+@pytest.mark.slow
 def test_levels_are_those_of_the_motion() -> None:
     """20 lg(Ω·max(|X|, |Y|)/√2/5e-8), race and friction of the budget added as squares with the autobalancer."""
     result = worked(STRAIGHT, "golden").to_dict()
@@ -139,6 +141,7 @@ def test_levels_are_those_of_the_motion() -> None:
         assert level == pytest.approx(20 * math.log10(W * moved / math.sqrt(2) / 5e-8))
 
 
+@pytest.mark.slow
 def test_the_face_machine_does_at_work_what_it_does_at_idle() -> None:
     result = worked("avtovaz-707-370").to_dict()
     assert worked("avtovaz-707-370").status == "pass"

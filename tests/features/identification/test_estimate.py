@@ -18,6 +18,7 @@ def track(point: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     return np.asarray(-offset + begin * np.exp(-np.exp(point[0]) * (CENTRES - 0.5) / 2))
 
 
+@pytest.mark.slow
 def test_a_known_point_is_found_within_its_interval() -> None:
     rng = np.random.default_rng(4)
     points = BOX.low + (BOX.high - BOX.low) * rng.random((800, 4))

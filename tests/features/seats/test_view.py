@@ -94,6 +94,7 @@ def test_a_ring_that_needs_no_interference_shows_none() -> None:
     assert row.split()[-1] == "–" and "housing  load" not in out
 
 
+@pytest.mark.slow
 def test_each_word_names_interference_clearance_or_tolerance_class() -> None:
     """The engineer reads no grip, play or field, and what is required and permitted has its sign."""
     out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "3", "--shaft", "m6", "--housing", "H7").out

@@ -117,6 +117,7 @@ def test_averaging_and_floquet_at_a_small_imbalance(share: float) -> None:
         pytest.param(0.4, -1.489, 0.0021, marks=pytest.mark.slow),
     ],
 )
+@pytest.mark.slow
 def test_the_next_tongue_is_negligible(kappa: float, place: float, derived: float) -> None:
     """About k = 3/2 + place·κ², where a scan found its tip: σ_c to the digits that were derived."""
     low, high = 0.0, 0.004

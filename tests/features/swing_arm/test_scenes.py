@@ -64,6 +64,7 @@ def arm_check(machine: Machine) -> Check:
 
 @pytest.mark.few(1)
 @pytest.mark.parametrize(("moment", "status"), [(20.0, "pass"), (9.0, "fail")])
+@pytest.mark.slow
 def test_a_disk_that_bounces_is_judged_by_the_simulated_arm(moment: float, status: str) -> None:
     """ABU506; what it advises holds when it is followed."""
     machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.pressing_moment_N_m": moment})

@@ -104,6 +104,7 @@ def test_a_late_start_is_mended_as_told() -> None:
         assert next(check for check in again.checks if check.code == "ABU702").status == "pass"
 
 
+@pytest.mark.slow
 def test_levels_are_judged_at_the_speed_of_each_run() -> None:
     """The same displacement of 10 µm is 20·lg 2 = 6.02 dB louder at twice the speed; no range is passed by scaling."""
     design = design_of()

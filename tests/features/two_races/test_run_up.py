@@ -51,6 +51,7 @@ def test_the_machine_without_autobalancers_runs_up_as_an_own_integration_does() 
         assert points[number].without == pytest.approx(amplitude, rel=0.03)
 
 
+@pytest.mark.slow
 def test_balls_help_at_full_speed_and_speeds_ascend() -> None:
     points = run_up_amplitudes(design_of(), 0.02)
     assert all(a.speed <= b.speed + 1e-9 for a, b in pairwise(points))

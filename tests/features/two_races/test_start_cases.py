@@ -60,6 +60,7 @@ def test_start_cases_cover_phases_starts_and_oils() -> None:
     assert {case.drag_factor for case in cases} == {1.0, 1 / 3, 3.0}
 
 
+@pytest.mark.slow
 def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
     design = design_of()
     start = StartCase("spread", 1.0, (math.pi / 2,))

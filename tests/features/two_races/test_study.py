@@ -191,6 +191,7 @@ def test_an_imbalance_that_no_ball_carries_fails_as_a_whole() -> None:
     assert {"ABU101", "ABU201"} <= failed
 
 
+@pytest.mark.slow
 def test_both_autobalancers_stand_at_their_planes_as_solids() -> None:
     found = sized(*BETWEEN)
     assembly = both_solids(found)

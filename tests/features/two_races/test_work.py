@@ -77,6 +77,7 @@ def test_races_balance_imbalances_and_contact_as_a_lever() -> None:
         assert abs(sum(place * load for place, load in loads)) < 1e-12
 
 
+@pytest.mark.slow
 def test_ball_angles_add_up_to_the_resultants() -> None:
     design = design_of()
     resultants = resultants_at_work(design, pressed_wheels(design.case)[1], (0.0, 2.0))

@@ -107,6 +107,7 @@ def test_whatever_stands_in_a_chart_is_drawn(shown: Plot | Cells | Bars) -> None
         assert {"0.0001", "10", "1e-07"} <= set(_texts(file))
 
 
+@pytest.mark.slow
 def test_figure_from_python_has_the_numbers_of_the_result() -> None:
     result = sized()
     axes = result.figure("settling").axes[0]

@@ -94,6 +94,7 @@ def test_tolerances_are_the_result_s(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.slow
 def test_outlines_are_closed_and_weigh_what_the_design_weighs(name: str) -> None:
     """Each part twice, above and below the axis: area within 0.5 %, mass of half a turn of each within 0.5 %."""
     one = result(name).to_dict()

@@ -61,6 +61,7 @@ def test_each_number_in_tables_is_one_of_the_document(name: str, written: Any) -
 
 
 @pytest.mark.parametrize("name", PAGES)
+@pytest.mark.slow
 def test_each_number_that_a_figure_tells_is_one_of_the_document(name: str, written: Any) -> None:
     """But of motions and of the atlas: their samples and cells are in no document."""
     text, document, _ = written(name)
@@ -258,6 +259,7 @@ def _ids(outcome: Outcome) -> list[str]:
         pytest.param("sweep-many", marks=pytest.mark.hard),  # once more, and "sweep" has the same headings
     ],
 )
+@pytest.mark.slow
 def test_each_figure_of_a_report_has_the_id_of_one_heading(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     outcome = _outcome(monkeypatch, *REPORTS[name])
     ids = _ids(outcome)

@@ -41,6 +41,7 @@ def test_the_parts_weigh_what_the_design_weighs(design: str) -> None:
 
 
 @pytest.mark.parametrize("design", DESIGNS)
+@pytest.mark.slow
 def test_the_race_is_the_arc_of_the_groove_and_the_ball_touches_it_in_the_middle(design: str) -> None:
     parts, size_ = parts_of(design)[0], parts_of(design)[0].dimensions
     race = next(segment for segment in parts.race_part.profile if segment.surface == "race")

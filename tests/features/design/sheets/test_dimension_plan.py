@@ -79,6 +79,7 @@ def _size_demands(part: TurnedPart, name: str) -> tuple[object, ...]:
 
 
 @pytest.mark.parametrize(("name", "index"), PARTS)
+@pytest.mark.slow
 def test_three_decimals_stand_with_a_tolerance_only(name: str, index: int) -> None:
     _, plan = planned(name, index)
     texts = [*((each.text, each.below) for each in plan.diameters), *((each.text, "") for each in plan.lengths),
