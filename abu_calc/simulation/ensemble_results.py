@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import product
 from operator import attrgetter
-from typing import Any
+from typing import Any, Final
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.bearing_file import Limits
 from abu_calc.simulation.residual_criteria import SLIPPING, balances
 from abu_calc.simulation.start_cases import Member
+from abu_calc.sizing.vibration import LEVEL_ERROR
 
 
 @dataclass(frozen=True)
@@ -153,7 +154,7 @@ class Ensemble:
         return middle if math.isfinite(middle) else None
 
 
-SLACK = 0.3
+SLACK: Final = LEVEL_ERROR
 """A difference in level [dB] that decides nothing."""
 
 Order = tuple[Callable[[StartOutcome], Any], float, bool]

@@ -2,17 +2,16 @@
 
 Promised are the race's eccentricity from none to the value of the file, at any angle, the imbalance from that of a new
 wheel to the value, and any position of a machine that is turned in use. Usual are hot and cold oil, other friction and
-suspension, speeds and run-ups. `varied` draws from both: a low-discrepancy sequence, so that few starts cover much.
+suspension, speeds and run-ups. Values follow a low-discrepancy sequence, so that few starts cover much.
 """
 
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import count, cycle, product
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
-from abu_calc.formulas.suspension import Springs
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.scene_of_design import Start
 from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Member, Variation, usual_run_up
@@ -41,26 +40,22 @@ RUN_UPS: Final[Factors] = (0.3, 3.0)
 """Usual factors on values of a file, and run-ups [s]; engineering practice (unverified)."""
 
 
-@dataclass(frozen=True)
-class Varied:
-    """One value of the file and how far it varies, in the file's unit; a share of the rated speed's is in rpm."""
+@record
+class BandRow(Record):
+    """A value of the file that start cases vary, in the unit of its key; promised by the file, or usual."""
 
-    key: str
-    low: float
-    high: float
-    promised: bool
+    key: Annotated[str, Quantity("key")]
+    low: Annotated[float, Quantity("lowest", "", 4)]
+    high: Annotated[float, Quantity("highest", "", 4)]
+    promised: Annotated[bool, Quantity("promised")]
 
 
 def turned_in_use(design: Design) -> bool:
     """True if the spindle may be horizontal and vertical: by machine.held, else for machines held in the hands."""
-    table, springs = design.case.table, design.case.suspension
+    table = design.case.table
     if table.machine.held is not None:
         return table.machine.held == "any"
-    soft = True
-    if isinstance(springs, Springs):
-        given = table.suspension.frequencies
-        soft = given is None or max(given) <= SOFTLY_HELD
-    return soft and table.swing_arm is None
+    return table.swing_arm is None and max(table.suspension.frequencies or (0.0,)) <= SOFTLY_HELD
 
 
 def measured(design: Design) -> bool:
@@ -69,28 +64,30 @@ def measured(design: Design) -> bool:
     return wheel.imbalance_g_mm is None and wheel.balance_grade is None
 
 
-def band(design: Design) -> tuple[Varied, ...]:
+def band(design: Design) -> tuple[BandRow, ...]:
     """All values that vary, promised ones first."""
     case, table = design.case, design.case.table
     abu, imbalance, speed = case.autobalancer, from_si(design.imbalance.value, "g_mm"), table.machine.speed_rpm
-    shares = case.drag_shares
-    drag = [share * case.drag for share in shares]
-    rows = [
-        Varied("autobalancer.race_eccentricity_mm", 0.0, abu.race_eccentricity_mm, promised=True),
-        Varied("wheel.imbalance_g_mm", NEW_WHEEL * imbalance, imbalance, promised=True),
-        Varied("autobalancer.rolling_drag_per_s", min(drag), max(drag), promised=False),
-        Varied("autobalancer.rolling_friction_mm", *_times(FRICTION, abu.rolling_friction_mm), promised=False),
-        Varied("machine.speed_rpm", *_times(SPEED, speed), promised=False),
-        Varied("run_up.time_s", *RUN_UPS, promised=False),
-    ]
+    drag = [share * case.drag for share in case.drag_shares]
+    promised = {
+        "autobalancer.race_eccentricity_mm": (0.0, abu.race_eccentricity_mm),
+        "wheel.imbalance_g_mm": (NEW_WHEEL * imbalance, imbalance),
+    }
+    usual = {
+        "autobalancer.rolling_drag_per_s": (min(drag), max(drag)),
+        "autobalancer.rolling_friction_mm": _times(FRICTION, abu.rolling_friction_mm),
+        "machine.speed_rpm": _times(SPEED, speed),
+        "run_up.time_s": RUN_UPS,
+    }
     if measured(design):
-        most = abu.capacity_margin * imbalance
-        rows.append(Varied("wheel.imbalance_g_mm", imbalance, most, promised=False))
-    given = table.suspension.frequencies
-    if given is not None and isinstance(case.suspension, Springs):
-        low, high = NATURAL_FREQUENCY[0] * min(given), NATURAL_FREQUENCY[1] * max(given)
-        rows.append(Varied("suspension.natural_frequencies_hz", low, high, promised=False))
-    return tuple(rows)
+        usual["wheel.imbalance_g_mm"] = imbalance, abu.capacity_margin * imbalance
+    if (given := table.suspension.frequencies) is not None:
+        usual["suspension.natural_frequencies_hz"] = (
+            NATURAL_FREQUENCY[0] * min(given),
+            NATURAL_FREQUENCY[1] * max(given),
+        )
+    rows = [(key, ends, True) for key, ends in promised.items()] + [(key, ends, False) for key, ends in usual.items()]
+    return tuple(BandRow(key=key, low=low, high=high, promised=kept) for key, (low, high), kept in rows)
 
 
 def _times(factors: Factors, value: float) -> Factors:
@@ -163,5 +160,5 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
 
 
 def _between(ends: Factors, place: float) -> float:
-    """Value at a place from 0 to 1 between two ends, by its logarithm."""
-    return ends[0] * (ends[1] / ends[0]) ** place if ends[0] > 0 else ends[0] + place * (ends[1] - ends[0])
+    """Value at a place from 0 to 1 between two positive ends, by its logarithm."""
+    return float(ends[0] * (ends[1] / ends[0]) ** place)

@@ -19,7 +19,7 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK, every_start, first_tolerance
-from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
 from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Member, usual_run_up
 from abu_calc.sizing.case import EQUAL_SPEEDS
@@ -202,8 +202,8 @@ def search(
 
 
 def fails(design: Design, outcome: StartOutcome) -> bool:
-    """True if a promised start case breaks a limit, by a closer run, too."""
-    kept = outcome.holds(design.case.table.limits, design.case.level_limit)
+    """True if a promised start case breaks a limit, by a closer run, too, and the level by more than its error."""
+    kept = outcome.holds(design.case.table.limits, design.case.level_limit + SLACK)
     return outcome.member.promised and outcome.confirmed and not kept
 
 

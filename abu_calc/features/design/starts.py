@@ -13,7 +13,7 @@ from typing import Annotated, Final, Self
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.features.design.band import band
+from abu_calc.features.design.band import BandRow, band
 from abu_calc.features.design.searched_checks import decisive, repeated, worst_further
 from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.errors import NotTrustworthyError
@@ -235,7 +235,7 @@ class RepeatedStart(Record):
 
 @record
 class FurtherStarts(Record):
-    """Start cases at the given drag rate beside the listed ones, looked for where they are worst; they only warn.
+    """Start cases beside the listed ones, over the band and where they are worst.
 
     A time of None: never. `rare_quiet_time_s`: one start case of 1000 takes longer, by the tail of the quiet times of
     those that no result chose.
@@ -266,16 +266,6 @@ class FurtherStarts(Record):
                 for code, which, options in worst_further(searched, design)
             ),
         )
-
-
-@record
-class BandRow(Record):
-    """A value of the file that start cases vary: its least and largest value; promised by the file, or usual."""
-
-    key: Annotated[str, Quantity("key")]
-    low: Annotated[float, Quantity("lowest", "", 4)]
-    high: Annotated[float, Quantity("highest", "", 4)]
-    promised: Annotated[bool, Quantity("promised")]
 
 
 @record
@@ -342,6 +332,6 @@ class EnsembleResult(Record):
             settling_by_start=SettlingOfStart.all_of(ensemble),
             further_starts=FurtherStarts.of(searched, design),
             runs=ensemble.members + (0 if searched is None else len(searched.outcomes) + searched.lost),
-            band=() if searched is None else tuple(map(BandRow.read, band(design))),
+            band=() if searched is None else band(design),
             worst_run=DecisiveRun.of(design, ensemble, searched),
         )
