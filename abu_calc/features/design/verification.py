@@ -264,7 +264,9 @@ def proven(
     if not design.frequency.balancing_possible or patience.over():
         return proof
     spent, refused = first.work, [(design.autobalancer, LATE)]
-    others = [candidate for candidate, _ in design.choice.runners_up if usable(design.case, candidate)]
+    # Where further starts alone break a limit, a runner-up that has none such would be the luckier one, no better.
+    candidates = () if passes(design, first) else design.choice.runners_up
+    others = [candidate for candidate, _ in candidates if usable(design.case, candidate)]
     # Those that were passed over for a calculated check come last.
     others.sort(key=lambda candidate: not no_worse(instead(design, candidate, ()), design))
     for runner_up in others[:MOST_OTHERS]:
