@@ -46,7 +46,7 @@ def repeated(outcome: StartOutcome, design: Design) -> str:
         entries["run_up.time_s"] = f"{member.run_up:.10g}"
     sets = [f"{key}={value}" for key, value in entries.items()]
     if member.angles:
-        angles = ", ".join(f"{from_si(angle, 'deg'):.6f}" for angle in member.angles)
+        angles = ", ".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
         sets.append(f"start.angles_deg=[{angles}]")
     scene = "--scene run-up " if member.run_up else f"--start {member.start} " if not member.angles else ""
     scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
