@@ -128,6 +128,8 @@ class Starts:
     """Start cases of an ensemble; `of`: design, ensemble and accuracy, None if there is no ensemble."""
 
     of: tuple[Design, Ensemble, float] | None
+    searched: SearchResult | None = None
+    """Further start cases, None if none were simulated."""
 
     @property
     def drag_per_s(self) -> float | None:

@@ -334,7 +334,7 @@ def size(
         drawing=tuple(map(DrawingLine.read, design.drawing)),
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
-        starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
+        starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy), tried.searched),
         parts=design.construction.parts,
     )
 

@@ -78,10 +78,10 @@ def tried_change(
     design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: int,
     searched: SearchResult | None = None,
 ) -> TriedChange | None:  # fmt: skip
-    """The first change with which every start at the drag given passes; else all that were tried without success.
+    """The first change with which every promised start passes; else all that were tried without success.
 
-    `first`: the starts of the design as it is; `most`: evaluations that all trials may take, None where it is none.
-    `searched`: its further starts, if one of those that are promised fails: then none of them may.
+    `first`: the starts of the design as it is, `searched`: its further ones; `most`: evaluations that all trials may
+    take, None where it is none.
     """
     tried, first = list[str](), _with_promised(first, searched)
     for change in changes(design, first):
@@ -93,13 +93,11 @@ def tried_change(
             most -= ensemble.work
             if not passes(variant, ensemble):
                 break
-            if searched is not None:
-                more = search(variant, accuracy, within(progress, f"with {change.name}"), workers, ensemble.given)
-                most -= sum(outcome.work for outcome in more.outcomes)
-                if any(map(partial(fails, variant), more.outcomes)):
-                    break
-                ensemble = _with_promised(ensemble, more)
-            ensembles.append(ensemble)
+            more = search(variant, accuracy, within(progress, f"with {change.name}"), workers, ensemble.given)
+            most -= sum(outcome.work for outcome in more.outcomes)
+            if any(map(partial(fails, variant), more.outcomes)):
+                break
+            ensembles.append(_with_promised(ensemble, more))
         if len(ensembles) == 1 + len(change.variants):
             by_oil = overriding(design.case, change.entries)
             return TriedChange(design.autobalancer, first, change.entries, ensembles[0], by_oil=by_oil)

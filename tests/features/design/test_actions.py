@@ -37,11 +37,12 @@ def followed(machine: Machine, check: Check) -> Machine:
 
 
 def quantity(result: SizeResult, code: str, what: str) -> float | None:
-    """The number that an action speaks of, in another result."""
-    many = result.starts.of
-    given = () if many is None else many[1].given
+    """The number that an action speaks of, in another result: over all start cases that the machine promises."""
+    many, searched = result.starts.of, result.starts.searched
+    given = [] if many is None else [*many[1].given]
+    given += [] if searched is None else [each for each in searched.outcomes if each.member.promised]
     if what.endswith(IN_ALL_OILS) and many is not None:
-        what, given = what.removesuffix(IN_ALL_OILS), many[1].outcomes
+        what, given = what.removesuffix(IN_ALL_OILS), [*many[1].outcomes]
     check = next((one for one in result.checks if one.code == code), None)
     vibration = result.vibration
     match what:
