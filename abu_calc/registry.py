@@ -88,7 +88,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("run-up-amplitude", "a start that runs up was simulated"),
             Known("candidates", "there are runners-up"),
             Known("costs", "the drawing's tolerances cost something"),
-            Known("atlas-QUANTITY", "the machine has all fixed numbers of that chart of the atlas"),
         ),
     ),
     Feature(

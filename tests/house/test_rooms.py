@@ -24,7 +24,6 @@ LAYERS = (
 
 FEATURES = (
     "explain",
-    "atlas",
     "seats",
     "swing_arm",
     "stability",

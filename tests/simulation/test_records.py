@@ -76,7 +76,7 @@ def test_accuracy_returns_what_the_command_prints(file: Path, monkeypatch: pytes
 
     monkeypatch.setattr(accuracy_module, "price_list", measured)
     result = abu_calc.accuracy(abu_calc.read_scene(file), quantity="level", accuracy=0.02, budget_s=60)
-    same(result, "accuracy", str(file), "--quantity", "level", "--accuracy", "0.02", "--budget", "60")
+    same(result, "accuracy", str(file), "--quantity", "level", "--accuracy", "0.02", "--time-budget", "60")
     assert result.points and result.chosen is not None
     assert {check.code: check.value for check in result.checks} == {"ABU811": result.chosen.error}
 

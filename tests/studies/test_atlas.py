@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.features.atlas.charts import AtlasChart, cells, charts, place
 from tests.cli.runner import abu
 from tests.studies.atlas import __main__ as atlas
 from tests.studies.atlas import figures, fresh, page, records
+from tests.studies.atlas.charts import AtlasChart, charts, place
 from tests.studies.atlas.recipe import FOLDER, CellValue
 from tests.studies.atlas.recipes import RECIPES
 
@@ -92,13 +92,6 @@ def test_a_record_is_whole_with_values_in_their_intervals_and_commands_of_their_
             )
 
 
-def test_the_package_ships_the_cells_of_the_records() -> None:
-    rows = {at: row for letter in records.letters() for at, row in records.stored(letter).items()}
-    assert set(cells()) == set(rows)
-    for at, numbers in cells().items():
-        assert numbers == tuple(float(rows[at][key]) for key in ("value", "low", "high"))
-
-
 @pytest.mark.slow
 def test_the_page_and_the_figures_are_those_of_the_records() -> None:
     assert page.PAGE.read_text("utf-8") == page.text()
@@ -131,7 +124,6 @@ def test_a_second_run_computes_only_what_the_first_left(tmp_path: Path, monkeypa
 
     monkeypatch.setattr(records, "record", lambda letter: tmp_path / f"{letter}.csv")
     monkeypatch.setattr(records, "letters", lambda: ("h",))
-    monkeypatch.setattr(records, "ship", lambda: None)
     monkeypatch.setattr(atlas, "RECIPES", {"h": Counted()})
     monkeypatch.setattr(atlas.figures, "draw", lambda letter: None)
     monkeypatch.setattr(atlas.page, "write", lambda: None)

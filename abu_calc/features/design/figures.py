@@ -41,7 +41,6 @@ def size_extras(result: SizeResult) -> Extras:
     figures = (
         *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),
         *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),
-        *_atlas(result),
     )  # fmt: skip
     section = next(figure.shown for figure in figures if figure.section == SUMMARY)
     summary = size_summary(result, section.size[1] if isinstance(section, Drawing) else 0.0)
@@ -52,15 +51,6 @@ def size_extras(result: SizeResult) -> Extras:
 def size_charts(result: SizeResult) -> tuple[Figure, ...]:
     """Figures for which a terminal has room."""
     return (*_over_speed(result), *_settling(result), *_candidates(result))
-
-
-def _atlas(result: SizeResult) -> Iterator[Figure]:
-    """Charts of the atlas with the machine's mark; none if no chart has its fixed numbers."""
-    if result.starts.of is None:
-        return
-    from abu_calc.features.atlas.marks import atlas_figures
-
-    yield from atlas_figures(result.starts.of[0])
 
 
 def _drawings(result: SizeResult) -> Iterator[Figure]:

@@ -125,8 +125,7 @@ class Bars(NamedTuple):
 class Cells(NamedTuple):
     """A field of cells over two lists of values, the first row lowest; a cell grows with its class, 0 to 4.
 
-    `classes[row][column]`: None where nothing is known; `words`: what each class means; `spot`: a point with its word,
-    x in columns and y in rows, 0 the middle of the first.
+    `classes[row][column]`: None where nothing is known; `words`: what each class means.
     """
 
     title: str
@@ -137,7 +136,6 @@ class Cells(NamedTuple):
     rows: Sequence[str]
     classes: Sequence[Sequence[int | None]]
     words: Sequence[tuple[int | None, str]]
-    spot: MarkedPoint | None = None
 
 
 def db(value: float) -> str:

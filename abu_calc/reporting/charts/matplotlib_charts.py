@@ -283,10 +283,6 @@ def celled(chart: Cells) -> "Figure":
         for column, kind in enumerate(classes):
             axes.add_artist(_cell(kind, column, row))
     samples, names = [_sample(kind) for kind, _ in chart.words], [words(word) for _, word in chart.words]
-    if chart.spot:
-        spot: dict[str, Any] = {"marker": "D", "color": color_of(2), "markeredgecolor": "white", "linestyle": "none"}
-        samples += axes.plot([chart.spot.x], [chart.spot.y], markersize=9.0, **spot)
-        names.append(words(chart.spot.word))
     figure.legend(samples, names, loc="outside lower left", ncols=3, handlelength=1.2)
     return figure
 

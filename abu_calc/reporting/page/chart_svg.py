@@ -304,8 +304,6 @@ def cells(name: str, chart: Cells) -> str:
         for index, row in enumerate(chart.classes):
             y = low - high * (index + 1)
             yield from (_cell(each, left + wide * k, y, wide, high) for k, each in enumerate(row))
-        if chart.spot:
-            yield _spot(left + wide * (chart.spot.x + 0.5), low - high * (chart.spot.y + 0.5))
         yield f'<path class="axis" d="M{left} {CELLS_TOP}V{low:.1f}H{left + wide * len(chart.columns):.1f}"/>'
         for k in _some(chart.rows, 14 / high):
             yield _word(chart.rows[k], left - 5, low - high * (k + 0.5) + 4, "end")
@@ -317,10 +315,7 @@ def cells(name: str, chart: Cells) -> str:
 
     entries = list(_cell_entries(chart.words, low + 54))
     legend = [part for each in entries for part in _cell_entry(*each)]
-    bottom = entries[-1][-1] + LEGEND_ROW * bool(chart.spot)
-    if chart.spot:
-        legend += (_spot(MARGIN + CELLS_SAMPLE / 2, bottom - 5), _named(chart.spot.word, bottom))
-    return svg(name, chart, bottom + 8, marks())
+    return svg(name, chart, entries[-1][-1] + 8, marks())
 
 
 def _some(words: Sequence[str], room: float) -> range:
@@ -362,8 +357,3 @@ def _cell_entry(kind: int | None, word: str, x: float, y: float) -> Iterator[str
 
 def _named(word: str, y: float, x: float = MARGIN) -> str:
     return f'<text x="{x + CELLS_SAMPLE + 6:.1f}" y="{y:.1f}">{text(word)}</text>'
-
-
-def _spot(x: float, y: float) -> str:
-    """A lozenge on a chart of cells."""
-    return f'<path class="spot" d="M{x - 8:.1f} {y:.1f}l8 -8 8 8 -8 8z"/>'

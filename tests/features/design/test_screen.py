@@ -73,7 +73,7 @@ def test_presets(command: tuple[str, ...]) -> None:
             ("stability", "swing-arm-grinder", "--scene", "swing-arm-idle", "--speeds", "2000:9000"),
             marks=pytest.mark.slow,
         ),
-        ("accuracy", "msh-230", "--budget", "0.5"),
+        ("accuracy", "msh-230", "--time-budget", "0.5"),
     ],
     ids=" ".join,
 )

@@ -35,7 +35,12 @@ race_eccentricity = { magnitude_mm = 0.1 }
 COMMANDS = (
     *(("size", "msh-230"), ("size", "swing-arm-grinder"), ("check-fit", "mmg-3200k-knife-shaft")),
     *(("simulate", "scene.toml"), ("simulate", "msh-230", "--audit"), ("stability", "scene.toml", "--speeds", "50:90")),
-    *(("effects", "scene.toml"), ("effects",), ("accuracy", "scene.toml", "--budget", "0.5"), ("verify", "msh-230")),
+    *(
+        ("effects", "scene.toml"),
+        ("effects",),
+        ("accuracy", "scene.toml", "--time-budget", "0.5"),
+        ("verify", "msh-230"),
+    ),
     *(("levels", "msh-230", "--minutes", "60"), ("levels", "scene.toml"), ("levels", "motion.csv")),
     *(("grinding", "avtovaz-707-370"), ("grinding", "avtovaz-707-222", "--set", "wheel.runout_mm=0.02")),
     ("size", "no-such-machine"),

@@ -30,7 +30,6 @@ pytest.importorskip("matplotlib")
 NAMES = (
     *("section", "face", "levels", "speeds", "budget", "motion", "settling", "level", "level-loaded", "run-up"),
     *("run-up-amplitude", "candidates", "costs"),
-    *("atlas-c-horizontal", "atlas-d-settled", "atlas-d-earlier", "atlas-e", "atlas-f", "atlas-g"),
 )
 SVG = "{http://www.w3.org/2000/svg}"
 ODD = Plot(

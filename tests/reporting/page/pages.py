@@ -24,7 +24,7 @@ COMMANDS = {
     "compare": ("compare", "avtovaz-707-222", "msh-230", "avtovaz-707-305"),
     "grinding": ("grinding", "avtovaz-707-222"),
     "face": ("grinding", "msh-230"),
-    "accuracy": ("accuracy", "avtovaz-707-222", "--budget", "10"),
+    "accuracy": ("accuracy", "avtovaz-707-222", "--time-budget", "10"),
     "sweep": ("sweep", "avtovaz-707-222", "--tolerances", "--runs", "12"),
     "sweep-many": ("sweep", "avtovaz-707-222", "--tolerances", "--runs", "64", "--workers", "1"),
     "sweep-grid": ("sweep", "avtovaz-707-222", "--workers", "1", *GRID),

@@ -26,8 +26,6 @@ from tests.reporting.page.reader import read
 
 MOVING = ("motion", "settling", "level", "run-up", "orbit")
 """Figures of motions begin so."""
-ATLAS = ("atlas-",)
-"""Charts of the atlas begin so."""
 NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w])")
 
 
@@ -63,11 +61,11 @@ def test_each_number_in_tables_is_one_of_the_document(name: str, written: Any) -
 @pytest.mark.parametrize("name", PAGES)
 @pytest.mark.slow
 def test_each_number_that_a_figure_tells_is_one_of_the_document(name: str, written: Any) -> None:
-    """But of motions and of the atlas: their samples and cells are in no document."""
+    """But of motions: their samples are in no document."""
     text, document, _ = written(name)
     told = re.findall(r'<desc id="chart-([\w-]+)-d">(.*?)</desc>', text)
     assert told or name == "compare-seats" or _nothing_measured(document)
-    found = [token for which, words in told if not which.startswith(MOVING + ATLAS) for token in NUMBER.findall(words)]
+    found = [token for which, words in told if not which.startswith(MOVING) for token in NUMBER.findall(words)]
     assert _unknown(found, name, document, rounded=True) == []
 
 
@@ -266,7 +264,7 @@ def test_each_figure_of_a_report_has_the_id_of_one_heading(name: str, monkeypatc
     figures = outcome.extras().figures if outcome.extras else ()
     assert len(ids) == len(set(ids)) and "provenance" in ids
     assert [(figure.name, figure.section) for figure in figures if figure.section not in {"", SUMMARY, *ids}] == []
-    last = {figure.name for figure in figures if not figure.section and not figure.name.startswith(ATLAS)}
+    last = {figure.name for figure in figures if not figure.section}
     assert last <= AT_THE_END.get(outcome.command, set())
     assert figures or name == "compare-seats"
 

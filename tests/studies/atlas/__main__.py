@@ -9,8 +9,8 @@ import argparse
 import time
 from collections.abc import Sequence
 
-from abu_calc.features.atlas.charts import place
 from tests.studies.atlas import figures, fresh, page, records
+from tests.studies.atlas.charts import place
 from tests.studies.atlas.recipes import RECIPES
 
 
@@ -25,7 +25,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for letter in asked.chart or records.letters():
         if _computed(letter, asked.starts, until):
             figures.draw(letter)
-    records.ship()
     page.write()
     rows = [row for letter in records.letters() for row in records.stored(letter).values()]
     print(f"{len(rows)} cells, {sum(int(row['starts']) for row in rows)} starts")

@@ -4,7 +4,7 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any, Final
 
-from abu_calc.features.atlas.charts import AtlasChart, place
+from tests.studies.atlas.charts import AtlasChart, place
 from tests.studies.atlas.records import family, record, stored
 
 COLUMNS: Final = 4

@@ -6,8 +6,8 @@ import random
 import time
 from typing import Final
 
-from abu_calc.features.atlas.charts import AtlasChart, CellPlace, place
 from tests.studies.atlas import records
+from tests.studies.atlas.charts import AtlasChart, CellPlace, place
 from tests.studies.atlas.recipe import FOLDER, CellValue, Recipe
 from tests.studies.atlas.recipes import RECIPES
 

@@ -6,13 +6,13 @@ from typing import Final
 from unittest.mock import patch
 
 import abu_calc
-from abu_calc.features.atlas.charts import AtlasChart
 from abu_calc.features.declare import study as declare_study
 from abu_calc.features.declare import type_test_simulation as type_test
 from abu_calc.features.declare.type_test_simulation import simulated_test
 from abu_calc.foundation.units import GRAVITY
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size as sized
+from tests.studies.atlas.charts import AtlasChart
 from tests.studies.atlas.recipe import FOLDER, RPM, CellValue, Recipe, Result, plain
 
 MACHINE: Final = "machine.toml"

@@ -5,7 +5,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Final
 
-from abu_calc.features.atlas.charts import AtlasChart, place
+from tests.studies.atlas.charts import AtlasChart, place
 from tests.studies.atlas.fresh import agreement
 from tests.studies.atlas.recipe import FOLDER
 from tests.studies.atlas.recipes import RECIPES
@@ -58,8 +58,7 @@ def _opening() -> Iterator[str]:
     yield "# Atlas of autobalancing"
     yield _wrapped(
         "Charts over dimensionless numbers. Each cell is a command, and each number has its interval in a CSV file "
-        "beside the figure. `abu size --output report.html` shows those charts whose fixed numbers the machine has, "
-        "with its place on them."
+        "beside the figure."
     )
     yield _wrapped(
         f"The records hold {cells} cells and {starts(every):,} starts. Of these, {full:,} follow the full equations of "

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from abu_calc.features.atlas.charts import AtlasChart
 from abu_calc.features.stability.attractors import interval
+from tests.studies.atlas.charts import AtlasChart
 
 FOLDER: Final = Path(__file__).parent
 SHOWN: Final = "tests/studies/atlas"

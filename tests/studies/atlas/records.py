@@ -1,16 +1,14 @@
-"""Records of the atlas: one CSV for each letter, and the cells that the package ships."""
+"""Records of the atlas: one CSV for each letter."""
 
 import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
-import abu_calc.features.atlas.charts as package
-from abu_calc.features.atlas.charts import AtlasChart, CellPlace, charts, place
+from tests.studies.atlas.charts import AtlasChart, CellPlace, charts, place
 from tests.studies.atlas.recipe import FOLDER, CellValue
 
 HEADER: Final = ("chart", "across", "up", "value", "low", "high", "starts", "lost", "command")
-SHIPPED: Final = HEADER[:6]
 Row = Mapping[str, str]
 
 
@@ -52,12 +50,6 @@ def write(letter: str, rows: Mapping[CellPlace, Row]) -> None:
     """Write a letter's record, its cells in their order."""
     order = [place(chart.name, x, y) for chart, x, y in spots(letter)]
     _written(record(letter), HEADER, [rows[at] for at in order if at in rows])
-
-
-def ship() -> None:
-    """Write the cells of all records into the package."""
-    rows = [each for letter in letters() for each in stored(letter).values()]
-    _written(Path(package.__file__).with_name(package.CELLS), SHIPPED, rows)
 
 
 def _written(path: Path, header: Sequence[str], rows: Sequence[Row]) -> None:

@@ -1,18 +1,14 @@
 """Charts of the atlas as data: axes, fixed numbers, definition, and the cells that were computed."""
 
-import csv
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
-from itertools import pairwise
 from typing import Any, Final
 
 from abu_calc.foundation.frozen import dataclass
 
-PLACE: Final = "abu_calc.features.atlas"
-CELLS: Final = "cells.csv"
-"""File of the package that holds the cells of all charts: chart, across, up, value, low, high."""
+PLACE: Final = "tests.studies.atlas"
 TIE: Final = "\u00a0"
 """Space at which no line breaks."""
 
@@ -41,12 +37,6 @@ class FixedNumber:
     value: float | str
     tolerance: float = 0.0
 
-    def fits(self, value: float | str) -> bool:
-        """True if a machine's number is this one."""
-        if isinstance(value, str) or isinstance(self.value, str):
-            return value == self.value
-        return abs(value - self.value) <= self.tolerance * abs(self.value) + 1e-9
-
     @property
     def text(self) -> str:
         """Name, value and tolerance in words."""
@@ -72,18 +62,6 @@ class AtlasChart:
     fixed: tuple[FixedNumber, ...]
     bounds: tuple[float, ...]
     share: bool
-
-    def class_of(self, value: float) -> int:
-        """Class of a value, 0 to 4: the number of bounds that it reaches."""
-        return sum(value >= bound - 1e-12 for bound in self.bounds)
-
-    @property
-    def words(self) -> tuple[str, ...]:
-        """The five classes in words."""
-        shown = [f"{100 * bound:g} %" if self.share else f"{bound:g}" for bound in self.bounds]
-        between = [f"{low} to {high}" for low, high in pairwise(shown)]
-        last = "all" if self.share and self.bounds[-1] == 1.0 else f"{shown[-1]} or more"
-        return (f"below {shown[0]}", *between, last)
 
 
 @cache
@@ -119,13 +97,3 @@ CellPlace = tuple[str, str, str]
 def place(chart: str, across: float, up: float) -> CellPlace:
     """The place of a cell."""
     return chart, f"{across:g}", f"{up:g}"
-
-
-@cache
-def cells() -> Mapping[CellPlace, tuple[float, float, float]]:
-    """Value of each computed cell with the ends of its interval."""
-    rows = csv.DictReader(files(PLACE).joinpath(CELLS).read_text("utf-8").splitlines())
-    return {
-        (row["chart"], row["across"], row["up"]): (float(row["value"]), float(row["low"]), float(row["high"]))
-        for row in rows
-    }

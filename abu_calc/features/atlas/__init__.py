@@ -1,1 +1,0 @@
-"""Atlas of autobalancing: dimensionless charts, and the place of a machine on those whose fixed numbers it has."""
