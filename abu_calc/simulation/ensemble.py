@@ -4,12 +4,12 @@
 """
 
 import math
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
 from itertools import islice
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
@@ -17,7 +17,7 @@ from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.stall import hanging_bounds as bounds_of
-from abu_calc.dynamics.trajectory import Samples, Trajectory
+from abu_calc.dynamics.trajectory import Samples, Times, Trajectory
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
@@ -74,6 +74,13 @@ ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
 
 
+class Runner(NamedTuple):
+    """How one start of a machine is run, as `start_once` does it, and which integrator all its starts ask for."""
+
+    once: Callable[..., "StartOutcome | Lost"]
+    integrator: Callable[[Any, Member, float, float], str]
+
+
 class StartRun(NamedTuple):
     """Outcome of one start case, and the run it is from."""
 
@@ -94,21 +101,31 @@ def simulate_members(
     """
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
-    starts, tolerance = list(members(design, doubtful, shares)), first_tolerance(design)
-    results = _found(design, starts, accuracy, tolerance, progress, workers)
+    starts, oil = list(members(design, doubtful, shares)), design.case.oil
+    ensemble = simulate_starts(design, starts, accuracy, first_tolerance(design), progress, workers)
+    return ensemble if oil is None else replace(ensemble, temperatures=oil.temperatures)
+
+
+def simulate_starts(
+    design: Any, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int,
+    runner: Runner | None = None,
+) -> Ensemble:  # fmt: skip
+    """Each of these starts once at a tolerance, those that decide a check once more at a tighter one.
+
+    `design`: of whatever machine `runner` runs; None: one with a single race.
+    """
+    results = _found(design, starts, accuracy, tolerance, progress, workers, runner)
     spent = sum(result.work for result in results)
     while undecided := deciding(results, design.case.drag):
         again = [(results[k].member, early_end) for k, early_end in undecided.items()]
-        closer = within(progress, "closer")
-        runs = list(every_start(design, again, accuracy, TIGHTER * tolerance, closer, workers, run_up_work=MORE * WORK))
-        runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers, spent)
+        closer, tight, most = within(progress, "closer"), TIGHTER * tolerance, MORE * WORK
+        runs = list(every_start(design, again, accuracy, tight, closer, workers, run_up_work=most, runner=runner))
+        runs = _with_more(design, runs, again, accuracy, tight, closer, workers, spent, runner)
         spent += sum(run.work for run in runs)
         for k, rerun in zip(undecided, runs, strict=True):
             results[k] = worse(results[k], rerun)
     outcomes = tuple(result for result in results if isinstance(result, StartOutcome))
-    lost = tuple(result for result in results if isinstance(result, Lost))
-    oil = design.case.oil
-    return Ensemble(design.case.drag, outcomes, lost, None if oil is None else oil.temperatures)
+    return Ensemble(design.case.drag, outcomes, tuple(result for result in results if isinstance(result, Lost)))
 
 
 def simulate_first(design: Design, accuracy: float = 0.01) -> Ensemble:
@@ -211,6 +228,16 @@ def followed_until(design: Design, scene: Scene, response: Response, samples: Sa
     return _followed_until(design, scene, outcome, _early(design, member, scene), samples)
 
 
+def integrated(
+    scene: Scene, times: Times, tolerance: float, work: int = WORK, wanted: str = "auto"
+) -> tuple[Trajectory, int]:
+    """One run of a scene, and the work that it took of so much. Raises NotTrustworthyError."""
+    equations = assemble(scene)
+    choice = choose(equations, wanted, tolerance)
+    run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
+    return run, choice.work(run)
+
+
 def _early(design: Design, member: Member, scene: Scene) -> Early:
     """Early stopping of a start case's run."""
     return Early(scene, scene.full_speed, partial(_decided, design, member, scene))
@@ -220,13 +247,10 @@ def _run_of_scene(
     design: Design, member: Member, scene: Scene, tolerance: float, work: int, early_end: bool, wanted: str
 ) -> tuple[StartRun, float | None]:
     """One run, and the time [s] until which it must be followed; None: no longer."""
-    equations = assemble(scene)
-    choice = choose(equations, wanted, tolerance)
     early = _early(design, member, scene)
-    times = early.sampling() if early_end else needed_times(scene)
-    run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
+    run, spent = integrated(scene, early.sampling() if early_end else needed_times(scene), tolerance, work, wanted)
     outcome = outcome_of(design, member, scene, early.response(run))
-    outcome = replace(outcome, work=choice.work(run), rise=early.rising(run))
+    outcome = replace(outcome, work=spent, rise=early.rising(run))
     return StartRun(outcome, scene, run), _followed_until(design, scene, outcome, early, run)
 
 
@@ -251,25 +275,27 @@ def _decided(
 
 
 def _found(
-    design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int
-) -> list[StartOutcome | Lost]:
+    design: Any, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int,
+    runner: Runner | None,
+) -> list[StartOutcome | Lost]:  # fmt: skip
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(start, True) for start in starts if start.drag == design.case.drag]
     others = [(start, True) for start in starts if start.drag != design.case.drag]
     both, most = [*first, *others], MORE * WORK
-    with closing(every_start(design, both, accuracy, tolerance, progress, workers, run_up_work=most)) as runs:
+    runs = every_start(design, both, accuracy, tolerance, progress, workers, run_up_work=most, runner=runner)
+    with closing(runs):
         results = list(islice(runs, len(first)))
-        results = _with_more(design, results, first, accuracy, tolerance, progress, workers, 0)
+        results = _with_more(design, results, first, accuracy, tolerance, progress, workers, 0, runner)
         if sum(isinstance(result, Lost) for result in results) >= MOST_LOST:
             return [*results, *(Lost(start, "not tried, since others gave no answer", 0) for start, _ in others)]
         rest = list(runs)
     spent = sum(result.work for result in results)
-    return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers, spent)]
+    return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers, spent, runner)]
 
 
 def _with_more(
-    design: Design, results: list[StartOutcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
-    tolerance: float, progress: Progress, workers: int, spent: int,
+    design: Any, results: list[StartOutcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
+    tolerance: float, progress: Progress, workers: int, spent: int, runner: Runner | None,
 ) -> list[StartOutcome | Lost]:  # fmt: skip
     """Outcomes of the start cases; those that ran out of allowed work are tried once more.
 
@@ -284,28 +310,30 @@ def _with_more(
     if work <= WORK:
         return results
     runs = every_start(
-        design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work
-    )
+        design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work,
+        runner=runner,
+    )  # fmt: skip
     longer = dict(zip(short, runs, strict=True))
     return [longer.get(k, outcome) for k, outcome in enumerate(results)]
 
 
 def every_start(
-    design: Design, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
-    workers: int, work: int = WORK, run_up_work: int | None = None,
+    design: Any, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
+    workers: int, work: int = WORK, run_up_work: int | None = None, runner: Runner | None = None,
 ) -> Generator[StartOutcome | Lost, None, None]:  # fmt: skip
     """Each start once, and whether it may end early.
 
     `run_up_work`: work that a run-up may take; None: as much as any start.
     """
-    wanted = integrator_for(design, starts[0][0], accuracy, tolerance) if starts else "auto"
+    once, integrator = runner or Runner(start_once, integrator_for)
+    wanted = integrator(design, starts[0][0], accuracy, tolerance) if starts else "auto"
     long = work if run_up_work is None else run_up_work
     tasks = [
         (design, start, accuracy, tolerance, long if start.run_up else work, early_end, wanted)
         for start, early_end in starts
     ]
 
-    return side_by_side(start_once, tasks, workers, counted(progress, "idle: {} of {} starts", len(tasks)))
+    return side_by_side(once, tasks, workers, counted(progress, "idle: {} of {} starts", len(tasks)))
 
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> StartOutcome:
@@ -324,5 +352,6 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, max(scene.imbalance, scene.largest_imbalance), felt_mass(design, scene)),
         ball_angles=response.final.ball_angles,
+        moved=design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio),
         velocity=response.velocity_rms,
     )

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check, Grade, coded, verdict
@@ -81,12 +81,12 @@ UNCARRIED = "The balls, side by side, cannot carry the imbalance"
 CARRY = "Add balls or specify larger ones, see ABU201."
 
 
-def ensemble_checks(design: Design, ensemble: Ensemble | None, change: TriedChange | None = None) -> tuple[Check, ...]:
+def ensemble_checks(design: Any, ensemble: Ensemble | None, change: TriedChange | None = None) -> tuple[Check, ...]:
     """Checks that the balls balance in every start case, soon enough, and that none stalls.
 
     Start cases at the given viscous drag rate fail a check, those at a third and at three times it warn. `change`: a
     simulated change of the file; the first check that is not passed tells it. NOT EVALUATED without an ensemble: the
-    balls, side by side, cannot carry the imbalance.
+    balls, side by side, cannot carry the imbalance. `design`: of one race or of two.
     """
     if ensemble is None:
         return tuple(coded(code, "not-done", UNCARRIED, remedy=CARRY) for code in JUDGED)
@@ -163,8 +163,7 @@ def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, ea
     if others:
         verb = "does" if len(others) == 1 else "do"
         sentences.append(f"{len(others)} {verb} not: {_first(others, ensemble)}")
-    moved = design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio)
-    if worst and worst.imbalance > moved:
+    if worst and worst.imbalance > worst.moved:
         sentences.append("The balls increase the imbalance: they gather on the heavy side or stall")
     sentences += [f"No answer from {_words(lost.member.name, lost.member.drag, ensemble)}: {lost.reason}"
                   for lost in ensemble.lost[:1]]  # fmt: skip
@@ -245,7 +244,8 @@ def _loudest(outcomes: Iterable[StartOutcome]) -> StartOutcome | None:
 
 def _named(outcome: StartOutcome, ensemble: Ensemble) -> str:
     """The start case in words, with the race's centre unless that is opposite the imbalance, as in other commands."""
-    side = "" if outcome.member.eccentricity == OPPOSITE else f", race centre {outcome.member.race_centre_deg:g}°"
+    usual = outcome.member.eccentricity == OPPOSITE or outcome.member.phases is not None
+    side = "" if usual else f", race centre {outcome.member.race_centre_deg:g}°"
     return _words(f"{outcome.member.name}{side}", outcome.member.drag, ensemble)
 
 

@@ -44,6 +44,8 @@ class StartOutcome:
     """Duration [s] of a run that went on longer than its scene, since the balls were not at rest by then; else 0."""
     velocity: float = 0.0
     """Rms velocity [m/s] of the axis at the end, at the race."""
+    moved: float = math.inf
+    """Imbalance [kg m] at the race without balls."""
 
     @property
     def hanging(self) -> bool:
@@ -92,14 +94,14 @@ class StartOutcome:
 
 @dataclass(frozen=True)
 class Lost:
-    """A start that gave no number to be trusted, and why; `work`: the evaluations it was allowed.
+    """A start, of whatever kind, that gave no number to be trusted, and why; `work`: the evaluations it was allowed.
 
     `short`: whether more work would have given one, as far as is known.
     """
 
-    member: Member
+    member: Any
     reason: str
-    work: int
+    work: int = 0
     short: bool = False
 
 

@@ -65,6 +65,15 @@ class Member:
     varied: Variation = Variation()
     promised: bool = True
     """True if all that differs is within what file and drawing promise."""
+    phases: tuple[float, ...] | None = None
+    """Phases [rad] of the imbalances whose phase against the first one is unknown, on a spindle with two races."""
+    turned: float = 0.0
+    """Angle [rad] by which the balls are further round than `start` says, on such a spindle."""
+
+    @property
+    def at_nominal(self) -> bool:
+        """True if nothing differs from the file, neither oil nor speed."""
+        return self.promised and self.speed is None and self.varied == Variation()
 
     @property
     def race_centre_deg(self) -> float:
@@ -83,7 +92,9 @@ class Member:
     @property
     def name(self) -> str:
         """Start case in words."""
-        return self.way if self.speed is None else f"{self.way} ({from_si(self.speed, 'rpm'):.6g} rpm)"
+        speed = "" if self.speed is None else f" ({from_si(self.speed, 'rpm'):.6g} rpm)"
+        phases = ", ".join(f"{from_si(phase, 'deg'):.0f}°" for phase in self.phases or ())
+        return f"{self.way}{speed}{', phase ' * bool(phases)}{phases}"
 
 
 def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] | None = None) -> Iterator[Member]:

@@ -12,7 +12,6 @@ from abu_calc.features.grinding.start_cases import (
     FEW,
     STEADY,
     LoadedEnsemble,
-    LoadedLost,
     LoadedOutcome,
     Pressed,
     loaded_ensemble,
@@ -20,6 +19,7 @@ from abu_calc.features.grinding.start_cases import (
 from abu_calc.features.grinding.work import LOUDER, Work, below
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.sizing.places import handle_levels
 
 State = Literal["balanced", "held by friction", "not balanced", "swinging", "stalled", "bouncing"]
@@ -190,7 +190,7 @@ class GrindingOutcomes:
         return self.scatter + own
 
     @property
-    def lost(self) -> tuple[LoadedLost, ...]:
+    def lost(self) -> tuple[Lost, ...]:
         """The start cases without an answer."""
         return self.ensemble.lost
 

@@ -11,10 +11,8 @@ from typing import Final, Literal
 
 import numpy as np
 
-from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.trajectory import Array, Sampling
+from abu_calc.dynamics.trajectory import Array
 from abu_calc.features.grinding.simulation import RunSummary, read
 from abu_calc.features.grinding.steady_contact import contact_presses
 from abu_calc.foundation.errors import NotTrustworthyError
@@ -22,7 +20,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
 from abu_calc.simulation.effect_selection import chosen
-from abu_calc.simulation.ensemble import ALWAYS, first_tolerance, start_once
+from abu_calc.simulation.ensemble import ALWAYS, WORK, first_tolerance, integrated, start_once
 from abu_calc.simulation.ensemble_results import Lost, StartOutcome
 from abu_calc.simulation.residual_criteria import SLIPPING
 from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION
@@ -34,9 +32,6 @@ Pressed = Literal["settled", "at once"]
 
 TOLERANCE: Final = 2e-5
 """Tolerance of the runs. Levels of the presets and of an angle grinder are the same at 2e-4, to 0.1 dB."""
-
-WORK: Final = 400_000
-"""Work of one run: that of an idle start."""
 
 LONGEST: Final = 6.0
 """Seconds that a run lasts which has not come to a steady level, or bounces."""
@@ -109,19 +104,11 @@ class LoadedOutcome:
 
 
 @dataclass(frozen=True)
-class LoadedLost:
-    """A start case without an answer, and why."""
-
-    start: LoadedStart
-    reason: str
-
-
-@dataclass(frozen=True)
 class LoadedEnsemble:
     """All start cases of one machine at its workpiece."""
 
     outcomes: tuple[LoadedOutcome, ...]
-    lost: tuple[LoadedLost, ...]
+    lost: tuple[Lost, ...]
 
     @property
     def count(self) -> int:
@@ -132,9 +119,9 @@ class LoadedEnsemble:
         """The outcomes of one way of pressing."""
         return tuple(outcome for outcome in self.outcomes if outcome.start.pressed == when)
 
-    def without_answer(self, when: Pressed) -> tuple[LoadedLost, ...]:
+    def without_answer(self, when: Pressed) -> tuple[Lost, ...]:
         """The start cases of one way of pressing that have no answer."""
-        return tuple(lost for lost in self.lost if lost.start.pressed == when)
+        return tuple(lost for lost in self.lost if lost.member.pressed == when)
 
 
 def loaded_ensemble(
@@ -150,20 +137,20 @@ def loaded_ensemble(
         return None
     settled = list(_settled(design, accuracy, idle, most))
     starts = [start for start in settled if isinstance(start, LoadedStart)] + _at_once(design, most)
-    lost = [start for start in settled if isinstance(start, LoadedLost)]
+    lost = [start for start in settled if isinstance(start, Lost)]
     tasks = [(design, start, accuracy) for start in starts]
 
     watched = counted(progress, "grinding: {} of {} starts", len(tasks))
     outcomes = list(side_by_side(loaded_start, tasks, workers, watched))
     longer = MOST_LONGER if most is None else FEW_LONGER
     outcomes = _longer(design, outcomes, accuracy, progress, workers, longer)
-    lost += [outcome for outcome in outcomes if isinstance(outcome, LoadedLost)]
+    lost += [outcome for outcome in outcomes if isinstance(outcome, Lost)]
     return LoadedEnsemble(tuple(outcome for outcome in outcomes if isinstance(outcome, LoadedOutcome)), tuple(lost))
 
 
 def _settled(
     design: Design, accuracy: float, idle: Sequence[StartOutcome | Lost] | None, most: int | None
-) -> Iterator[LoadedStart | LoadedLost]:
+) -> Iterator[LoadedStart | Lost]:
     """The idle start cases at their ends, as starts of grinding; or why one has no end to start from."""
     every = [member for member in members(design, shares=(1.0,)) if member.speed is None or member.by_motor]
     known = {outcome.member: outcome for outcome in idle or ()}
@@ -171,9 +158,9 @@ def _settled(
         outcome = known.get(member) or start_once(design, member, accuracy, first_tolerance(design))
         start = LoadedStart(member, "settled")
         if isinstance(outcome, Lost):
-            yield LoadedLost(start, f"idle: {outcome.reason}")
+            yield Lost(start, f"idle: {outcome.reason}")
         elif outcome.hanging:
-            yield LoadedLost(start, "idle: balls stall and never settle")
+            yield Lost(start, "idle: balls stall and never settle")
         else:
             yield replace(start, member=replace(member, angles=outcome.ball_angles))
 
@@ -194,7 +181,7 @@ def _kinds(starts: Sequence[Member], most: int | None, first: int) -> list[Membe
     return [sides[(first + k) % len(sides)] for k, sides in enumerate(kinds.values())][:most]
 
 
-def loaded_start(design: Design, start: LoadedStart, accuracy: float, least: float = 0.0) -> LoadedOutcome | LoadedLost:
+def loaded_start(design: Design, start: LoadedStart, accuracy: float, least: float = 0.0) -> LoadedOutcome | Lost:
     """Run one start case; `least` [s]: it lasts so long at least."""
     member = start.member
     if start.pressed == "settled":
@@ -204,9 +191,9 @@ def loaded_start(design: Design, start: LoadedStart, accuracy: float, least: flo
         scene = replace(scene, duration=max(scene.duration, least))
         outcome = _observed(design, start, with_parted_balls(chosen(scene, accuracy, ALWAYS).scene)[0])
     except NotTrustworthyError as error:
-        return LoadedLost(start, str(error).splitlines()[0])
+        return Lost(start, str(error).splitlines()[0])
     if outcome.parts and design.case.contact is not None and design.case.contact.kind == "rigid":
-        return LoadedLost(start, "the contact is taken as rigid, and would have to pull")
+        return Lost(start, "the contact is taken as rigid, and would have to pull")
     return outcome
 
 
@@ -215,9 +202,7 @@ def _observed(design: Design, start: LoadedStart, scene: Scene) -> LoadedOutcome
     turns = max(int(OBSERVED * scene.duration / scene.revolution), 2)
     step = scene.revolution / SAMPLES_PER_REVOLUTION
     times = np.asarray(scene.duration - step * np.arange(turns * SAMPLES_PER_REVOLUTION, -1, -1), dtype=float)
-    equations = assemble(scene)
-    choice = choose(equations, "auto", TOLERANCE)
-    states = choice.integrate(equations, TOLERANCE, Sampling(times), choice.evaluations(WORK)).at(times)
+    states = integrated(scene, times, TOLERANCE, WORK)[0].at(times)
     half = turns // 2 * SAMPLES_PER_REVOLUTION
     squares = scene.axis_velocity(states[:, :-1]) ** 2
     first, last = (_level(design, _rms(part)) for part in (squares[:, :half], squares[:, -half:]))
@@ -252,9 +237,9 @@ def _level(design: Design, velocity: float) -> float:
 
 
 def _longer(
-    design: Design, outcomes: list[LoadedOutcome | LoadedLost], accuracy: float, progress: Progress, workers: int,
+    design: Design, outcomes: list[LoadedOutcome | Lost], accuracy: float, progress: Progress, workers: int,
     most: int,
-) -> list[LoadedOutcome | LoadedLost]:  # fmt: skip
+) -> list[LoadedOutcome | Lost]:  # fmt: skip
     """Run at most so many again for longer whose level is not steady, or that bounce louder than the quietest.
 
     They may go over to another motion yet. A run that fails leaves the first one.
@@ -263,15 +248,14 @@ def _longer(
     if not levels:
         return outcomes
     doubtful = [
-        k
+        (k, outcome.start)
         for k, outcome in enumerate(outcomes)
         if isinstance(outcome, LoadedOutcome) and outcome.duration < LONGEST
         and (outcome.drift > STEADY or (outcome.parts and outcome.level > min(levels) + 2 * STEADY))
     ][:most]  # fmt: skip
-    tasks = [(design, outcomes[k].start, accuracy, LONGEST) for k in doubtful]
+    tasks = [(design, start, accuracy, LONGEST) for _, start in doubtful]
 
     watched = counted(progress, "grinding, longer: {} of {} starts", len(tasks))
-    longer = dict(zip(doubtful, side_by_side(loaded_start, tasks, workers, watched), strict=True))
-    return [
-        later if isinstance(later := longer.get(k), LoadedOutcome) else outcome for k, outcome in enumerate(outcomes)
-    ]
+    again = side_by_side(loaded_start, tasks, workers, watched)
+    longer = {k: later for (k, _), later in zip(doubtful, again, strict=True) if isinstance(later, LoadedOutcome)}
+    return [longer.get(k, outcome) for k, outcome in enumerate(outcomes)]

@@ -203,7 +203,7 @@ def grinding(
     """
     ACCURACY.check(accuracy)
     if machine.two_races is not None:
-        two: GrindingResult = imported("two_races.work:grind_two_races")(machine, accuracy, progress, wheel)
+        two: GrindingResult = imported("two_races.work:grind_two_races")(machine, progress, wheel)
         return two
     if wheel is not None:
         raise InputError(

@@ -3,6 +3,7 @@
 import cmath
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from operator import attrgetter
 from typing import Any, ClassVar, Final
 
@@ -11,7 +12,7 @@ from abu_calc.features.sweep.columns import What, drag_ratio
 from abu_calc.features.sweep.samples import SweepStudy, Values
 from abu_calc.features.two_races.case import TwoRaceCase, one_race_machine, read_case
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
-from abu_calc.features.two_races.start_cases import ACCURACY, LostRun, StartCase, race_centre, run_of, wheels_share
+from abu_calc.features.two_races.start_cases import race_centre, start, start_once, wheels_share
 from abu_calc.formulas.two_races import eccentricity_resultants
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -20,7 +21,10 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.text import Part
 from abu_calc.inputs.two_races import RACES, TwoRaceFile
 from abu_calc.inputs.variation import Variants
+from abu_calc.simulation.ensemble import MORE, TOLERANCE, WORK
+from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.scene_of_design import AHEAD
+from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing.design import built_race
 
 PHASE: Final = "start.phase_{}_deg"
@@ -73,17 +77,17 @@ class TwoRaceBuilds(SweepStudy):
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
         """One start of one machine. Raises NotTrustworthyError if the run gives no answer."""
         made = built_two_races(self.design, self.variants.table(self._in_file(values)))
-        start = started(values, phase_keys(made.case))
-        run = run_of(made, start, max(self.accuracy, ACCURACY))
-        if isinstance(run, LostRun):
+        member = started(made, values)
+        run = start_once(made, member, self.accuracy, TOLERANCE, MORE * WORK)
+        if isinstance(run, Lost):
             raise NotTrustworthyError(run.reason)
         limits = made.case.table.limits
         flags = (
-            run.balances, not run.stalls, run.level <= limits.vibration_level_db, run.in_time(limits),
+            run.balanced, not run.hanging, run.level <= limits.vibration_level_db, run.in_time(limits),
         )  # fmt: skip
         return (
-            run.level, run.quiet_time, run.rest_time, run.settling_time, from_si(max(run.race_displacements), "um"),
-            from_si(max(run.residuals), "g_mm"), capacity_ratio(made, start), *flags, all(flags),
+            run.level, run.quiet_time, run.rest_time, run.settling_time, from_si(run.residual, "um"),
+            from_si(run.imbalance, "g_mm"), capacity_ratio(made, member), *flags, all(flags),
         )  # fmt: skip
 
 
@@ -117,16 +121,15 @@ def dotted(path: Path) -> str:
     return ".".join(map(str, path))
 
 
-def started(values: Values, keys: tuple[str, ...]) -> StartCase:
+def started(design: TwoRaceDesign, values: Values) -> Member:
     """The start case of a sample; values that do not vary are usual, phases that do not vary 0."""
-    warm = values.get("start.temperature_C")
-    return StartCase(
-        values.get("start.kind", "bunched"),
-        1.0 if warm is None else drag_ratio(warm),
-        tuple(to_si(values.get(key, 0.0), "deg") for key in keys),
-        ahead=AHEAD if (angle := values.get("start.angle_deg")) is None else to_si(angle, "deg"),
-        race_centre=to_si(values.get("start.eccentricity_deg", 0.0), "deg"),
+    kind, warm, angle = (values.get(f"start.{key}") for key in ("kind", "temperature_C", "angle_deg"))
+    phases = tuple(to_si(values.get(key, 0.0), "deg") for key in phase_keys(design.case))
+    member = start(
+        design, kind or "bunched", phases, drag=(drag_ratio(warm) if warm is not None else 1.0) * design.case.drag
     )
+    ahead = 0.0 if angle is None else to_si(angle, "deg") - (AHEAD if member.start != "spread" else 0.0)
+    return replace(member, turned=ahead, eccentricity=to_si(values.get("start.eccentricity_deg", 0.0), "deg"))
 
 
 def built_two_races(design: TwoRaceDesign, table: TwoRaceFile) -> TwoRaceDesign:
@@ -144,15 +147,15 @@ def built_two_races(design: TwoRaceDesign, table: TwoRaceFile) -> TwoRaceDesign:
     return TwoRaceDesign(case, bare, (built(0), built(1)))
 
 
-def capacity_ratio(design: TwoRaceDesign, start: StartCase) -> float:
+def capacity_ratio(design: TwoRaceDesign, member: Member) -> float:
     """Smaller ratio of capacity to what a race needs at the phases and eccentricities of this start."""
     case = design.case
-    off = cmath.rect(case.eccentricity, race_centre(design, start))
+    off = cmath.rect(case.eccentricity, race_centre(design, member))
     eccentric = eccentricity_resultants(case.rotor, case.races, (off, off), case.speed)
     ratios = [
         race.design.autobalancer.capacity / need
         for index, race in enumerate(design.races)
-        if (need := abs(eccentric[index] - wheels_share(design, index, start))) > 0
+        if (need := abs(eccentric[index] - wheels_share(design, index, member))) > 0
     ]
     return min(ratios, default=math.inf)
 

@@ -4,13 +4,16 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import Final, NamedTuple
 
-from abu_calc.features.two_races.checks import slowest
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.start_cases import MOST_ONE, StartCase, TwoRaceRun, run_of, runs_of
+from abu_calc.features.two_races.start_cases import ensemble_of, start_once
+from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.simulation.ensemble import TOLERANCE, WORK
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing.balls import CAPACITY, MASS
 from abu_calc.sizing.requirements import missed_by_race
 from abu_calc.standards.balls import stock_diameters
@@ -26,6 +29,8 @@ ROOMIER: Final = (1.25, 1.6)
 """Factors on the room of both autobalancers that are tried."""
 HEAVIER: Final = (0.08, 0.15)
 """Shares of the machine's mass that are tried for each autobalancer."""
+MOST_WORK: Final = 3_500_000
+"""Work of all start cases of changes that are tried for one check."""
 
 
 class Change(NamedTuple):
@@ -84,7 +89,7 @@ def changed(
 
 def _quicker(design: TwoRaceDesign) -> Iterator[Change]:
     """Drag rates first, then larger balls of the stock, with the given drag rate and twice that."""
-    drag = max(design.case.drags)
+    drag = design.case.drag
     for factor in FACTORS:
         if change := changed(design, {"rolling_drag_per_s": _rounded(drag * factor)}):
             yield change
@@ -114,7 +119,7 @@ def _quieter(design: TwoRaceDesign) -> Iterator[Change]:
             if entries and (change := changed(design, entries)):
                 yield change
     for factor in FACTORS:
-        if change := changed(design, {"rolling_drag_per_s": _rounded(max(design.case.drags) * factor)}):
+        if change := changed(design, {"rolling_drag_per_s": _rounded(design.case.drag * factor)}):
             yield change
 
 
@@ -142,52 +147,46 @@ def _rounded(value: float) -> float:
 
 
 def tried_change(
-    design: TwoRaceDesign,
-    late: StartCase,
-    before: float | None,
-    accuracy: float,
-    progress: Progress,
-    workers: int,
-    work: int,
+    design: TwoRaceDesign, before: Ensemble, accuracy: float, progress: Progress, workers: int
 ) -> Action | None:
-    """The first change at which every start case balances in time; None if none of those tried by this work does.
+    """The first change at which every start case balances in time; None if none of those tried does."""
+    slow, limits = max(before.outcomes, key=lambda run: run.quiet_time_or_inf), design.case.table.limits
 
-    `late`: the slowest start case, which is tried first, `before`: its quiet time [s] if it has one.
-    """
-
-    def in_time(run: TwoRaceRun) -> bool:
+    def in_time(run: StartOutcome) -> bool:
         """True if the run balances within the limit."""
-        return run.balances and run.in_time(design.case.table.limits)
+        return run.balanced and run.in_time(limits)
 
-    mended = _mended(_quicker(design), late, in_time, accuracy, progress, workers, work)
-    if mended is None or (slow := slowest(mended[1])) is None:
+    mended = _mended(design, _quicker(design), slow.member, in_time, accuracy, progress, workers)
+    if mended is None:
         return None
-    change, runs = mended
-    was = "" if before is None else f"from {before:.2f} "
+    change, after = mended
+    was = "" if slow.quiet_time is None else f"from {slow.quiet_time:.2f} "
     return Action(
-        f"Set {change.text} in both [[autobalancer]] tables: the slowest start case falls {was}to {slow[0]:.2f} s "
-        f"(simulated). All {len(runs)} start cases, hot and cold oil included, then pass.",
+        f"Set {change.text} in both [[autobalancer]] tables: the slowest start case falls {was}to "
+        f"{max(run.quiet_time_or_inf for run in after.outcomes):.2f} s (simulated). All {after.members} start cases, "
+        "hot and cold oil included, then pass.",
         change.overrides,
     )
 
 
 def quieter_change(
-    design: TwoRaceDesign, loud: TwoRaceRun, accuracy: float, progress: Progress, workers: int, work: int
+    design: TwoRaceDesign, before: Ensemble, accuracy: float, progress: Progress, workers: int
 ) -> Action | None:
     """The first change at which every start case balances below the level limit; None as for `tried_change`."""
-    limits = design.case.table.limits
+    loud, limits = max(before.outcomes, key=lambda run: run.level), design.case.table.limits
 
-    def quiet(run: TwoRaceRun) -> bool:
+    def quiet(run: StartOutcome) -> bool:
         """True if the run balances below the limit."""
-        return run.balances and run.level <= limits.vibration_level_db
+        return run.balanced and run.level <= limits.vibration_level_db
 
-    mended = _mended(_quieter(design), loud.case, quiet, accuracy, progress, workers, work)
+    mended = _mended(design, _quieter(design), loud.member, quiet, accuracy, progress, workers)
     if mended is None:
         return None
-    change, runs = mended
+    change, after = mended
     return Action(
         f"Set {change.text} in both [[autobalancer]] tables: the loudest start case falls from {loud.level:.1f} to "
-        f"{max(run.level for run in runs):.1f} dB (simulated, {len(runs)} start cases, hot and cold oil included).",
+        f"{max(run.level for run in after.outcomes):.1f} dB (simulated, {after.members} start cases, hot and cold oil "
+        "included).",
         change.overrides,
     )
 
@@ -205,20 +204,22 @@ def sturdier_change(design: TwoRaceDesign) -> Action | None:
 
 
 def _mended(
-    changes: Iterable[Change], first: StartCase, passes: Callable[[TwoRaceRun], bool], accuracy: float,
-    progress: Progress, workers: int, work: int,
-) -> tuple[Change, list[TwoRaceRun]] | None:  # fmt: skip
-    """The first change at which every start case passes, with its runs; the start case `first` is tried before all."""
+    design: TwoRaceDesign, changes: Iterable[Change], first: Member, passes: Callable[[StartOutcome], bool],
+    accuracy: float, progress: Progress, workers: int,
+) -> tuple[Change, Ensemble] | None:  # fmt: skip
+    """The first change at which every start case passes, with these; the start case `first` is tried before all."""
+    left = MOST_WORK
     for change in changes:
-        if work <= 0:
+        if left <= 0 or patience.over():
             break
-        run = run_of(change.design, first, accuracy, min(MOST_ONE, work))
-        work -= run.work
-        if not isinstance(run, TwoRaceRun) or not passes(run):
+        other, given = change.design, design.case.drag
+        same = replace(first, drag=first.drag * other.case.drag / given) if given else first
+        run = start_once(other, same, accuracy, TOLERANCE, WORK)
+        left -= run.work
+        if not isinstance(run, StartOutcome) or not passes(run):
             continue
-        runs = list(runs_of(change.design, accuracy, within(progress, change.text), workers, work))
-        work -= sum(run.work for run in runs)
-        known = [run for run in runs if isinstance(run, TwoRaceRun) and passes(run)]
-        if len(known) == len(runs):
-            return change, known
+        after = ensemble_of(other, accuracy, within(progress, change.text), workers)
+        left -= after.work
+        if not after.lost and all(map(passes, after.outcomes)):
+            return change, after
     return None

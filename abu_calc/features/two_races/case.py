@@ -59,6 +59,11 @@ class TwoRaceCase:
         return first, second
 
     @property
+    def drag(self) -> float:
+        """The larger of them [1/s], which stands for both in a start case."""
+        return max(self.drags)
+
+    @property
     def horizontal(self) -> bool:
         """True if gravity acts in the plane of the races."""
         return self.table.machine.spindle_axis == "horizontal"

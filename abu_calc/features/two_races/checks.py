@@ -6,11 +6,12 @@ from dataclasses import replace
 
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.records import OneRace, TwoRaceVibration
-from abu_calc.features.two_races.start_cases import NOT_TRIED, LostRun, TwoRaceRun
 from abu_calc.formulas.two_races import two_races_balance
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
+from abu_calc.simulation.ensemble_checks import JUDGED, ensemble_checks
+from abu_calc.simulation.ensemble_results import Ensemble
 
 
 @dataclass(frozen=True)
@@ -107,22 +108,21 @@ NO_QUIETER = "No smaller eccentricity, friction, or other drag rate that was tri
 
 
 def level_checks(
-    design: TwoRaceDesign, vibration: TwoRaceVibration, all_runs: Sequence[TwoRaceRun | LostRun],
-    action: Action | None = None,
-) -> Iterator[Check]:  # fmt: skip
+    design: TwoRaceDesign, vibration: TwoRaceVibration, ensemble: Ensemble | None, action: Action | None = None
+) -> Iterator[Check]:
     """ABU401 and ABU402: levels of the loudest place against the limit, and against those without autobalancers.
 
     `action`: one that was tried and brings all start cases below the limit. Where start cases gave no answer, what
     would pass is not evaluated.
     """
-    limit, runs = design.case.table.limits.vibration_level_db, [run for run in all_runs if isinstance(run, TwoRaceRun)]
-    if vibration.level_after_db is None:
+    limit = design.case.table.limits.vibration_level_db
+    if vibration.level_after_db is None or ensemble is None:
         yield coded("ABU401", "not-done", "No start case balances, so no level is known", remedy="See ABU701.")
         return
-    given, loudest = max(run.level for run in runs if run.case.drag_factor == 1), max(run.level for run in runs)
-    passed, safe = given <= limit, loudest <= limit
-    lost = len(all_runs) - len(runs)
-    partly = f"Only {len(runs)} of {len(all_runs)} start cases gave a level, the loudest {loudest:.1f} dB"
+    given, loudest = (max(run.level for run in runs) for runs in (ensemble.given, ensemble.outcomes))
+    passed, safe, lost = given <= limit, loudest <= limit, len(ensemble.lost)
+    known = len(ensemble.outcomes)
+    partly = f"Only {known} of {ensemble.members} start cases gave a level, the loudest {loudest:.1f} dB"
     if lost and passed:
         yield coded("ABU401", "not-done", partly, remedy="See ABU701.")
     else:
@@ -146,83 +146,11 @@ def level_checks(
 OTHERWISE = "No drag rate and no larger ball that were tried help. Permit a longer quiet time."
 
 
-def start_checks(design: TwoRaceDesign, runs: Sequence[TwoRaceRun | LostRun], action: Action | None) -> Iterator[Check]:
+def start_checks(design: TwoRaceDesign, ensemble: Ensemble | None, action: Action | None) -> Iterator[Check]:
     """Checks of the start cases; `action`: one that was tried and makes all of them pass."""
-    if not runs:
-        for code in ("ABU701", "ABU702", "ABU704"):
+    if ensemble is None:
+        for code in JUDGED:
             yield coded(code, "not-done", "Not simulated below a critical speed", remedy="See ABU101.")
         return
-    lost = [run for run in runs if isinstance(run, LostRun)]
-    if lost:
-        text, remedy = _lost_in_words(lost, len(runs))
-        for code in ("ABU701", "ABU702", "ABU704"):
-            yield coded(code, "not-done", text, remedy=remedy)
-        return
-    known = [run for run in runs if isinstance(run, TwoRaceRun)]
-    given, limits = [run for run in known if run.case.drag_factor == 1], design.case.table.limits
-    bad = [run for run in given if not run.balances]
-    elsewhere = [run for run in known if not run.balances and run.case.drag_factor != 1]
-    text = "Start cases in which both races balance, at the given drag rate"
-    text += f"; not: {bad[0].case.name}" if bad else ""
-    text += f"; not in hot or cold oil: {elsewhere[0].case.name}" if elsewhere else ""
-    yield coded(
-        "ABU701", verdict(not bad, not elsewhere), text, float(len(given) - len(bad)), float(len(given)), None,
-        action or "Run farther above the critical speeds." if bad or elsewhere else None, "least",
-    )  # fmt: skip
-    slow, slow_anywhere = slowest(given), slowest(known)
-    in_time, all_in_time = (all(run.in_time(limits) for run in some) for some in (given, known))
-    rest = max((math.inf if run.rest_time is None else run.rest_time for run in known), default=0.0)
-    yield coded(
-        "ABU702", verdict(in_time, all_in_time),
-        "Slowest start case at the given drag rate" + (f": {slow[1].case.name}" if slow else " is never quiet")
-        + ("" if all_in_time or slow_anywhere is None else f"; in hot or cold oil {slow_anywhere[0]:.2f} s")
-        + (f"; balls rest after {_seconds(rest)} (limit {limits.rest_time_s:g} s)" if limits.rest_time_s else ""),
-        None if slow is None else slow[0], limits.longest_quiet_time, "s",
-        None if in_time and all_in_time else action or OTHERWISE,
-    )  # fmt: skip
-    stalled = [run for run in known if run.stalls]
-    at_given = [run for run in stalled if run.case.drag_factor == 1]
-    yield coded(
-        "ABU704", verdict(not at_given, not stalled), "Start cases that leave balls stalled"
-        + (f": {stalled[0].case.name}" if stalled else ""), float(len(stalled)), 0.0, None,
-        action or "Run up faster, or farther above the critical speeds." if stalled else None,
-    )  # fmt: skip
-
-
-def _lost_in_words(lost: Sequence[LostRun], count: int) -> tuple[str, str]:
-    """How many start cases gave no answer and why, and what to do about each reason."""
-    chaotic = [run for run in lost if "chaotic" in run.reason]
-    hurried = [run for run in lost if "--patience" in run.reason]
-    untried = [run for run in lost if run.reason == NOT_TRIED]
-    laborious = [run for run in lost if run.short and run not in (*hurried, *untried)]
-    others = [run for run in lost if not (run in chaotic or run in hurried or run.short)]
-    reasons, actions = [], []
-    if hurried:
-        reasons.append(f"{len(hurried)} ran out of time")
-        actions.append("Allow more time: --patience.")
-    if laborious:
-        reasons.append(f"{len(laborious)} would take more work than allowed")
-        actions.append("Allow some minutes: --patience 600 (not tried).")
-    if chaotic:
-        number = "1 is" if len(chaotic) == 1 else f"{len(chaotic)} are"
-        reasons.append(f"{number} chaotic, so that no two runs agree: {chaotic[0].case.name}")
-    if others:
-        reasons.append(f"{len(others)} otherwise: {others[0].case.name}: {others[0].reason}")
-        actions.append("Specify a coarser --accuracy.")
-    if untried:
-        reasons.append(f"{len(untried)} were not tried")
-    if chaotic or others:
-        actions.append("Narrow speed_range_rpm, or raise rolling_drag_per_s of both races (not tried).")
-    return f"{len(lost)} of {count} start cases gave no answer. {'; '.join(reasons)}", " ".join(dict.fromkeys(actions))
-
-
-def _seconds(time: float) -> str:
-    return "more than the run" if math.isinf(time) else f"{time:.2f} s"
-
-
-def slowest(runs: Sequence[TwoRaceRun]) -> tuple[float, TwoRaceRun] | None:
-    """Longest quiet time [s] and its run; None if one is never quiet."""
-    if any(run.quiet_time is None for run in runs):
-        return None
-    run = max(runs, key=lambda each: each.quiet_time or 0.0)
-    return run.quiet_time or 0.0, run
+    for check in ensemble_checks(design, ensemble):
+        yield check if check.status == "pass" else check.with_action(action or OTHERWISE)

@@ -3,9 +3,11 @@
 from typing import Annotated, ClassVar, Self
 
 from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
+from abu_calc.features.design.starts import Spread
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
+from abu_calc.simulation.ensemble_results import Ensemble
 from abu_calc.simulation.result import Result
 
 
@@ -78,25 +80,33 @@ class TwoRaceVibration(Record):
 
 
 @record
-class TwoRaceSpread(Record):
-    """Median and worst over start cases."""
-
-    typical: Annotated[float | None, Quantity("median")]
-    worst: Annotated[float | None, Quantity("worst")]
-
-
-@record
 class TwoRaceEnsemble(Record):
     """The machine switched on in many ways: phases of the imbalances, starts, run-ups, oil."""
 
     members: Annotated[int, Quantity("start cases")]
+    runs: Annotated[int, Quantity("start cases, further ones included")]
     balanced: Annotated[int, Quantity("that balance")]
     hanging: Annotated[int, Quantity("with stalled balls")]
     lost: Annotated[int, Quantity("without an answer")]
-    quiet_time_s: Annotated[TwoRaceSpread, Quantity("quiet time", "t_q")]
-    rest_time_s: Annotated[TwoRaceSpread, Quantity("rest time", "t_r")]
-    settling_time_s: Annotated[TwoRaceSpread, Quantity("settling time", "t_s")]
+    quiet_time_s: Annotated[Spread, Quantity("quiet time", "t_q")]
+    rest_time_s: Annotated[Spread, Quantity("rest time", "t_r")]
+    settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
     slowest: Annotated[str | None, Quantity("slowest start case")]
+
+    @classmethod
+    def of(cls, ensemble: Ensemble) -> Self:
+        """Record of an ensemble."""
+        slowest = max(ensemble.outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
+        return cls.read(
+            ensemble,
+            runs=ensemble.members,
+            hanging=len(ensemble.hanging),
+            lost=len(ensemble.lost),
+            quiet_time_s=Spread.of(ensemble, lambda outcome: outcome.quiet_time_or_inf),
+            rest_time_s=Spread.of(ensemble, lambda outcome: outcome.rest_time_or_inf),
+            settling_time_s=Spread.of(ensemble, lambda outcome: outcome.settling_time_or_inf),
+            slowest=None if slowest is None else slowest.member.name,
+        )
 
 
 @record

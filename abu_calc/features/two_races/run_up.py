@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from abu_calc.features.two_races.choice import TwoRaceDesign
-from abu_calc.features.two_races.start_cases import StartCase, scene_of
+from abu_calc.features.two_races.start_cases import scene_of, start
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.simulation.run_up_amplitude import course, until_shortly_after, without_balls
 
@@ -19,9 +19,9 @@ class RunUpAmplitude:
 
 def run_up_amplitudes(design: TwoRaceDesign, accuracy: float) -> tuple[RunUpAmplitude, ...]:
     """The run-up with the balls together, imbalances of unknown phase in phase; both machines run up alike."""
-    start = StartCase("run-up", 1.0, (0.0,) * design.case.unknown_phases)
-    scene = until_shortly_after(scene_of(design, start))
-    bare = replace(without_balls(scene_of(replace(design, case=design.bare), start)), duration=scene.duration)
+    run_up = start(design, "run-up")
+    scene = until_shortly_after(scene_of(design, run_up))
+    bare = replace(without_balls(scene_of(replace(design, case=design.bare), run_up)), duration=scene.duration)
     planes = [held.place for held in design.case.places]
     with_balls, empty = course(scene, planes, accuracy), course(bare, planes, accuracy)
     if empty is None:

@@ -3,7 +3,7 @@
 import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Final, cast
 
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.records import Eccentricity, Section
@@ -16,7 +16,6 @@ from abu_calc.features.two_races.checks import (
     mass_checks,
     race_checks,
     region_check,
-    slowest,
     stability_check,
     start_checks,
 )
@@ -31,18 +30,15 @@ from abu_calc.features.two_races.records import (
     TwoRaceResponse,
     TwoRaceRunUp,
     TwoRaceSizeResult,
-    TwoRaceSpread,
     TwoRaceVibration,
 )
 from abu_calc.features.two_races.run_up import run_up_amplitudes
 from abu_calc.features.two_races.start_cases import (
     ACCURACY,
-    PHASES,
-    LostRun,
-    TwoRaceRun,
-    all_work,
+    TwoRaceOutcome,
+    all_phases,
+    ensemble_of,
     level_of,
-    runs_of,
     stability_scene,
 )
 from abu_calc.formulas.balls import half_angle
@@ -60,6 +56,7 @@ from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.ensemble_results import Ensemble
 from abu_calc.simulation.result import Provenance
 
 ONE_RACE_PLACES: Final = 9
@@ -89,19 +86,17 @@ def size_two_races(
     above = all(two_races_balance(design.case.rotor, speed) for speed in speeds)
     judged = tuple(_stability(design, speed) for speed in speeds) if above else ()
     accuracy, threads = max(accuracy, ACCURACY), processors() if workers is None else workers
-    runs = tuple(runs_of(design, accuracy, progress, threads, all_work())) if above else ()
-    left = (all_work() - sum(run.work for run in runs)) // 2
-    one = _one_race(design)
-    known = [run for run in runs if isinstance(run, TwoRaceRun)]
-    vibration = _vibration(design.case, known)
+    ensemble = ensemble_of(design, accuracy, progress, threads) if above else None
+    one, vibration = _one_race(design), _vibration(design.case, ensemble)
+    late, loud = _advice(design, ensemble, accuracy, progress, threads)
     return TwoRaceSizeResult(
         title=table.machine.name,
         checks=(
             region_check(design, one),
             *stability_check(design, judged),
             *_made(design),
-            *level_checks(design, vibration, runs, _quieter(design, known, accuracy, progress, threads, left)),
-            *start_checks(design, runs, _advice(design, known, accuracy, progress, threads, left)),
+            *level_checks(design, vibration, ensemble, loud),
+            *start_checks(design, ensemble, late),
         ),
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
@@ -115,7 +110,7 @@ def size_two_races(
         sections=tuple(Section.of(race.design) for race in design.races),
         one_race=one,
         vibration=vibration,
-        ensemble=_ensemble(runs),
+        ensemble=None if ensemble is None else TwoRaceEnsemble.of(ensemble),
         response=tuple(_response(design.case)),
         run_up=tuple(_run_up(design, progress)),
     )
@@ -156,31 +151,24 @@ def _off(case: TwoRaceCase) -> float:
 
 
 def _advice(
-    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int, work: int
-) -> Action | None:
-    """A drag rate that was tried, if a start case is late or does not balance."""
-    late = [run for run in runs if not run.balances or not run.in_time(design.case.table.limits)]
-    if not late or patience.over():
-        return None
-    slow = slowest(runs)
-    first = slow[1] if slow is not None else next((run for run in late if run.quiet_time is None), late[0])
-    return tried_change(design, first.case, None if slow is None else slow[0], accuracy, progress, workers, work)
+    design: TwoRaceDesign, ensemble: Ensemble | None, accuracy: float, progress: Progress, workers: int
+) -> tuple[Action | None, Action | None]:
+    """Changes that were tried: one if a start case is late or does not balance, one if a start case is too loud."""
+    if ensemble is None or not ensemble.outcomes or patience.over():
+        return None, None
+    limits = design.case.table.limits
+    late = any(not run.balanced or not run.in_time(limits) for run in ensemble.outcomes)
+    loud = any(run.level > limits.vibration_level_db for run in ensemble.outcomes)
+    return (
+        tried_change(design, ensemble, accuracy, progress, workers) if late else None,
+        quieter_change(design, ensemble, accuracy, progress, workers) if loud else None,
+    )
 
 
 def _made(design: TwoRaceDesign) -> Iterator[Check]:
     """Checks of what is made: capacity, the races by themselves, mass; a change is tried if one does not pass."""
     action = sturdier_change(design) if missed(design) and not patience.over() else None
     yield from (*capacity_checks(design, action), *race_checks(design, action), *mass_checks(design, action))
-
-
-def _quieter(
-    design: TwoRaceDesign, runs: Sequence[TwoRaceRun], accuracy: float, progress: Progress, workers: int, work: int
-) -> Action | None:
-    """A truer or cleaner race that was tried, if a start case is too loud."""
-    loud = max(runs, key=lambda run: run.level, default=None)
-    if loud is None or loud.level <= design.case.table.limits.vibration_level_db or patience.over():
-        return None
-    return quieter_change(design, loud, accuracy, progress, workers, work)
 
 
 def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
@@ -193,8 +181,7 @@ def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
     if margins and len(slower) == len(modes) and all(margin.holds for margin in margins):
         return SpeedStability(speed, True, None)
     growths: list[float] = []
-    for phase in PHASES if case.unknown_phases else (0.0,):
-        phases = tuple(phase * k for k in range(1, case.unknown_phases + 1))
+    for phases in all_phases(case):
         scene = replace(stability_scene(design, phases), speed=speed)
         abu = design.races[0].design.autobalancer
         try:
@@ -207,9 +194,10 @@ def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
     return SpeedStability(speed, max(growths) < 0, max(growths))
 
 
-def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibration:
+def _vibration(case: TwoRaceCase, ensemble: Ensemble | None) -> TwoRaceVibration:
     """Levels at every place: without autobalancers at the worst of the phases, with them over the start cases."""
-    given = [run for run in runs if run.case.drag_factor == 1 and run.case.speed is None and run.balances]
+    runs = () if ensemble is None else cast("tuple[TwoRaceOutcome, ...]", ensemble.outcomes)
+    given = [run for run in runs if run.balanced and run.member.at_nominal]
     rows = []
     for index, held in enumerate(case.places):
         without = sum(abs(case.rotor.whirl(held.place, [wheel], case.speed)) for wheel in case.wheels)
@@ -221,7 +209,9 @@ def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibratio
                 name=held.name,
                 level_before_db=level_of(without, case.speed),
                 level_after_db=level_of(statistics.median(medians), case.speed) if medians else None,
-                level_after_worst_db=_largest([level_of(run.displacements[index], run.speed) for run in runs]),
+                level_after_worst_db=_largest(
+                    [level_of(run.displacements[index], run.member.speed or case.speed) for run in runs]
+                ),
             )
         )
     before = max(row.level_before_db for row in rows)
@@ -237,31 +227,6 @@ def _vibration(case: TwoRaceCase, runs: Sequence[TwoRaceRun]) -> TwoRaceVibratio
 
 def _largest(values: Sequence[float | None]) -> float | None:
     return max((value for value in values if value is not None), default=None)
-
-
-def _ensemble(runs: Sequence[TwoRaceRun | LostRun]) -> TwoRaceEnsemble | None:
-    known = [run for run in runs if isinstance(run, TwoRaceRun)]
-    if not known:
-        return None
-    slow = slowest(known)
-    return TwoRaceEnsemble(
-        members=len(runs),
-        balanced=sum(run.balances for run in known),
-        hanging=sum(run.stalls for run in known),
-        lost=len(runs) - len(known),
-        quiet_time_s=_spread([run.quiet_time for run in known]),
-        rest_time_s=_spread([run.rest_time for run in known]),
-        settling_time_s=_spread([run.settling_time for run in known]),
-        slowest=None if slow is None else slow[1].case.name,
-    )
-
-
-def _spread(times: Sequence[float | None]) -> TwoRaceSpread:
-    """Median and longest time [s]; None if one is none."""
-    known = [time for time in times if time is not None]
-    if len(known) < len(times):
-        return TwoRaceSpread(typical=None, worst=None)
-    return TwoRaceSpread(typical=statistics.median(known), worst=max(known))
 
 
 def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability], above: bool) -> TwoRaceFrequency:
@@ -287,7 +252,6 @@ def _one_race(design: TwoRaceDesign) -> OneRace | None:
     # The autobalancer's own mass h at its place z_r adds h to M and h·z_r² to J': together 2·h in the limit to z_r.
     own = max(race.design.autobalancer.mass for race in design.races)
     limit = one_race_limit(replace(case.rotor, mass=case.rotor.mass + 2 * own), case.speed)
-    turns = [tuple(phase * k for k in range(1, case.unknown_phases + 1)) for phase in PHASES]
     tried: list[tuple[float, float]] = []
     first, second = case.races
     for step in range(ONE_RACE_PLACES):
@@ -295,7 +259,7 @@ def _one_race(design: TwoRaceDesign) -> OneRace | None:
         if not case.rotor.receptance(place, place, case.speed).real < 0 or (limit and abs(place) > limit):
             continue
         loudest = 0.0
-        for phases in turns:
+        for phases in all_phases(case):
             wheels = case.turned((0.0, *phases) if all(angle is None for angle in case.angles) else phases)
             whole = [*wheels, PlacedImbalance(place, one_race_resultant(case.rotor, place, wheels, case.speed))]
             loudest = max([loudest, *(abs(case.rotor.whirl(held.place, whole, case.speed)) for held in case.places)])

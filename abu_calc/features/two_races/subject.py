@@ -4,7 +4,8 @@ from typing import Final
 
 from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.choice import choose_both
-from abu_calc.features.two_races.start_cases import STARTS, StartCase, scene_of
+from abu_calc.features.two_races.start_cases import KINDS, scene_of
+from abu_calc.features.two_races.start_cases import start as start_of
 from abu_calc.formulas.balls import half_angle
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.inputs.read_machine import Machine
@@ -30,7 +31,7 @@ def two_race_subject(
     table = machine.two_races
     if table is None:
         raise InputError("this file has one race")
-    for key, given, allowed in (("scene", scene, (SCENE,)), ("start", start, STARTS)):
+    for key, given, allowed in (("scene", scene, (SCENE,)), ("start", start, KINDS)):
         if given is not None and given not in allowed:
             raise InputError(
                 f"a machine with two races has no such {key}", place=Place(machine.file, key=key), found=given,
@@ -44,14 +45,14 @@ def two_race_subject(
     with machine.located():
         design = choose_both(read_case(table))
     unknown = design.case.unknown_phases
-    chosen = StartCase(next(each for each in STARTS if each == (start or "bunched")), 1.0, (0.0,) * unknown)
+    kind = next(each for each in KINDS if each == (start or "bunched"))
     sized = [race.design.autobalancer for race in design.races]
     notes = ("Imbalances of unknown phase are taken in phase; `abu size` simulates four phases",) if unknown else ()
     return Subject(
         title=table.machine.name,
         reading=machine,
-        scene=scene_of(design, chosen),
-        start=IN_WORDS[chosen.start],
+        scene=scene_of(design, start_of(design, kind)),
+        start=IN_WORDS[kind],
         half_angle=max(half_angle(abu.ball_diameter / 2, abu.pitch_radius) for abu in sized),
         warnings=(*machine.warnings, *notes),
     )

@@ -18,7 +18,7 @@ from abu_calc.features.two_races.contact import (
     pressed_wheels,
     resultants_at_work,
 )
-from abu_calc.features.two_races.start_cases import ACCURACY, PHASES, StartCase
+from abu_calc.features.two_races.start_cases import start
 from abu_calc.features.two_races.work_records import (
     PlaceAtWork,
     RaceAtWork,
@@ -28,7 +28,7 @@ from abu_calc.features.two_races.work_records import (
     WearOfWheel,
     WheelAtWork,
 )
-from abu_calc.features.two_races.work_runs import LostWorkRun, Pressed, WorkRun, agreement, work_cases, work_run
+from abu_calc.features.two_races.work_runs import Pressed, WorkRun, agreement, work_cases, work_run
 from abu_calc.formulas.two_races import Pair, two_races_balance
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
@@ -37,6 +37,7 @@ from abu_calc.foundation.parallel import processors, side_by_side
 from abu_calc.foundation.progress import Progress, counted
 from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.result import Provenance
 
 AGREES: Final = 0.05
@@ -50,7 +51,7 @@ class WheelRuns:
     """Runs of one wheel at work, and what closed forms say of it."""
 
     wheel: PressedWheel
-    runs: tuple[WorkRun | LostWorkRun, ...]
+    runs: tuple[WorkRun | Lost, ...]
     needs: Pair
     growths: tuple[float, ...] | None
     disagreement: float | str | None
@@ -60,12 +61,12 @@ class WheelRuns:
         return [
             run for run in self.runs
             if isinstance(run, WorkRun) and run.case.pressed == pressed
-            and (run.case.start.drag_factor == 1 or not given_only)
+            and (run.case.start.promised or not given_only)
         ]  # fmt: skip
 
     def lost(self, pressed: Pressed) -> list[str]:
         """Reasons of runs that have no answer, or no level that stays."""
-        reasons = [run.reason for run in self.runs if isinstance(run, LostWorkRun) and run.case.pressed == pressed]
+        reasons = [run.reason for run in self.runs if isinstance(run, Lost) and run.member.pressed == pressed]
         moving = [run for run in self.known(pressed) if run.drift > UNSTEADY]
         if pressed != "at once" and any(run.pulls for run in self.known(pressed)):
             reasons.append("a rigid contact would have to pull")
@@ -96,7 +97,7 @@ class WheelRuns:
 
 
 def grind_two_races(
-    machine: Machine, accuracy: float, progress: Progress, number: int | None = None, workers: int | None = None
+    machine: Machine, progress: Progress, number: int | None = None, workers: int | None = None
 ) -> TwoRaceGrindingResult:
     """The machine with one wheel at a time at its workpiece; `number`: only this wheel, from 1.
 
@@ -117,7 +118,7 @@ def grind_two_races(
     chosen = wheels if number is None else (wheels[number - 1],)
     above = two_races_balance(design.case.rotor, design.case.speed)
     threads = processors() if workers is None else workers
-    each = tuple(_judged(design, wheel, max(accuracy, ACCURACY), progress, threads, above) for wheel in chosen)
+    each = tuple(_judged(design, wheel, progress, threads, above) for wheel in chosen)
     rows = tuple(_row(design, runs) for runs in each)
     worst = max(zip(rows, each, strict=True), key=lambda pair: _badness(pair[0]))[0]
     first = worst.races[0]
@@ -148,21 +149,17 @@ def grind_two_races(
     )  # fmt: skip
 
 
-def _judged(
-    design: TwoRaceDesign, wheel: PressedWheel, accuracy: float, progress: Progress, workers: int, above: bool
-) -> WheelRuns:
+def _judged(design: TwoRaceDesign, wheel: PressedWheel, progress: Progress, workers: int, above: bool) -> WheelRuns:
     """Closed forms and runs of one wheel; below a critical speed only the machine without autobalancers runs."""
-    unknown = design.case.unknown_phases
-    turned = [tuple(phase * k for k in range(1, unknown + 1)) for phase in PHASES] if unknown else [()]
-    cases = [case for case in work_cases(design, wheel, turned) if above or case.pressed == "without"]
+    cases = [case for case in work_cases(design, wheel) if above or case.pressed == "without"]
     counting = counted(progress, f"{wheel.name} at work: {{}} of {{}} runs", len(cases))
-    runs = tuple(side_by_side(work_run, [(design, case, accuracy) for case in cases], workers, counting))
+    runs = tuple(side_by_side(work_run, [(design, case) for case in cases], workers, counting))
     return WheelRuns(
         wheel,
         runs,
         capacities_at_work(design, wheel),
         growth_rates(design, wheel) if above else None,
-        agreement(design, wheel, StartCase("spread", 1.0, (0.0,) * unknown), accuracy / 5) if above else None,
+        agreement(design, wheel, start(design, "spread")) if above else None,
     )
 
 
@@ -290,7 +287,7 @@ def _parting(wheel: PressedWheel) -> str:
 
 LOUDER: Final = "Run the wheel truer (runout_mm), soften the contact, or press after the balls have settled."
 PULLS: Final = 'Press harder, or set grinding.contact = "compliant" and its stiffness: the wheel may then part.'
-NO_LEVEL: Final = "Permit a larger error (--accuracy), or press harder."
+NO_LEVEL: Final = "Press harder, or soften the contact (not tried)."
 """Actions where runs are louder, where a rigid contact pulls, and where runs give no level."""
 
 
@@ -298,7 +295,7 @@ def _lowered(runs: WheelRuns) -> Check:
     """ABU421: quieter than without autobalancers at the same phases, in every run."""
     name, louder, early = runs.wheel.name, runs.louder("settled"), runs.louder("at once")
     before, after = runs.loudest("without"), runs.loudest("settled")
-    given = [pair for pair in louder if pair[1].case.start.drag_factor == 1]
+    given = [pair for pair in louder if pair[1].case.start.promised]
     if given:
         change, run = given[-1]
         text = (

@@ -14,16 +14,28 @@ from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Samples
+from abu_calc.features.grinding.start_cases import TOLERANCE
 from abu_calc.features.two_races.case import LevelPlaceOnSpindle
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.contact import PressedWheel, ball_angles, contact_of, resultants_at_work
-from abu_calc.features.two_races.start_cases import STILL, Start, StartCase, scene_of, start_phases
+from abu_calc.features.two_races.start_cases import (
+    ACCURACY,
+    Kind,
+    all_phases,
+    scene_of,
+    start,
+    start_once,
+    start_phases,
+)
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
+from abu_calc.simulation.ensemble import MORE, WORK, integrated
+from abu_calc.simulation.ensemble_results import Lost
+from abu_calc.simulation.residual_criteria import SLIPPING
 from abu_calc.simulation.run_up_amplitude import without_balls
 from abu_calc.simulation.scene_of_file import in_order
-from abu_calc.simulation.simulate import simulate
+from abu_calc.simulation.start_cases import Member
 
 Pressed = Literal["settled", "at once", "without"]
 OBSERVED: Final = 1 / 3
@@ -35,6 +47,9 @@ LEAST: Final = 1e-12
 IDEAL_S: Final = 3.0
 """Seconds of a run with ideal races and balls, which is compared with the closed form."""
 
+EARLY: Final[tuple[Kind, ...]] = ("bunched", "standstill")
+"""Starts of balls that have not settled when the wheel is pressed."""
+
 Array = NDArray[np.float64]
 
 
@@ -44,7 +59,7 @@ class WorkCase:
 
     wheel: PressedWheel
     pressed: Pressed
-    start: StartCase
+    start: Member
 
 
 @dataclass(frozen=True)
@@ -77,37 +92,30 @@ class WorkRun:
     @property
     def stalls(self) -> bool:
         """True if balls keep going round in a race."""
-        return self.slip > STILL
+        return self.slip > SLIPPING
 
 
-@dataclass(frozen=True)
-class LostWorkRun:
-    """A run without an answer, and why."""
-
-    case: WorkCase
-    reason: str
-
-
-def work_run(design: TwoRaceDesign, case: WorkCase, accuracy: float) -> WorkRun | LostWorkRun:
-    """Simulate one run to an accuracy."""
+def work_run(design: TwoRaceDesign, case: WorkCase) -> WorkRun | Lost:
+    """Simulate one run."""
     try:
-        return _observed(design, case, work_scene(design, case, accuracy), accuracy)
+        return _observed(design, case, work_scene(design, case))
     except NotTrustworthyError as error:
-        return LostWorkRun(case, str(error).splitlines()[0])
+        return Lost(case, str(error).splitlines()[0])
 
 
-def work_scene(design: TwoRaceDesign, case: WorkCase, accuracy: float) -> Scene:
+def work_scene(design: TwoRaceDesign, case: WorkCase) -> Scene:
     """The scene of a run; balls that settle before are simulated at idle first. Raises NotTrustworthyError."""
-    start, wheel = case.start, case.wheel
+    member, wheel = case.start, case.wheel
     if case.pressed == "without":
-        bare = without_balls(scene_of(replace(design, case=design.bare), start))
-        return _pressed(bare, wheel, design, start)
-    scene = scene_of(design, start)
+        bare = without_balls(scene_of(replace(design, case=design.bare), member))
+        return _pressed(bare, wheel, design, member)
+    scene = scene_of(design, member)
     if case.pressed == "settled":
-        times = np.array([scene.duration])
-        states = simulate(scene, accuracy, times).trajectory.at(times)[:, -1]
-        scene = _at(scene, states[2 * len(scene.support.names) :])
-    return _pressed(with_parted_balls(scene)[0], wheel, design, start)
+        idle = start_once(design, member, ACCURACY, TOLERANCE)
+        if isinstance(idle, Lost):
+            raise NotTrustworthyError(idle.reason)
+        scene = _at(scene, idle.ball_angles)
+    return _pressed(with_parted_balls(scene)[0], wheel, design, member)
 
 
 def _at(scene: Scene, angles: Sequence[float] | Array) -> Scene:
@@ -121,18 +129,17 @@ def _at(scene: Scene, angles: Sequence[float] | Array) -> Scene:
     return replace(scene, races=tuple(races))
 
 
-def _pressed(scene: Scene, wheel: PressedWheel, design: TwoRaceDesign, start: StartCase) -> Scene:
-    contact = wheel.effect(design.case, start_phases(design, start))
+def _pressed(scene: Scene, wheel: PressedWheel, design: TwoRaceDesign, member: Member) -> Scene:
+    contact = wheel.effect(design.case, start_phases(design, member))
     return replace(scene, name="grinding", effects=in_order([*scene.effects, contact]))
 
 
-def _observed(design: TwoRaceDesign, case: WorkCase, scene: Scene, accuracy: float) -> WorkRun:
+def _observed(design: TwoRaceDesign, case: WorkCase, scene: Scene) -> WorkRun:
     turns = max(2, int(OBSERVED * scene.duration / scene.revolution / 2))
     first = scene.duration - 2 * turns * scene.revolution
     steps = np.arange(2 * turns * PER_TURN) * (scene.revolution / PER_TURN)
     times = np.asarray(first + steps, dtype=float)
-    run = simulate(scene, accuracy, times)
-    states = run.trajectory.at(times)
+    states = integrated(scene, times, TOLERANCE, MORE * WORK)[0].at(times)
     halves = [_levels(scene, part, design.case.places) for part in np.split(states, 2, axis=1)]
     # The louder half counts with balls, the quieter one without: neither is flattered.
     fairer = min if case.pressed == "without" else max
@@ -140,7 +147,9 @@ def _observed(design: TwoRaceDesign, case: WorkCase, scene: Scene, accuracy: flo
     force = contact_forces(scene, times, states)
     wheel = scene.axis_place(states, case.wheel.place)
     x, y = np.abs(wheel - wheel.mean(axis=1, keepdims=True)).max(axis=1)
-    slip = max(map(abs, run.response.final.ball_speeds), default=0.0) / scene.speed
+    count, half = 2 * len(scene.support.names), len(times) // 2
+    balls = states[count : count + len(scene.ball_masses)]
+    slip = float(np.abs(balls[:, -1] - balls[:, half]).max(initial=0.0) / ((times[-1] - times[half]) * scene.speed))
     once = 2 * abs(complex((force * np.exp(-1j * scene.speed * times)).mean())) if len(force) else 0.0
     return WorkRun(
         case, levels, abs(max(halves[1]) - max(halves[0])), (float(x), float(y)), once,
@@ -177,22 +186,22 @@ def contact_forces(scene: Scene, times: Array, states: Array) -> Array:
     return np.asarray(np.maximum(contact.press_force - contact.contact_stiffness * gap, 0.0), dtype=float)
 
 
-def agreement(design: TwoRaceDesign, wheel: PressedWheel, start: StartCase, accuracy: float) -> float | str | None:
+def agreement(design: TwoRaceDesign, wheel: PressedWheel, member: Member) -> float | str | None:
     """Largest relative difference of force and ball resultants from the closed form, with ideal races and balls.
 
     Balls start where the closed form has them, and must stay. Text: why it is not known. None: nothing presses in the
     plane, or a race cannot carry its resultant.
     """
-    phases = start_phases(design, start)
+    phases = start_phases(design, member)
     resultants = resultants_at_work(design, wheel, phases)
     angles = ball_angles(design, resultants)
     if angles is None or not wheel.presses or not wheel.runout:
         return None
-    scene = _at(scene_of(design, start), [angle for own in angles for angle in own])
+    scene = _at(scene_of(design, member), [angle for own in angles for angle in own])
     ideal = replace(scene, effects=(wheel.effect(design.case, phases),), duration=IDEAL_S)
     expected = abs(contact_of(design, wheel, phases).balanced_force())
     try:
-        run = _observed(design, WorkCase(wheel, "settled", start), ideal, accuracy)
+        run = _observed(design, WorkCase(wheel, "settled", member), ideal)
     except NotTrustworthyError as error:
         return str(error).splitlines()[0]
     if run.apart:
@@ -203,16 +212,15 @@ def agreement(design: TwoRaceDesign, wheel: PressedWheel, start: StartCase, accu
     return max(off)
 
 
-def work_cases(design: TwoRaceDesign, wheel: PressedWheel, turned: Sequence[tuple[float, ...]]) -> tuple[WorkCase, ...]:
+def work_cases(design: TwoRaceDesign, wheel: PressedWheel) -> tuple[WorkCase, ...]:
     """All runs of a wheel: phases of the imbalances; balls settled or not; hot and cold oil where they are settled."""
-    few = turned[:: max(1, len(turned) // 2)]
-    settled = [
-        *(StartCase("spread", 1.0, phases) for phases in turned),
-        *(StartCase("spread", factor, phases) for factor in (1 / 3, 3.0) for phases in few),
-    ]
-    early: Sequence[Start] = ("bunched", "standstill")
+    turned, given = all_phases(design.case), design.case.drag
+    spread = [start(design, "spread", phases) for phases in turned]
+    few = spread[:: max(1, len(turned) // 2)]
+    oils = [replace(each, drag=factor * given, promised=False) for factor in (1 / 3, 3.0) for each in few]
+    early = [start(design, kind, phases) for kind in EARLY for phases in turned]
     return (
-        *(WorkCase(wheel, "without", StartCase("spread", 1.0, phases)) for phases in turned),
-        *(WorkCase(wheel, "settled", start) for start in settled),
-        *(WorkCase(wheel, "at once", StartCase(kind, 1.0, phases)) for kind in early for phases in turned),
+        *(WorkCase(wheel, "without", each) for each in spread),
+        *(WorkCase(wheel, "settled", each) for each in (*spread, *oils)),
+        *(WorkCase(wheel, "at once", each) for each in early),
     )

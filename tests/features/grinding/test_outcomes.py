@@ -13,10 +13,11 @@ import pytest
 import abu_calc
 from abu_calc.features.grinding.checks import work_checks
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, groups_of, with_starts
-from abu_calc.features.grinding.start_cases import LoadedEnsemble, LoadedLost, LoadedOutcome, LoadedStart, Pressed
+from abu_calc.features.grinding.start_cases import LoadedEnsemble, LoadedOutcome, LoadedStart, Pressed
 from abu_calc.features.grinding.verdict import in_words
 from abu_calc.features.grinding.work import Work, at_work
 from abu_calc.foundation.units import velocity_from_level
+from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing import size
 from tests.remembered import recalled
@@ -112,11 +113,11 @@ def test_a_start_case_without_an_answer_leaves_it_open() -> None:
     ensemble = _ensemble(work, [after] * 3)
     ways: tuple[tuple[Pressed, str], ...] = (("settled", "not-done"), ("at once", "warn"))
     for when, status in ways:
-        lost = LoadedLost(replace(ensemble.outcomes[0].start, pressed=when), "too much work")
+        lost = Lost(replace(ensemble.outcomes[0].start, pressed=when), "too much work")
         found, _, message = _status(work, replace(ensemble, lost=(lost,)))
         assert found == status and "1 of 4 start cases" in message
     high = (work.levels.before or 0.0) + 1
-    lost = LoadedLost(ensemble.outcomes[0].start, "too much work")
+    lost = Lost(ensemble.outcomes[0].start, "too much work")
     assert _status(work, replace(_ensemble(work, [high]), lost=(lost,)))[0] == "fail"
 
 
@@ -138,7 +139,7 @@ def test_an_easier_usual_case_gives_way_to_the_median() -> None:
     assert with_starts(work, None) == (work, None)
     unknown = replace(work, settled=replace(work.settled, worst=replace(work.levels, after=None)))
     assert with_starts(unknown, _ensemble(work, [after] * 3))[0].levels.after == pytest.approx(after)
-    lost = LoadedLost(LoadedStart(Member("spread", 15.0), "settled"), "too much work")
+    lost = Lost(LoadedStart(Member("spread", 15.0), "settled"), "too much work")
     assert with_starts(unknown, replace(_ensemble(work, [after] * 3), lost=(lost,)))[0].levels.after is None
 
 

@@ -3,40 +3,36 @@
 import math
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from abu_calc.dynamics.scene import Scene, without
-from abu_calc.features.two_races import start_cases as start_cases_module
+from abu_calc.dynamics.scene import without
 from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.checks import _lost_in_words
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.start_cases import (
-    MOST_ONE,
-    MOST_WORK,
-    LostRun,
-    StartCase,
-    TwoRaceRun,
-    all_work,
+    OF_BAND,
+    TwoRaceOutcome,
+    ensemble_of,
     quiet_time,
     rest_time,
     revolution_times,
-    run_of,
-    runs_of,
     scene_of,
     settling_time,
+    start,
     start_cases,
+    start_once,
     wheels_share,
 )
-from abu_calc.foundation import patience
-from abu_calc.foundation.errors import ChaoticError
 from abu_calc.foundation.progress import silent
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.simulate import Simulation, simulate
+from abu_calc.simulation import ensemble as ensemble_module
+from abu_calc.simulation.ensemble import TOLERANCE, WORK
+from abu_calc.simulation.ensemble_results import Lost
+from abu_calc.simulation.simulate import simulate
+from abu_calc.simulation.start_cases import Variation
 
 TRUE = (
     *(f"autobalancer.{k}.race_eccentricity_mm=0.0" for k in (0, 1)),
@@ -54,23 +50,53 @@ def design_of(*overrides: str) -> TwoRaceDesign:
 
 @pytest.mark.slow
 def test_start_cases_cover_phases_starts_and_oils() -> None:
-    cases = list(start_cases(design_of()))
-    assert {case.start for case in cases} == {"bunched", "spread", "standstill", "run-up"}
-    assert {case.phases for case in cases if case.drag_factor == 1} == {(phase * math.pi / 2,) for phase in range(4)}
-    assert {case.drag_factor for case in cases} == {1.0, 1 / 3, 3.0}
+    design = design_of()
+    cases = list(start_cases(design))
+    nominal = [case for case in cases if case.at_nominal]
+    assert {case.start for case in cases} == {"bunched", "spread", "standstill"} and any(case.run_up for case in cases)
+    assert {case.phases for case in nominal} == {(phase * math.pi / 2,) for phase in range(4)}
+    assert {case.drag / design.case.drag for case in cases} == {1.0, 1 / 3, 3.0}
+    of_band = [case for case in cases if case.varied != Variation()]
+    assert len(of_band) == OF_BAND and all(case.promised for case in of_band)
+    assert all(0 <= case.varied.race_eccentricity <= 1 and 0.1 <= case.varied.imbalance <= 1 for case in of_band)
+
+
+@pytest.mark.slow
+def test_a_varied_start_is_that_of_a_file_with_those_values_judged_by_the_first_one() -> None:
+    """A truer race and lighter imbalances: the same motion as of a file that gives them, but other limits."""
+    varied = Variation(0.5, 0.25)
+    design, lighter = design_of(), design_of(
+        "wheel.0.imbalance_g_mm=625.0", "wheel.1.imbalance_g_mm=450.0",
+        *(f"autobalancer.{k}.race_eccentricity_mm=0.005" for k in (0, 1)),
+    )  # fmt: skip
+    assert design.case.eccentricity == pytest.approx(1e-5)
+    ours = scene_of(design, start(design, "spread", (1.0,), varied=varied))
+    same = replace(design, case=replace(lighter.case, rotor=design.case.rotor, races=design.case.races))
+    other = scene_of(same, start(same, "spread", (1.0,)))
+    assert (ours.imbalance, ours.couple) == pytest.approx((other.imbalance, other.couple), rel=1e-12)
+    assert ours.effects == other.effects and ours.races == other.races
+    outcome = start_once(design, start(design, "spread", (1.0,), varied=varied), 0.05, TOLERANCE, WORK)
+    whole = start_once(design, start(design, "spread", (1.0,)), 0.05, TOLERANCE, WORK)
+    assert isinstance(outcome, TwoRaceOutcome) and isinstance(whole, TwoRaceOutcome)
+    assert {outcome.allowed, outcome.moved} <= {
+        number
+        for race in (0, 1)
+        for need in [abs(wheels_share(design, race, start(design, "spread", (1.0,))))]
+        for number in (need, need / 2)
+    }
 
 
 @pytest.mark.slow
 def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
     design = design_of()
-    start = StartCase("spread", 1.0, (math.pi / 2,))
-    scene = scene_of(design, start)
+    member = start(design, "spread", (math.pi / 2,))
+    scene = scene_of(design, member)
     force = scene.imbalance * np.exp(1j * scene.imbalance_angle)
     moment = scene.couple * np.exp(1j * scene.couple_angle)
     assert force == pytest.approx(2500e-6 + 1800e-6j, rel=1e-9)
     assert moment == pytest.approx(0.26 * 2500e-6 - 0.26j * 1800e-6, rel=1e-9)
     for race, place in enumerate((0.3, -0.3)):
-        share = wheels_share(design, race, start)
+        share = wheels_share(design, race, member)
         assert abs(share - (force / 2 + moment / (2 * place))) < 1e-12
 
 
@@ -78,12 +104,13 @@ def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
 def test_both_races_end_where_the_levers_say() -> None:
     """Without friction, eccentricity and gravity the balls' resultants are exactly opposite what the races carry."""
     design = design_of(*TRUE)
-    run = run_of(design, StartCase("spread", 1.0, (math.radians(130),)), 0.01)
-    assert isinstance(run, TwoRaceRun)
-    assert run.balances
+    run = start_once(design, start(design, "spread", (math.radians(130),)), 0.05, 0.1 * TOLERANCE, WORK)
+    assert isinstance(run, TwoRaceOutcome)
+    assert run.balanced
     assert run.slip < 1e-3
-    for end, bare in zip(run.displacements, run.displacements_without, strict=True):
-        assert end < 0.02 * bare
+    wheels = design.case.turned((0.0, math.radians(130)))
+    for end, held in zip(run.displacements, design.case.places, strict=True):
+        assert end < 0.02 * abs(design.case.rotor.whirl(held.place, wheels, design.case.speed))
 
 
 @pytest.mark.slow
@@ -94,10 +121,10 @@ def test_settling_agrees_with_an_own_integration() -> None:
     sides. Races without eccentricity and friction end with no residual imbalance at all: the limit is a tenth of it.
     """
     design = design_of(*TRUE)
-    start = StartCase("spread", 1.0, (math.radians(130),))
-    ours = without(scene_of(design, start), ["ball_contact"])
+    member = start(design, "spread", (math.radians(130),))
+    ours = without(scene_of(design, member), ["ball_contact"])
     ours = replace(ours, support=replace(ours.support, axial_inertia=False))
-    case, scene = design.case, scene_of(design, start)
+    case, scene = design.case, scene_of(design, member)
     W, J, rotor = case.speed, case.inertia_factor, case.rotor
     z = np.concatenate([[race.plane_offset] * len(race.ball_masses) for race in scene.races])
     m = np.concatenate([race.ball_masses for race in scene.races])
@@ -144,11 +171,11 @@ def test_settling_agrees_with_an_own_integration() -> None:
     assert np.abs(turned - states[8 : 8 + n, : len(until)]).max() < 2e-6
     settled, counts = 0.0, [len(race.ball_masses) for race in scene.races]
     for race, inside in enumerate((slice(0, counts[0]), slice(counts[0], n))):
-        need = wheels_share(design, race, start)
+        need = wheels_share(design, race, member)
         left = np.abs(need + (m[inside] * R[inside]) @ np.exp(1j * turned[inside]))
         assert left[-1] < 0.03 * abs(need)
         settled = max(settled, until[np.flatnonzero(left > 0.1 * abs(need))[-1] + 1])
-    needs = wheels_share(design, 0, start), wheels_share(design, 1, start)
+    needs = wheels_share(design, 0, member), wheels_share(design, 1, member)
     assert settling_time(ours, states, needs) == pytest.approx(settled, abs=1e-9)
     # Nothing is left, so that |U − U_end| is |U|: they rest when that has settled, between two samples.
     assert rest_time(ours, states, needs) == pytest.approx(settled, abs=until[1])
@@ -166,76 +193,55 @@ def test_settling_agrees_with_an_own_integration() -> None:
     assert 16 < until_quiet < len(until) - 2
     assert quiet_time(ours, states, case, without_balls) == pytest.approx(until[until_quiet], abs=2 * until[1])
     # Balls that move along the spindle with their tilting race, as start cases have them, change next to nothing.
-    leaning = scene_of(design, start)
+    leaning = scene_of(design, member)
     assert leaning.support.axial_inertia
     leaning = without(leaning, ["ball_contact"])
     moved = simulate(leaning, 0.001, times).trajectory.at(times)
     assert np.abs(moved - states)[8 : 8 + n].max() < 2e-4
 
 
-def test_what_fails_is_told() -> None:
-    lost = LostRun(StartCase("bunched"), "because")
-    assert lost.case.name == "bunched"
-    assert StartCase("bunched", 1.0, (math.pi,)).name == "bunched, phase 180°"
+def test_names_of_start_cases() -> None:
+    design = design_of()
+    assert start(design, "bunched", (math.pi,)).name == "bunched, phase 180°"
+    assert start(design, "run-up", (0.0,), speed=157.08).name == "run-up in 1 s (1500 rpm), phase 0°"
 
 
-@pytest.mark.parametrize(("doubt", "counts"), [(0.1, True), (0.5, False)])
-@pytest.mark.slow
-def test_chaotic_runs_that_all_end_balanced_count_with_their_doubt(
-    monkeypatch: pytest.MonkeyPatch, doubt: float, counts: bool
-) -> None:
-    """Times and displacements of the finest run, times one and the difference of the runs."""
-    design, case = design_of(), StartCase("spread", 1.0, (0.0,))
-    calm = run_of(design, case, 0.05)
-    assert isinstance(calm, TwoRaceRun)
+def test_a_start_that_no_two_runs_repeat_is_judged_by_the_worse_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Chaotic starts: each run counts by its end, and the slowest of all is run once more."""
+    design = design_of()
+    times, run = iter(range(1000)), TwoRaceOutcome(
+        start(design), 0.1, 0.1, 0.1, False, 1e-5, 90.0, 0.0, 1e-6, 1e-5, displacements=(1e-5, 1e-5)
+    )  # fmt: skip
+    tolerances = []
 
-    def chaotic(scene: Scene, accuracy: float, times: Any, _work: int | None) -> Simulation:
-        failure = ChaoticError("idle: the motion is chaotic")
-        failure.ended = replace(simulate(scene, accuracy, times), error_estimate=doubt)
-        raise failure
+    def chaotic(_design: object, member: object, _accuracy: float, tolerance: float, *_: object) -> TwoRaceOutcome:
+        tolerances.append(tolerance)
+        return replace(run, member=member, quiet_time=0.01 * (next(times) % 7 + 1))  # type: ignore[arg-type]
 
-    monkeypatch.setattr(start_cases_module, "simulate", chaotic)
-    run = run_of(design, case, 0.05)
-    assert isinstance(run, TwoRaceRun) is counts
-    if isinstance(run, TwoRaceRun):
-        assert calm.settling_time and calm.quiet_time and calm.rest_time
-        assert run.settling_time == pytest.approx(1.1 * calm.settling_time)
-        assert run.quiet_time == pytest.approx(1.1 * calm.quiet_time)
-        assert run.rest_time == pytest.approx(1.1 * calm.rest_time)
-        assert run.displacements == pytest.approx([1.1 * each for each in calm.displacements])
-
-
-def test_reasons_of_lost_start_cases_are_told_apart() -> None:
-    lost = [
-        LostRun(StartCase("spread", 1.0, (0.0,), 157.08), "the accuracy is not reached. The motion is chaotic: 1e-09"),
-        LostRun(StartCase("bunched"), "the time of --patience is over"),
-    ]
-    text, action = _lost_in_words(lost, 80)
-    assert text.startswith("2 of 80 start cases gave no answer. 1 ran out of time; 1 is chaotic")
-    assert "spread, phase 0°, 1500 rpm" in text
-    assert "--patience" in action and "--accuracy" not in action and "not tried" in action
-
-
-def test_start_cases_end_where_all_together_have_taken_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is left is counted after each four, so that workers change nothing; the rest is lost, and says so."""
-    design, given = design_of(), list[int]()
+    runner = ensemble_module.Runner(chaotic, lambda *_: "auto")
     starts = list(start_cases(design))
-
-    def dear(_: TwoRaceDesign, start: StartCase, _accuracy: float, work: int) -> LostRun:
-        given.append(work)
-        return LostRun(start, "more work than allowed", work, short=True)
-
-    monkeypatch.setattr(start_cases_module, "run_of", dear)
-    runs = list(runs_of(design, 0.05, silent, 1, 2 * MOST_ONE))
-    assert [run.case for run in runs] == starts and given == [MOST_ONE] * 4
-    assert list(runs_of(design, 0.05, silent, 3, 2 * MOST_ONE)) == runs
-    text, action = _lost_in_words([run for run in runs if isinstance(run, LostRun)], len(runs))
-    assert (
-        f"4 would take more work than allowed; {len(starts) - 4} were not tried" in text and "--patience 600" in action
-    )
+    found = ensemble_module.simulate_starts(design, starts, 0.05, TOLERANCE, silent, 1, runner)
+    assert found.members == len(starts) and not found.lost
+    assert len(tolerances) > len(starts) and set(tolerances) == {TOLERANCE, ensemble_module.TIGHTER * TOLERANCE}
+    assert max(found.outcomes, key=lambda outcome: outcome.quiet_time_or_inf).confirmed
 
 
-def test_patience_lifts_the_bound_of_work() -> None:
-    assert all_work() == MOST_WORK
-    with patience.limited(60.0):
-        assert all_work() > 1000 * MOST_WORK
+def test_a_start_without_an_answer_says_why() -> None:
+    design = design_of()
+    lost = start_once(design, start(design), 0.05, TOLERANCE, 10)
+    assert isinstance(lost, Lost) and lost.short and lost.reason
+
+
+@pytest.mark.slow
+def test_chaotic_starts_take_no_more_work_than_others() -> None:
+    """A lightly damped pedestal: runs at two tolerances do not agree, which once took 20 times the work."""
+    soft = ("suspension.bearing_damping_N_s_per_m=[30.0, 30.0]", "machine.mass_kg=60.0")
+    ensemble = ensemble_of(design_of(*soft), 0.05, silent, 1)
+    assert not ensemble.lost and ensemble.balanced == ensemble.members
+    assert ensemble.work < 10 * WORK
+
+
+@pytest.mark.slow
+def test_the_answer_does_not_depend_on_workers() -> None:
+    design = design_of()
+    assert ensemble_of(design, 0.05, silent, 3) == ensemble_of(design, 0.05, silent, 1)

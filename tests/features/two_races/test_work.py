@@ -18,7 +18,7 @@ from abu_calc.features.two_races.contact import (
     pressed_wheels,
     resultants_at_work,
 )
-from abu_calc.features.two_races.start_cases import StartCase
+from abu_calc.features.two_races.start_cases import start
 from abu_calc.features.two_races.work_runs import agreement
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
@@ -93,7 +93,7 @@ def test_ball_angles_add_up_to_the_resultants() -> None:
 def test_simulated_contact_of_the_whole_rotor_agrees_with_the_closed_form() -> None:
     """Force and both resultants after 3 s, ideal races: within half a per cent."""
     design = design_of()
-    off = agreement(design, pressed_wheels(design.case)[0], StartCase("spread", 1.0, (0.7,)), 0.01)
+    off = agreement(design, pressed_wheels(design.case)[0], start(design, "spread", (0.7,)))
     assert isinstance(off, float) and off < 0.005
 
 
@@ -212,4 +212,4 @@ def test_the_study_refuses_a_machine_with_one_race() -> None:
     from abu_calc.features.two_races.work import grind_two_races
 
     with pytest.raises(InputError, match="one race"):
-        grind_two_races(abu_calc.read("avtovaz-707-222"), 0.05, lambda _: None)
+        grind_two_races(abu_calc.read("avtovaz-707-222"), lambda _: None)
