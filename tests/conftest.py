@@ -24,14 +24,17 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Of a test marked `few(n)` all cases but the first n are slow; what is hard is not slow as well."""
+    """Of a test marked `few(n, m)` all cases but the first n are slow, those after the first m of these hard; what is
+    hard is not slow as well.
+    """
     cases = Counter[str]()
     for item in items:
         if (few := item.get_closest_marker("few")) is not None:
             test = item.nodeid.partition("[")[0]
             cases[test] += 1
-            if cases[test] > few.args[0]:
-                item.add_marker(pytest.mark.slow)
+            quick, *slow = few.args
+            if cases[test] > quick:
+                item.add_marker(pytest.mark.hard if slow and cases[test] > quick + slow[0] else pytest.mark.slow)
         if item.get_closest_marker("hard") is not None:
             item.own_markers[:] = [mark for mark in item.own_markers if mark.name != "slow"]
 

@@ -43,6 +43,7 @@ SOFT, MORE_SOFT = [(0.9, 92), (0.1, 15), (0.25, 45)], [(0.1, 92), (0.25, 15), (0
 """Damping and drag: the less damping, the longer the machine sways; without any, for ever."""
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.parametrize(
     ("damping", "drag"),
     [
@@ -142,6 +143,7 @@ HARD_EDGES = [
 ]
 
 
+@pytest.mark.few(0, 3)
 @pytest.mark.parametrize(
     "entries",
     [
@@ -155,6 +157,7 @@ def test_edges_are_answered(entries: tuple[str, ...]) -> None:
     assert (status == 0) is all(check["status"] in GOOD for check in checks.values())
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.slow
 @pytest.mark.parametrize("entries", HARD_EDGES[1:7:2], ids=lambda entries: " ".join(entries)[:60])
 def test_edges_are_answered_before_their_start_cases_are(entries: tuple[str, ...]) -> None:
@@ -162,6 +165,7 @@ def test_edges_are_answered_before_their_start_cases_are(entries: tuple[str, ...
     assert status == 1 and checks["ABU704"]["status"] == "not-done" and result["autobalancer"]["ball_count"] > 1
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.parametrize(
     ("angle", "codes", "look"),
     [

@@ -266,6 +266,7 @@ def test_handles_of_the_straight_grinder_without_balls(body: dict[str, Any]) -> 
         assert place.levels.before == pytest.approx(level_from_velocity(max(velocity)), abs=0.02)
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.slow
 @pytest.mark.parametrize("offset", [0.0, -25.0])
 def test_handles_of_the_straight_grinder_with_balls(offset: float) -> None:

@@ -116,6 +116,7 @@ def grades(chosen: Design) -> dict[str, int]:
     return worst
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.parametrize(
     "seed",
     [

@@ -7,6 +7,7 @@ from tests.studies.arrangements import ALLOWED, compared
 QUICK, OTHERS = (23, 31, 32), (5, 9, 30, 33, 34, 35)
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.parametrize(
     "seed",
     [

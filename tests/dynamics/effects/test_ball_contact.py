@@ -162,6 +162,7 @@ def test_two_tolerances_agree():
     np.testing.assert_allclose(loose, tight, atol=1e-4)
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("restitution", "coefficient"),

@@ -42,6 +42,7 @@ def growth(scene: Scene, angles: np.ndarray) -> float:
     return decided(BalancedMotion(scene, tuple(angles.tolist())), scene.speed)[1]
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.parametrize(
     "seed",
     [

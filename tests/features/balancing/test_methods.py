@@ -253,7 +253,7 @@ FIELD = {
 }
 
 
-@pytest.mark.few(2)
+@pytest.mark.few(2, 1)
 @pytest.mark.parametrize("count", COUNTS)
 @pytest.mark.parametrize("name", FIELD)
 def test_the_residual_of_one_plane_is_within_the_uncertainty_told(tmp_path: Path, name: str, count: int) -> None:

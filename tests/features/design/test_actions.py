@@ -116,6 +116,7 @@ def test_every_action_of_the_hard_machines_comes_true(file: Path) -> None:
     assert list(faults(file.stem, machine, recalled("size", machine))) == []
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.parametrize("seed", RANDOM)
 def test_every_action_of_random_machines_comes_true(seed: int, tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"

@@ -36,6 +36,7 @@ def changed(machine: Machine, sized: SizeResult, **entries: object) -> SizeResul
     return size(machine.changed({f"autobalancer.{key}": value for key, value in pinned.items()}))
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "end"),
@@ -69,7 +70,7 @@ def test_drag_rates_have_the_quiet_times_of_the_start_cases(sized: SizeResult) -
     assert gap.quiet_time_s == slowest and gap.level_db[0] == gap.level_db[1] == sized.vibration.level_after_db
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_value_that_decides_the_verdict_is_first(machine: Machine, sized: SizeResult) -> None:
     """Hot oil is quiet within the limit of the file, but not within 0.6 s: there the drag rate decides, too.
 

@@ -82,6 +82,7 @@ def test_a_truer_race_is_no_later() -> None:
     assert last.rest_time_s is None or last.rest_time_s > whole.rest_time_s
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.slow
 @pytest.mark.parametrize("share", [0.8, 0.5, 0.3])
 def test_a_truer_race_keeps_verdict_and_quiet_time(share: float) -> None:

@@ -136,7 +136,7 @@ def test_hands_that_let_the_balls_flutter_fail() -> None:
 HANDS = str(Path(__file__).parents[2] / "machines" / "angle-grinder-hands.toml")
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
     """An angle grinder in hands at 11 000 rpm: 167 rpm is no action; another drag is."""
     region = region_of(HANDS)

@@ -127,6 +127,7 @@ def test_the_search_is_the_same_whatever_the_workers() -> None:
     assert alone == together and len(alone.outcomes) >= DESIGNED
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["late-bunched-elsewhere", "late-run-up-hands"])
 def test_balls_that_rest_late_may_be_quiet_soon(name: str) -> None:
@@ -300,7 +301,7 @@ def drawn_of_part(machine: Design, part: int) -> int:
     return sum(member.promised for member in design_part(machine, part))
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_late_start_is_found_among_more_parts_if_rare_ones_seem_late(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rare quiet times seem late by the first part; the following parts have a start that is late indeed."""
     machine = design_of(machine_text(120, family_of(120)), "limits.quiet_time_s=0.28")
@@ -319,7 +320,7 @@ def test_a_late_start_is_found_among_more_parts_if_rare_ones_seem_late(monkeypat
     assert len(quiet.outcomes) - quiet.near == len(list(design_part(design("avtovaz-707-305"), 0)))
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_machines_that_were_undone_for_work_are_judged() -> None:
     found = recalled("size", abu_calc.read(str(MACHINES / "not-evaluated-for-work.toml")))
     assert not [check.code for check in found.checks if check.requested and check.status in ("not-done", "fail")]

@@ -58,6 +58,7 @@ def simulated(source: Machine, row: SettlingOfStart) -> SimulateResult:
     )  # fmt: skip
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.parametrize(
     "name",
     [
@@ -88,6 +89,7 @@ def test_simulate_repeats_the_times_of_size(name: str) -> None:
     assert compared >= 6
 
 
+@pytest.mark.few(0, 3)
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.slow
 def test_one_result_holds_one_time_for_one_start(name: str) -> None:

@@ -109,7 +109,7 @@ def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> N
     assert result.soft_races == () and result.fitted[0].not_said == values == 20
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_body_in_space_is_compared_along_the_spindle(tmp_path: Path) -> None:
     """Estimated angle grinder: axes of `abu size` at its handle, moved to the median of the start cases."""
     text = MINE.split("[suspension]")[1]

@@ -165,7 +165,7 @@ def _hands(stiffness: float, drag: float) -> abu_calc.GrindingResult:
 CASES = [(6e4, 15.0), (1e5, 15.0), (1.4e5, 15.0), (2e5, 15.0), (3e5, 15.0), (6e5, 15.0), (2e5, 5.0), (2e5, 45.0)]
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @pytest.mark.parametrize("cases", [CASES[1:4:2], pytest.param(CASES, marks=pytest.mark.hard)], ids=("two", "all"))
 def test_the_level_of_an_angle_grinder_does_not_jump_with_contact_or_drag(cases: list[tuple[float, float]]) -> None:
     """It once fell from 105.2 to 89.2 dB where small disturbances begin to grow, though friction holds the balls.

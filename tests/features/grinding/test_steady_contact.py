@@ -218,6 +218,7 @@ def integrated(
     return complex(2 * (run.y[0] * back).mean()), complex(2 * (y * back).mean()), complex(total.mean())
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("stiffness", "sense", "runout"),

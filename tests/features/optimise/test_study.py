@@ -16,7 +16,7 @@ PRESET = "avtovaz-707-222"
 DRAG, ECCENTRICITY = "autobalancer.rolling_drag_per_s", "autobalancer.race_eccentricity_mm"
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_cheapest_choice_that_settles_wins(small: OptimiseResult) -> None:
     best = small.recommended
     assert (best.set_[DRAG], best.set_[ECCENTRICITY]) == (20, 0.03)
@@ -135,7 +135,7 @@ def test_a_value_that_scatters_cannot_be_chosen() -> None:
         abu_calc.optimise([])
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_family_shares_balls_and_race(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(front, "ENOUGH", 16)
     machines = [abu_calc.read(PRESET), abu_calc.read(PRESET).changed({"machine.mass_kg": 6.5})]

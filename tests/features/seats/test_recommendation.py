@@ -62,6 +62,7 @@ def written(found: BearingSeats) -> dict[str, Any]:
     return {key: value for key, value in keys.items() if value is not None}
 
 
+@pytest.mark.few(0, 1)
 @pytest.mark.parametrize(
     ("seed", "count"),
     [

@@ -315,6 +315,7 @@ def test_a_recommended_class_never_fails_a_check_of_its_seat() -> None:
         keeps_its_checks(name, service, [LOADS[number % len(LOADS)]])
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.parametrize(
     "name",
     [

@@ -54,6 +54,7 @@ FEW = [SETS[0], *(pytest.param(*each, marks=pytest.mark.slow) for each in SETS[1
 """The first of them, and the others, which take as long, for slow runs."""
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("mass", "zeta", "drag"), FEW)
 def test_stuck_speeds_number_one_three_three_one_as_the_rotor_turns_faster(
@@ -73,6 +74,7 @@ def test_stuck_speeds_number_one_three_three_one_as_the_rotor_turns_faster(
     assert seen == [(1, "below"), (3, "below"), (3, "above"), (1, "above")]
 
 
+@pytest.mark.few(0, 2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("mass", "zeta", "drag"), FEW)
 def test_search_finds_the_stuck_speeds_that_energy_balance_gives(mass: float, zeta: float, drag: float) -> None:

@@ -61,7 +61,7 @@ def test_no_advice_where_nothing_fails() -> None:
     assert (sweep.failed_limits, sweep.advice, sweep.tried) == ((), (), 0)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_advice_of_a_closed_form_comes_true(monkeypatch: pytest.MonkeyPatch) -> None:
     """80 dB and 1 dB for each micrometre of eccentricity, which alone decides: 90 dB are exceeded above 10 µm."""
 

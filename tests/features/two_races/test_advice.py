@@ -71,7 +71,7 @@ def test_the_quieter_change_holds_when_followed() -> None:
     assert not followed.lost and all(run.balanced and run.level <= limit for run in followed.outcomes)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_sturdier_change_holds_when_followed() -> None:
     overrides = ("autobalancer.0.max_mass_fraction=0.005", "autobalancer.1.max_mass_fraction=0.005")
     design = design_of(*overrides)

@@ -17,7 +17,7 @@ PRESETS = sorted(file.stem for file in (Path(__file__).parents[3] / "presets").g
 TWO_RACES = ("pedestal-grinder", "washing-machine-two-races")
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_presets_keep_what_they_expect() -> None:
     seen = again("verify", *(name for name in PRESETS if name not in TWO_RACES))
     assert seen.status == 0, seen.out
