@@ -16,6 +16,18 @@ Frequency = Annotated[float, Field(gt=0, le=10_000)]
 DampingRatio = Annotated[float, Field(ge=0, le=10)]
 
 
+Held = Annotated[
+    Literal["any", "as-given"],
+    Field(
+        description="Whether the machine may be turned in use: any (its spindle may be horizontal or vertical) or "
+        "as-given. Without it: any for hand tools; as-given with a swing arm, with two wheels, or with a natural "
+        "frequency above 8 Hz.",
+        examples=["any"],
+    ),
+]
+"""Whether a machine may be turned in use."""
+
+
 class Handle(Table):
     """A place where vibration levels are wanted; without any, levels are those in the wheel plane."""
 
@@ -98,13 +110,7 @@ class MachineTable(Table):
         description="Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical.",
         examples=["horizontal"],
     )
-    held: Literal["any", "as-given"] | None = Field(
-        default=None,
-        description="Whether the machine may be turned in use: any (its spindle may be horizontal or vertical) or "
-        "as-given. Without it: any for hand tools; as-given with a swing arm, with two wheels, or with a natural "
-        "frequency above 8 Hz.",
-        examples=["any"],
-    )
+    held: Held | None = None
     transverse_inertia_kg_m2: float | None = Field(
         default=None,
         description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, "

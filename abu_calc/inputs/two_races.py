@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from abu_calc.foundation.units import to_si
 from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.bearing_file import EXPECTED, NAME, Expected, Limits
-from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Speed
+from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Held, Speed
 from abu_calc.inputs.duty import Grinding, RunUp
 from abu_calc.inputs.reading.table import Name, Table, problem, usual
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
@@ -118,6 +118,7 @@ class TwoRaceMachineTable(Table):
         description="Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical.",
         examples=["horizontal"],
     )
+    held: Held | None = None
     transverse_inertia_kg_m2: float = Field(
         description="Moment of inertia across the spindle about the centre of mass, of all that mass_kg counts "
         "[kg·m²]; {range}.",

@@ -33,6 +33,9 @@ compiled once more.
 """
 
 
+Axis = Literal["horizontal", "vertical"]
+
+
 @dataclass(frozen=True)
 class Variation:
     """How a machine may differ from its file: factors on values, and how it is held; None: as the file says."""
@@ -41,7 +44,7 @@ class Variation:
     imbalance: float = 1.0
     friction_arm: float = 1.0
     natural_frequency: float = 1.0
-    spindle_axis: Literal["horizontal", "vertical"] | None = None
+    spindle_axis: Axis | None = None
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ def sized(name: str) -> dict:
     return seen.document
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @pytest.mark.parametrize("name", PRESETS)
 def test_every_preset_passes(name: str) -> None:
@@ -78,6 +79,7 @@ def test_under_load_the_level_does_not_contradict_the_simulation() -> None:
     assert loaded["level_after_db"] < loaded["level_before_db"] < loaded["level_at_once_db"]
 
 
+@pytest.mark.slow
 def test_json_is_one_document_and_everything_else_is_elsewhere() -> None:
     seen = once("size", "avtovaz-707-370", "--json")
     assert seen.document["abu"]["command"] == "size" and seen.document["abu"]["schema"] == 1

@@ -77,6 +77,7 @@ def test_the_sheet_counts_one_entry_as_one(tmp_path: Path) -> None:
     assert "changed: machine.mass_kg = 5.4" in text and "1 entries" not in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "told"), [("msh-230", False), ("avtovaz-707-222", True)])
 def test_only_a_horizontal_spindle_has_a_speed_that_carries_balls_over(name: str, told: bool) -> None:
     text = once("size", name, "--full").out

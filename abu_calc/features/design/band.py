@@ -9,12 +9,12 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import count, cycle, product
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final
 
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.scene_of_design import Start
-from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Member, Variation, usual_run_up
+from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Axis, Member, Variation, usual_run_up
 from abu_calc.sizing.design import Design
 
 NEW_WHEEL: Final = 0.1
@@ -51,11 +51,23 @@ class BandRow(Record):
 
 
 def turned_in_use(design: Design) -> bool:
-    """True if the spindle may be horizontal and vertical: by machine.held, else for machines held in the hands."""
+    """True if the spindle may be horizontal and vertical."""
+    return len(axes_in_use(design)) > 1
+
+
+def axes_in_use(design: Any) -> tuple[Axis | None, ...]:
+    """Directions of the spindle in use, None that of the file: both by machine.held, else of machines in the hands.
+
+    `design`: of one race or of two, which are not held in the hands.
+    """
     table = design.case.table
-    if table.machine.held is not None:
-        return table.machine.held == "any"
-    return table.swing_arm is None and max(table.suspension.frequencies or (0.0,)) <= SOFTLY_HELD
+    given, held = table.machine.spindle_axis, table.machine.held
+    in_hands = (
+        getattr(table, "swing_arm", design) is None and max(table.suspension.frequencies or (0.0,)) <= SOFTLY_HELD
+    )
+    if held == "as-given" or (held is None and not in_hands):
+        return (None,)
+    return (None, "vertical" if given == "horizontal" else "horizontal")
 
 
 def measured(design: Design) -> bool:
@@ -109,15 +121,11 @@ def sequence(axes: slice) -> Iterator[tuple[float, ...]]:
 
 def promised(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
     """Starts of machines within the promised band, in every position in turn."""
-    axes: tuple[str | None, ...] = (None,)
-    if turned_in_use(design):
-        given = design.case.table.machine.spindle_axis
-        axes = (None, "vertical" if given == "horizontal" else "horizontal")
-    points = zip(starts, cycle(axes), sequence(OF_PROMISED), strict=False)
+    points = zip(starts, cycle(axes_in_use(design)), sequence(OF_PROMISED), strict=False)
     for start, axis, (eccentricity, imbalance, side) in points:
         # A third of them has all the imbalance.
         share = min(NEW_WHEEL + (1 - NEW_WHEEL) * 1.5 * imbalance, 1.0)
-        varied = Variation(eccentricity, share, spindle_axis=axis)  # type: ignore[arg-type]
+        varied = Variation(eccentricity, share, spindle_axis=axis)
         yield replace(start, varied=varied, eccentricity=math.tau * (1 - side))
 
 
@@ -129,7 +137,7 @@ def corners(design: Design) -> Iterator[Member]:
     given = design.case.table.machine.spindle_axis
     if design.autobalancer.ball_count > FEW or (given != "horizontal" and not turned_in_use(design)):
         return
-    axis: Literal["horizontal"] | None = None if given == "horizontal" else "horizontal"
+    axis: Axis | None = None if given == "horizontal" else "horizontal"
     for start, share, side in product(SIDES, TRUER, (ALIKE, OPPOSITE)):
         yield Member(start, design.case.drag, 0.0, side, varied=Variation(share, spindle_axis=axis))
 

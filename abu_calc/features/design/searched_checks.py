@@ -120,6 +120,7 @@ def with_searched(
     if not broken and not rare:
         return check
     worst = max(broken or searched.outcomes, key=order)
+    check = replace(check, value=DECIDES[check.code](worst) if broken else searched.foreseen)
     share = f"Further start cases: {len(broken)} of {len(searched.outcomes)} {words(worst)}"
     if not broken:
         share = (
@@ -190,6 +191,13 @@ def _time_in_words(outcome: StartOutcome) -> str:
     return f"are late{' or still creep' * outcome.creeping}: the slowest is quiet {quiet}, at rest {rest}"
 
 
+DECIDES: Final[dict[str, Callable[[StartOutcome], float | None]]] = {
+    "ABU401": lambda outcome: outcome.loudest,
+    "ABU701": lambda outcome: from_si(outcome.imbalance, "g_mm"),
+    "ABU702": lambda outcome: outcome.quiet_time,
+    "ABU704": lambda outcome: 1.0,
+}
+"""The value of a further start case that decides a check."""
 NOT_TRIED: Final = "No change was simulated; --full prints a command that repeats the start case, to try one."
 NAMES: Final = {
     "ABU401": "loudest",

@@ -27,6 +27,7 @@ from abu_calc.features.design.records import (
 from abu_calc.features.design.region import true_region
 from abu_calc.features.design.searched_checks import start_checks
 from abu_calc.features.design.starts import EnsembleResult, Starts
+from abu_calc.features.design.verdict import Verdict, benefit
 from abu_calc.features.design.verification import Proven, proven
 from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
@@ -150,6 +151,7 @@ class SizeResult(Result):
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts", "parts"}
 
     model: SizeModel
+    verdict: Verdict
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
     effective_mass_kg: Annotated[float, Quantity("effective mass at the wheel", "m_eff")]
     body: BodyRecord
@@ -265,18 +267,20 @@ def size(
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
+    checks = tuple(
+        unproven(check, tried.starts)
+        for check in (
+            *_checks(design, level, [check for bearing in seats for check in bearing.checks], arm),
+            *stays,
+            region.check,
+            *started.values(),
+            *lost,
+        )
+    )
     return SizeResult(
         title=tables.machine.name,
-        checks=tuple(
-            unproven(check, tried.starts)
-            for check in (
-                *_checks(design, level, [check for bearing in seats for check in bearing.checks], arm),
-                *stays,
-                region.check,
-                *started.values(),
-                *lost,
-            )
-        ),
+        verdict=_verdict(design, checks, tried.ensemble, machine.file),
+        checks=checks,
         warnings=merged(
             *tried.warnings,
             *machine.warnings,
@@ -336,6 +340,16 @@ def size(
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy), tried.searched),
         parts=design.construction.parts,
+    )
+
+
+def _verdict(design: Design, checks: Sequence[Check], ensemble: Ensemble | None, file: str) -> Verdict:
+    """The verdict with what the autobalancer does at the loudest place."""
+    levels, quiet = design.idle.worst, None
+    if ensemble is not None:
+        quiet = ensemble.typical(outcome.quiet_time_or_inf for outcome in ensemble.rated)
+    return Verdict.of(
+        checks, benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet), file or None
     )
 
 

@@ -4,6 +4,7 @@ from typing import Annotated, ClassVar, Self
 
 from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
 from abu_calc.features.design.starts import Spread
+from abu_calc.features.design.verdict import Verdict
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
@@ -145,6 +146,7 @@ class TwoRaceSizeResult(Result):
 
     command: ClassVar[str] = "size"
 
+    verdict: Verdict
     system_mass_kg: Annotated[float, Quantity("mass with wheels and autobalancers", "M")]
     frequency: TwoRaceFrequency
     imbalances_g_mm: Annotated[tuple[float, ...], Quantity("imbalances", "U_j")]

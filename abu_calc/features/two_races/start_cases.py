@@ -22,7 +22,7 @@ from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.dynamics.trajectory import Samples, merged
-from abu_calc.features.design.band import NEW_WHEEL, sequence
+from abu_calc.features.design.band import NEW_WHEEL, axes_in_use, sequence
 from abu_calc.features.two_races.case import TwoRaceCase, felt_mass
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.balls import half_angle
@@ -39,7 +39,7 @@ from abu_calc.simulation.residual_criteria import slip
 from abu_calc.simulation.response import amplitude_window, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
-from abu_calc.simulation.start_cases import ALIKE, RUN_UP, Member, Variation
+from abu_calc.simulation.start_cases import ALIKE, RUN_UP, Axis, Member, Variation
 
 Kind = Literal["bunched", "spread", "standstill", "run-up"]
 KINDS: Final[tuple[Kind, ...]] = ("bunched", "spread", "standstill", "run-up")
@@ -99,12 +99,13 @@ def start_cases(design: TwoRaceDesign) -> Iterator[Member]:
 
 def promised(design: TwoRaceDesign) -> Iterator[Member]:
     """Starts of machines within what the file promises: truer races, lighter imbalances, at any angles."""
-    kinds: Iterator[Kind] = cycle(("bunched", "spread"))
-    for kind, point in zip(kinds, islice(sequence(slice(5)), OF_BAND), strict=False):
+    kinds: Iterator[Kind] = cycle(("bunched", "spread", "spread", "bunched"))
+    axes: Iterator[Axis | None] = cycle(axes_in_use(design))
+    for kind, axis, point in zip(kinds, axes, islice(sequence(slice(5)), OF_BAND), strict=False):
         eccentricity, imbalance, *angles = point
         side, turned, phase = (math.tau * angle for angle in angles)
         phases = tuple(phase * k for k in range(1, design.case.unknown_phases + 1))
-        varied = Variation(eccentricity, NEW_WHEEL + (1 - NEW_WHEEL) * imbalance)
+        varied = Variation(eccentricity, NEW_WHEEL + (1 - NEW_WHEEL) * imbalance, spindle_axis=axis)
         yield start(design, kind, phases, eccentricity=side, turned=turned, varied=varied)
 
 
@@ -186,7 +187,7 @@ def wheels_share(design: TwoRaceDesign, race: int, member: Member) -> complex:
 
 def _effects(design: TwoRaceDesign, member: Member) -> Iterator[Effect]:
     case, radius = design.case, design.races[0].design.autobalancer.ball_diameter / 2
-    if case.horizontal:
+    if horizontal(design, member):
         yield GravityEffect()
     if case.friction_arm:
         yield DryRollingFrictionEffect(case.friction_arm, radius)
@@ -195,6 +196,11 @@ def _effects(design: TwoRaceDesign, member: Member) -> Iterator[Effect]:
         yield RaceEccentricityEffect(eccentricity, race_centre(design, member))
     if member.run_up:
         yield RunUpEffect(member.run_up)
+
+
+def horizontal(design: TwoRaceDesign, member: Member) -> bool:
+    """True if gravity acts in the plane of the races."""
+    return (member.varied.spindle_axis or design.case.table.machine.spindle_axis) == "horizontal"
 
 
 def _race(design: TwoRaceDesign, race: int, member: Member, imbalance: complex) -> Race:
@@ -207,7 +213,7 @@ def _race(design: TwoRaceDesign, race: int, member: Member, imbalance: complex) 
         angles = [first + 2 * math.pi * k / count for k in range(count)]
     else:
         # A run-up of a horizontal spindle begins with the balls at the bottom of the race.
-        middle = -math.pi / 2 if member.run_up and design.case.horizontal else heavy + AHEAD + member.turned
+        middle = -math.pi / 2 if member.run_up and horizontal(design, member) else heavy + AHEAD + member.turned
         angles = [middle + beta * (2 * k - count + 1) for k in range(count)]
     standing, given = member.start == "standstill", design.case.drag
     scale = member.drag / given if given else 1.0

@@ -7,6 +7,7 @@ from typing import Final, cast
 
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.records import Eccentricity, Section
+from abu_calc.features.design.verdict import Verdict, benefit
 from abu_calc.features.two_races.advice import missed, quieter_change, sturdier_change, tried_change
 from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, read_case
 from abu_calc.features.two_races.checks import (
@@ -89,15 +90,20 @@ def size_two_races(
     ensemble = ensemble_of(design, accuracy, progress, threads) if above else None
     one, vibration = _one_race(design), _vibration(design.case, ensemble)
     late, loud = _advice(design, ensemble, accuracy, progress, threads)
+    checks = (
+        region_check(design, one),
+        *stability_check(design, judged),
+        *_made(design),
+        *level_checks(design, vibration, ensemble, loud),
+        *start_checks(design, ensemble, late),
+    )
+    many, limit = None if ensemble is None else TwoRaceEnsemble.of(ensemble), table.limits.vibration_level_db
+    quiet = None if many is None else many.quiet_time_s.typical
+    told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
     return TwoRaceSizeResult(
         title=table.machine.name,
-        checks=(
-            region_check(design, one),
-            *stability_check(design, judged),
-            *_made(design),
-            *level_checks(design, vibration, ensemble, loud),
-            *start_checks(design, ensemble, late),
-        ),
+        verdict=Verdict.of(checks, told, machine.file or None),
+        checks=checks,
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
@@ -110,7 +116,7 @@ def size_two_races(
         sections=tuple(Section.of(race.design) for race in design.races),
         one_race=one,
         vibration=vibration,
-        ensemble=None if ensemble is None else TwoRaceEnsemble.of(ensemble),
+        ensemble=many,
         response=tuple(_response(design.case)),
         run_up=tuple(_run_up(design, progress)),
     )

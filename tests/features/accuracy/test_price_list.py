@@ -59,6 +59,7 @@ def test_the_choice_is_the_quickest_that_suffices(measured):
         assert point.error is None or point.error > 0.009 or point.wall_s >= chosen.wall_s
 
 
+@pytest.mark.slow
 def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
     vague = replace(measured.reference, disagreement=0.02)
     assert cheapest(list(measured.points), 0.01, vague) is None

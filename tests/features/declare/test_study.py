@@ -131,6 +131,7 @@ def test_an_action_holds_when_followed(tmp_path: Path) -> None:
     assert f"{after.with_.declared_m_per_s2:.3g}" in check.remedy if after.with_ else False
 
 
+@pytest.mark.slow
 def test_causes_add_up(rigid: DeclareResult) -> None:
     assert sum(cause.share for cause in rigid.causes) == pytest.approx(1.0)
     by_name = {cause.name: cause.a_hv_m_per_s2 for cause in rigid.causes}

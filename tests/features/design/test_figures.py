@@ -105,6 +105,7 @@ def test_caption_of_the_early_pressed_run_names_its_case() -> None:
     assert f"after the balls settle: {result.vibration_loaded.level_after_db:.1f} dB" in caption
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PRESETS)
 def test_each_time_of_the_report_names_start_race_and_drag_rate(name: str) -> None:
     """One drag rate has a quiet and a rest time for each start case; each row and cell names its own."""

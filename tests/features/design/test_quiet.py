@@ -68,6 +68,7 @@ def behind(share: float) -> SimulateResult:
     return abu_calc.simulate(grinder(share), "idle", "behind", race_centre_deg=180.0)
 
 
+@pytest.mark.slow
 def test_a_truer_race_is_no_later() -> None:
     """The balls take nearly the same course whatever the race is off; only the last one rests later."""
     whole, *truer = map(behind, (1.0, 0.8, 0.5, 0.3))

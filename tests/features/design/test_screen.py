@@ -96,6 +96,7 @@ def test_scene_files(tmp_path: Path, text: str, duration: str) -> None:
         assert fits(abu("simulate", str(file), "--duration", duration))
 
 
+@pytest.mark.slow
 def test_what_failed_stands_there_with_its_remedy() -> None:
     arguments = ("size", "avtovaz-707-370", *STIFF)
     document, lines = once(*arguments, "--json").document, once(*arguments).out

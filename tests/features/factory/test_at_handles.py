@@ -10,6 +10,7 @@ from abu_calc.features.factory.measurements import factory_machines
 from tests.remembered import recalled
 
 
+@pytest.mark.slow
 def test_the_estimate_holds_the_reference_case_along_the_spindle() -> None:
     """V305: 1750 rpm, hands, race eccentricity 10 µm; rear z 0.405572 mm/s, side z 0.787375 (an integrated body).
 

@@ -22,6 +22,7 @@ def test_the_larger_amplitude_counts_in_micrometres() -> None:
     assert _largest(AxisMotion(x_amplitude_mm=None, y_amplitude_mm=None)) is None
 
 
+@pytest.mark.slow
 def test_bars_are_the_levels_of_the_result() -> None:
     result = worked(STRAIGHT, "golden")
     figures = {figure.name: figure.shown for figure in grinding_extras(result).figures}

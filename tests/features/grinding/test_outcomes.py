@@ -196,6 +196,7 @@ def test_friction_holds_the_balls_of_every_start_case(case: tuple[float, float])
     assert any("is a lower bound" in warning for warning in result.warnings)
 
 
+@pytest.mark.slow
 def test_two_motions_of_one_machine_are_told_with_their_shares() -> None:
     """The straight grinder: of 8 start cases pressed at once one keeps bouncing 15 dB louder; `simulate` agrees."""
     result = recalled("grinding", abu_calc.read("avtovaz-707-222"))

@@ -121,6 +121,7 @@ def test_figure_from_python_has_the_numbers_of_the_result() -> None:
     assert {round(x) for x, y in points if y == result.measured_after.measured_level_db} == {5800}
 
 
+@pytest.mark.slow
 def test_run_up_ends_at_full_speed_with_little_left() -> None:
     shown = _figures()["run-up"].shown
     assert isinstance(shown, Plot)
@@ -140,6 +141,7 @@ def test_large_imbalances_are_written_as_tables_have_them() -> None:
     assert rest.limit is not None and rest.limit[1] == "permitted 12350 g·mm"
 
 
+@pytest.mark.slow
 def test_motion_stands_still_as_the_angles_of_the_balls() -> None:
     result = sized()
     assert result.idle_run is not None

@@ -131,6 +131,7 @@ def test_layers_are_kinds_of_line() -> None:
     assert layers["CENTRE"].dxf.linetype != layers["HIDDEN"].dxf.linetype != "CONTINUOUS"
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_title_block_says_where_it_is_from(name: str) -> None:
     one = result(name)

@@ -111,6 +111,7 @@ def _leaves(value: Any) -> Iterator[Any]:
         yield value
 
 
+@pytest.mark.slow
 def test_size_has_its_figures_with_captions_and_alternatives(written: Any) -> None:
     text, document, _ = written("size")
     page = read(text)

@@ -1,0 +1,52 @@
+"""Verdict of a design in one word and one sentence: whether the machine suits, and what decides it."""
+
+import shlex
+from collections.abc import Sequence
+from typing import Annotated, Final, Self
+
+from abu_calc.foundation.checks import Check, Grade, worst
+from abu_calc.foundation.quantity import Quantity, Record, record
+
+WORDS: Final[dict[Grade, str]] = {
+    "pass": "suits", "warn": "suits-but", "fail": "does-not-suit", "not-done": "not-known"
+}  # fmt: skip
+"""The word for the worst grade of all checks."""
+
+
+@record
+class Verdict(Record):
+    """Whether the machine suits an autobalancer, and the command of the change that was tried, if one mends it."""
+
+    word: Annotated[str, Quantity("verdict", "", 4, "suits, suits-but, does-not-suit or not-known")]
+    sentence: Annotated[str, Quantity("in a sentence")]
+    next: Annotated[str | None, Quantity("next command")]
+
+    @classmethod
+    def of(cls, checks: Sequence[Check], benefit: str, file: str | None) -> Self:
+        """Verdict of these checks: the first of the worst grade decides; `benefit`: a sentence if all pass."""
+        grade = worst(checks)
+        if grade == "pass":
+            return cls(word=WORDS[grade], sentence=benefit, next=None)
+        deciding = [check for check in checks if check.requested and check.status == grade]
+        reasons = "; ".join(dict.fromkeys(map(_reason, deciding)))
+        entries = next((check.overrides for check in deciding if check.overrides), ())
+        words = ["abu", "size", file or "FILE", *(word for entry in entries for word in ("--set", entry))]
+        return cls(word=WORDS[grade], sentence=f"{reasons}.", next=shlex.join(words) if entries else None)
+
+
+def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:
+    """What the autobalancer does to the level [dB] at a place, and after how long [s], in a sentence."""
+    if before is None or after is None:
+        return "All checks pass."
+    moves = "falls" if after < before else "rises"
+    text = f"The idle level at the {place} {moves} from {before:.1f} to {after:.1f} dB (limit {limit:g} dB)"
+    return f"{text}." if quiet is None else f"{text}; the machine is quiet {quiet:.2g} s after full speed."
+
+
+def _reason(check: Check) -> str:
+    """Name of a check with its value and limit."""
+    name = check.name[:1].upper() + check.name[1:]
+    if check.value is None or check.limit is None:
+        return f"{name}: {check.message.split('. ')[0]}"
+    unit = f" {check.unit}" if check.unit else ""
+    return f"{name}: {check.value:.4g}{unit} (at {check.bound} {check.limit:.4g})"

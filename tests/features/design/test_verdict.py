@@ -1,0 +1,61 @@
+"""The verdict in a word: by the worst grade, with what decides it and the command of a change that was tried."""
+
+import shlex
+
+import pytest
+
+import abu_calc
+from abu_calc.features.design.verdict import Verdict, benefit
+from abu_calc.foundation.checks import Check, Grade, OptionalCheck
+from tests.remembered import recalled
+
+LEVEL = Check("ABU401", "idle level", "pass", "Loudest start case. It is loud", 104.0, 109.0, "dB")
+
+
+def of_grades(*grades: Grade) -> Verdict:
+    checks = [Check("ABU702", f"check {k}", grade, f"reason {k}. And more") for k, grade in enumerate(grades)]
+    return Verdict.of(checks, "It helps.", None)
+
+
+@pytest.mark.parametrize(
+    ("grades", "word", "sentence"),
+    [
+        (("pass", "pass"), "suits", "It helps."),
+        (("pass", "warn", "pass"), "suits-but", "Check 1: reason 1."),
+        (("warn", "not-done", "pass"), "not-known", "Check 1: reason 1."),
+        (("not-done", "fail", "warn", "fail"), "does-not-suit", "Check 1: reason 1; Check 3: reason 3."),
+    ],
+)
+def test_the_worst_grade_decides(grades: tuple[Grade, ...], word: str, sentence: str) -> None:
+    verdict = of_grades(*grades)
+    assert (verdict.word, verdict.sentence, verdict.next) == (word, sentence, None)
+
+
+def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
+    optional = OptionalCheck("ABU407", "vibration at handles", "not-done", "no direction")
+    assert Verdict.of([LEVEL, optional], "It helps.", None).word == "suits"
+
+
+def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> None:
+    late = Check("ABU702", "quiet time", "fail", "late", 1.25, 1.0, "s", "Set …", overrides=("a.b=2", 'c.d="x y"'))
+    verdict = Verdict.of([LEVEL, late], "", "my machine.toml")
+    assert verdict.sentence == "Quiet time: 1.25 s (at most 1)."
+    assert verdict.next is not None
+    assert shlex.split(verdict.next) == ["abu", "size", "my machine.toml", "--set", "a.b=2", "--set", 'c.d="x y"']
+
+
+def test_what_the_autobalancer_does_in_a_sentence() -> None:
+    told = benefit("left handle", 111.04, 98.66, 109.0, 0.123)
+    assert told == (
+        "The idle level at the left handle falls from 111.0 to 98.7 dB (limit 109 dB); the machine is quiet 0.12 s "
+        "after full speed."
+    )
+    assert "rises from 90.0 to 91.0 dB" in benefit("spindle", 90.0, 91.0, 109.0, None)
+
+
+@pytest.mark.slow
+def test_the_result_holds_it() -> None:
+    result = recalled("size", abu_calc.read("avtovaz-707-222"))
+    verdict = result.to_dict()["verdict"]
+    assert verdict["word"] == "suits" and f"to {result.vibration.level_after_db:.1f} dB" in verdict["sentence"]
+    assert abu_calc.size(abu_calc.read("avtovaz-707-222"), starts="none").verdict.word == "not-known"
