@@ -76,6 +76,19 @@ def measured(design: Design) -> bool:
     return wheel.imbalance_g_mm is None and wheel.balance_grade is None
 
 
+def identified(design: Design, name: str, usual: Factors) -> Factors:
+    """Interval of a value of [autobalancer] that was identified, as factors on it; else the usual ones."""
+    table = design.case.table
+    known = {} if table.identified is None else table.identified.in_force(table.autobalancer)
+    value = getattr(table.autobalancer, name)
+    return (known[name][0] / value, known[name][1] / value) if name in known and value else usual
+
+
+def friction_factors(design: Design) -> Factors:
+    """Factors on the friction arm."""
+    return identified(design, "rolling_friction_mm", FRICTION)
+
+
 def band(design: Design) -> tuple[BandRow, ...]:
     """All values that vary, promised ones first."""
     case, table = design.case, design.case.table
@@ -87,10 +100,12 @@ def band(design: Design) -> tuple[BandRow, ...]:
     }
     usual = {
         "autobalancer.rolling_drag_per_s": (min(drag), max(drag)),
-        "autobalancer.rolling_friction_mm": _times(FRICTION, abu.rolling_friction_mm),
+        "autobalancer.rolling_friction_mm": _times(friction_factors(design), abu.rolling_friction_mm),
         "machine.speed_rpm": _times(SPEED, speed),
         "run_up.time_s": RUN_UPS,
     }
+    if (most := identified(design, "race_eccentricity_mm", (1.0, 1.0))[1]) > 1:
+        usual["autobalancer.race_eccentricity_mm"] = 0.0, most * abu.race_eccentricity_mm
     if measured(design):
         usual["wheel.imbalance_g_mm"] = imbalance, abu.capacity_margin * imbalance
     if (given := table.suspension.frequencies) is not None:
@@ -149,14 +164,16 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
     """
     case, file_run_up = design.case, usual_run_up(design)
     low, high = min(case.drag_shares), max(case.drag_shares)
+    frictions, eccentric = friction_factors(design), identified(design, "race_eccentricity_mm", (1.0, 1.0))[1]
     for k, (start, (drag, friction, frequency, speed, run_up)) in enumerate(
         zip(promised(design, starts), sequence(OF_USUAL), strict=False)
     ):
         worse = case.autobalancer.capacity_margin if measured(design) and start.varied.imbalance == 1 else 1.0
         varied = replace(
             start.varied,
+            race_eccentricity=eccentric * start.varied.race_eccentricity,
             imbalance=worse * start.varied.imbalance,
-            friction_arm=_between(FRICTION, friction),
+            friction_arm=_between(frictions, friction),
             natural_frequency=_between(NATURAL_FREQUENCY, frequency),
         )
         changed = replace(start, varied=varied, drag=case.drag * _between((low, high), drag), promised=False)

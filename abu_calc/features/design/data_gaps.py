@@ -1,12 +1,12 @@
 """Assumed values of a machine file, ranked by how far their usual range moves the verdict of its design.
 
 A value counts as assumed if the file leaves it to the default, or gives just that figure. Each end of its usual range
-is followed with the balls and the race of the design: levels and checks are calculated, and the start case
-that is slowest today is simulated again.
+is followed with the balls and the race of the design: levels and checks are calculated, and the start cases
+that are slowest today are simulated again.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Final, NamedTuple, Self
 
 from abu_calc.features.design.verification import design_with
@@ -27,7 +27,10 @@ MOST: Final = 3
 """Assumed values that are listed."""
 
 MOST_WORK: Final = 20_000
-"""Evaluations of the slowest start case above which its quiet time at the ends is not simulated."""
+"""Evaluations of a start case above which its quiet time at the ends is not simulated."""
+
+SLOWEST: Final = 3
+"""Start cases, the slowest of all that are promised, that are simulated at the ends."""
 
 ALIKE_DB, ALIKE_FACTOR = 3.0, 2.0
 """A level that moves by so much and a quiet time that changes by this factor rank alike."""
@@ -61,8 +64,8 @@ two hands (ISO 10068:2012)."""
 
 @dataclass(frozen=True)
 class RangeEnd:
-    """The design at one end of a usual range; levels [dB] and the quiet time [s] of the slowest start case,
-    infinite: it is never quiet, NaN: that was not simulated.
+    """The design at one end of a usual range; levels [dB] and the quiet time [s] of the slowest start case of
+    those simulated, infinite: it is never quiet, NaN: that was not simulated.
 
     `holds`: whether the autobalancer meets every requirement of sizing and level and quiet time their limits.
     """
@@ -77,8 +80,8 @@ class DataGap(Record):
     """An assumed value, and the results at both ends of its usual range: balls and race as designed.
 
     `decides`: at one end alone the design meets every requirement, and level and quiet time keep their limits.
-    `quiet_time_s` is that of the start case which is the slowest as the file stands; at the ends of the drag rate, of
-    the slowest one there. An end of None: it is never quiet. None: it was not simulated.
+    `quiet_time_s` is the longest of the start cases which are the slowest as the file stands; at the ends of the drag
+    rate, of the slowest one there. An end of None: it is never quiet. None: it was not simulated.
     """
 
     key: Annotated[str, Quantity("key")]
@@ -88,7 +91,7 @@ class DataGap(Record):
     level_db: Annotated[tuple[float, float], Quantity("expected level at both ends", "L")]
     quiet_time_s: Annotated[
         tuple[float | None, float | None] | None,
-        Quantity("quiet time at both ends of the start case that is slowest now", "t_q", 3),
+        Quantity("quiet time at both ends of the start cases that are slowest now", "t_q", 3),
     ]
 
     @classmethod
@@ -112,15 +115,21 @@ class DataGap(Record):
         return max(abs(high - low) / ALIKE_DB, abs(ratio))
 
 
-def data_gaps(design: Design, ensemble: Ensemble | None, accuracy: float) -> tuple[DataGap, ...]:
-    """The three assumed values that most move the verdict, the first one most; none if the balls do not balance."""
+def data_gaps(
+    design: Design, ensemble: Ensemble | None, further: Sequence[StartOutcome], accuracy: float
+) -> tuple[DataGap, ...]:
+    """The three assumed values that most move the verdict, the first one most; none if the balls do not balance.
+
+    `further`: outcomes of start cases beside the ensemble.
+    """
     if ensemble is None or not ensemble.given or not design.frequency.balancing_possible:
         return ()
-    gaps, slowest = list[DataGap](), max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf)
+    promised = [*ensemble.given, *(outcome for outcome in further if outcome.member.promised)]
+    gaps, slowest = list[DataGap](), sorted(promised, key=lambda outcome: -outcome.quiet_time_or_inf)[:SLOWEST]
     for key, usual in assumed_values(design.case.table):
-        if slowest.member.on_arm and key.startswith("suspension"):
+        if slowest[0].member.on_arm and key.startswith("suspension"):
             continue
-        ends = _end(design, ensemble, key, usual.low, accuracy), _end(design, ensemble, key, usual.high, accuracy)
+        ends = [_end(design, ensemble, slowest, key, value, accuracy) for value in (usual.low, usual.high)]
         if ends[0] is not None and ends[1] is not None:
             gaps.append(DataGap.of(key, usual, (ends[0], ends[1])))
     moving = (gap for gap in gaps if gap.decides or gap.movement > 0)
@@ -140,7 +149,9 @@ def assumed_values(file: MachineFile) -> Iterator[tuple[str, UsualRange]]:
             yield key, usual
 
 
-def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: float) -> RangeEnd | None:
+def _end(
+    design: Design, ensemble: Ensemble, slowest: Sequence[StartOutcome], key: str, value: float, accuracy: float
+) -> RangeEnd | None:
     """The design with one value replaced; None if the file refuses it."""
     entries = {key: [value, value] if key.startswith("suspension") else value}
     after = followed(design.case, {**entries, **pins(design.autobalancer)})
@@ -148,16 +159,16 @@ def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: f
         return None
     levels, moves = design.speed_levels, RANGES[key].moves_levels
     level = level_of(after) if moves or levels is None else levels.highest.level_after
-    slowest = max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf)
     if key == DRAG:
         time = max(
             (outcome.quiet_time_or_inf for outcome in ensemble.outcomes if math.isclose(outcome.member.drag, value)),
             default=math.nan,
         )
     elif RANGES[key].moves_times:
-        time = quiet_time_with(design, slowest, entries, accuracy)
+        times = [quiet_time_with(design, each, entries, accuracy) for each in slowest]
+        time = max((each for each in times if not math.isnan(each)), default=math.nan)
     else:
-        time = slowest.quiet_time_or_inf
+        time = slowest[0].quiet_time_or_inf
     limits = design.case.table.limits
     holds = (
         sound(after.case, after.candidate) and level <= after.case.level_limit and not time > limits.longest_quiet_time
@@ -165,13 +176,13 @@ def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: f
     return RangeEnd(level, time, holds)
 
 
-def quiet_time_with(design: Design, slowest: StartOutcome, entries: Mapping[str, object], accuracy: float) -> float:
-    """Quiet time [s] of the slowest start case with entries replaced; infinite: never; NaN: not known."""
-    other = None if slowest.work > MOST_WORK or patience.over() else design_with(design, entries)
+def quiet_time_with(design: Design, start: StartOutcome, entries: Mapping[str, object], accuracy: float) -> float:
+    """Quiet time [s] of a start case with entries replaced; infinite: never; NaN: not known."""
+    other = None if start.work > MOST_WORK or patience.over() else design_with(design, entries)
     if other is None:
         return math.nan
     try:
-        run = run_of_start(other, slowest.member, accuracy, first_tolerance(other), early_end=True)
+        run = run_of_start(other, start.member, accuracy, first_tolerance(other), early_end=True)
         return run.outcome.quiet_time_or_inf
     except NotTrustworthyError:
         return math.nan

@@ -250,7 +250,8 @@ def size(
         threads = processors() if workers is None else workers
         tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads, starts=starts)
         design, whole = tried.design, starts == FULL
-        gaps = meanwhile(data_gaps, design, tried.ensemble if whole else None, accuracy, workers=threads)
+        further = () if tried.searched is None else tried.searched.outcomes
+        gaps = meanwhile(data_gaps, design, tried.ensemble if whole else None, further, accuracy, workers=threads)
         balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=threads)
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))

@@ -168,3 +168,17 @@ def test_the_printed_options_repeat_a_varied_run() -> None:
     result = seen.document["result"]
     assert result["quiet_time_s"] == pytest.approx(outcome.quiet_time, rel=0.02, abs=0.002)
     assert result["residual_imbalance_g_mm"] == pytest.approx(from_si(outcome.imbalance, "g_mm"), abs=1.0)
+
+
+def test_identified_values_vary_within_their_intervals() -> None:
+    """Friction from 1.5 to 3 µm where 2 µm are in force; an eccentricity up to 12 µm where 10 are."""
+    identified = {"rolling_friction_mm": [0.0015, 0.003], "race_eccentricity_mm": [0.008, 0.012]}
+    design = design_of(identified=identified)
+    rows = {(row.key, row.promised): (row.low, row.high) for row in band(design)}
+    assert rows["autobalancer.rolling_friction_mm", False] == pytest.approx((0.0015, 0.003))
+    assert rows["autobalancer.race_eccentricity_mm", False] == pytest.approx((0.0, 0.012))
+    assert rows["autobalancer.race_eccentricity_mm", True] == pytest.approx((0.0, 0.010))
+    start = Member("bunched", design.case.drag)
+    varied = [member.varied for member in islice(usual(design, [start] * 200), 200)]
+    assert 0.75 <= min(each.friction_arm for each in varied) < 0.8 and 1.4 < max(e.friction_arm for e in varied) <= 1.5
+    assert 1.0 < max(each.race_eccentricity for each in varied) <= 1.2

@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.design.data_gaps import RANGES, DataGap, assumed_values, data_gaps
+from abu_calc.features.design.data_gaps import RANGES, SLOWEST, DataGap, assumed_values, data_gaps
 from abu_calc.features.design.screen import gap_table
 from abu_calc.features.design.study import SizeResult, size
 from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.read_machine import Machine, read_machine
 from abu_calc.reporting.blocks import Grid
+from abu_calc.simulation.ensemble_results import StartOutcome
 from abu_calc.sizing import size as size_design
 from tests.remembered import recalled
 
@@ -36,6 +37,12 @@ def changed(machine: Machine, sized: SizeResult, **entries: object) -> SizeResul
     return size(machine.changed({f"autobalancer.{key}": value for key, value in pinned.items()}))
 
 
+def promised(result: SizeResult) -> list[StartOutcome]:
+    """All start cases that the machine promises."""
+    assert result.starts.of is not None and result.starts.searched is not None
+    return [*result.starts.of[1].given, *(each for each in result.starts.searched.outcomes if each.member.promised)]
+
+
 @pytest.mark.few(0, 1)
 @pytest.mark.slow
 @pytest.mark.parametrize(
@@ -52,11 +59,11 @@ def test_following_one_end_gives_the_numbers_told(machine: Machine, sized: SizeR
     other = changed(machine, sized, **{name: gap.usual_range[end]})
     assert other.ensemble is not None and gap.quiet_time_s is not None
     assert gap.level_db[end] == pytest.approx(other.vibration.level_after_db, abs=1e-9)
-    # The start case that is slowest as the file stands; ensembles confirm such a one at a tighter tolerance.
-    assert sized.starts.of is not None and other.starts.of is not None
-    slowest = max(sized.starts.of[1].given, key=lambda outcome: outcome.quiet_time_or_inf).member
-    (same,) = [outcome for outcome in other.starts.of[1].given if outcome.member == slowest]
-    assert gap.quiet_time_s[end] == pytest.approx(same.quiet_time, rel=0.02)
+    # The start cases that are slowest as the file stands; ensembles confirm such ones at a tighter tolerance.
+    slowest = sorted(promised(sized), key=lambda outcome: -outcome.quiet_time_or_inf)[:SLOWEST]
+    members = [outcome.member for outcome in slowest]
+    same = [outcome.quiet_time_or_inf for outcome in promised(other) if outcome.member in members]
+    assert len(same) == SLOWEST and gap.quiet_time_s[end] == pytest.approx(max(same), rel=0.02)
 
 
 def test_drag_rates_have_the_quiet_times_of_the_start_cases(sized: SizeResult) -> None:
@@ -112,7 +119,7 @@ def test_what_a_file_leaves_out_counts_as_assumed(machine: Machine) -> None:
 
 
 def test_there_are_no_gaps_without_start_cases(machine: Machine) -> None:
-    assert data_gaps(size_design(machine.whole("size")), None, 0.01) == ()
+    assert data_gaps(size_design(machine.whole("size")), None, (), 0.01) == ()
 
 
 @pytest.mark.slow
