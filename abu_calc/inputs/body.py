@@ -17,7 +17,7 @@ DampingRatio = Annotated[float, Field(ge=0, le=10)]
 
 
 Held = Annotated[
-    Literal["any", "as-given"],
+    Literal["any", "as-given"] | None,
     Field(
         description="Whether the machine may be turned in use: any (its spindle may be horizontal or vertical) or "
         "as-given. Without it: any for hand tools; as-given with a swing arm, with two wheels, or with a natural "
@@ -110,7 +110,7 @@ class MachineTable(Table):
         description="Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical.",
         examples=["horizontal"],
     )
-    held: Held | None = None
+    held: Held = None
     transverse_inertia_kg_m2: float | None = Field(
         default=None,
         description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, "

@@ -118,7 +118,7 @@ class TwoRaceMachineTable(Table):
         description="Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical.",
         examples=["horizontal"],
     )
-    held: Held | None = None
+    held: Held = None
     transverse_inertia_kg_m2: float = Field(
         description="Moment of inertia across the spindle about the centre of mass, of all that mass_kg counts "
         "[kg·m²]; {range}.",

@@ -59,6 +59,7 @@ def test_envelope_of_the_face_machine() -> None:
     assert found["outer_diameter_mm"] <= 68 and found["width_mm"] <= 32
 
 
+@pytest.mark.slow
 def test_levels_of_the_straight_machine_are_as_published() -> None:
     """Published: 102–103 dB at most with the autobalancer, 111 dB without; read from octaves, so ± 1.5 dB."""
     result = sized("avtovaz-707-222")["result"]
@@ -88,6 +89,7 @@ def test_json_is_one_document_and_everything_else_is_elsewhere() -> None:
     assert seen.out.isascii()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".json", ".toml", ".csv", ".txt"])
 def test_output_formats(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"design{suffix}"

@@ -137,6 +137,7 @@ def test_a_valid_file_counts_its_defaults(tmp_path: Path) -> None:
     assert "takes no natural_frequencies_hz and no damping_ratios" in told
 
 
+@pytest.mark.slow
 def test_the_required_capacity_names_margin_and_imbalance() -> None:
     told = re.search(r"Capacity .*required: 1.2 × ([\d.]+); imbalance ([\d.]+)", once("size", "msh-230").out)
     result = once("size", "msh-230", "--json").document["result"]

@@ -65,6 +65,7 @@ def test_a_room_imports_only_rooms_before_it():
     assert seen >= set(ROOMS)
 
 
+@pytest.mark.slow
 def test_no_file_of_dynamics_or_simulation_is_in_a_circle():
     files = [*DYNAMICS.rglob("*.py"), *(PACKAGE / "simulation").rglob("*.py")]
     left = {path: {file_of(module) for module in imports(path)} & set(files) for path in files}

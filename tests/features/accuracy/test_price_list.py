@@ -65,6 +65,7 @@ def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
     assert cheapest(list(measured.points), 0.01, vague) is None
 
 
+@pytest.mark.slow
 def test_a_point_that_tighter_tolerances_of_its_method_do_not_confirm_came_near_by_chance(measured):
     """Motions with two ends: a loose run may land at the right one."""
     points = [

@@ -256,6 +256,7 @@ def test_the_same_machine_gives_the_same_numbers(tmp_path: Path) -> None:
     assert first == second
 
 
+@pytest.mark.slow
 def test_gravity_is_told_on_a_horizontal_spindle(tmp_path: Path, rigid: DeclareResult) -> None:
     """k_r·R_p·Ω²/r = 3.8 m/s² is below g: gravity shakes the balls free, and friction leaves nothing."""
     lying = result(tmp_path, S150, 10_000, machine__spindle_axis="horizontal")

@@ -174,6 +174,7 @@ def test_an_action_alone_is_printed_if_its_case_stands_in_a_table() -> None:
     assert told[0].text.startswith("2 WARN ABU403 thing 1") and "reason 1" in told[0].text
 
 
+@pytest.mark.slow
 def test_balls_that_do_not_balance_are_never_quiet() -> None:
     lines = once("size", "avtovaz-707-370", *STIFF).out
     assert "Median of the start cases" not in lines or "never" in row_of(lines, "Median of the start cases")

@@ -114,6 +114,7 @@ def test_the_schema_knows_models_and_checks(
         judge.validate(document)
 
 
+@pytest.mark.slow
 def test_numbers_say_what_they_are(schema: dict[str, object]) -> None:
     """Label, symbol and unit stand in the schema."""
     definitions = schema["$defs"]

@@ -40,6 +40,7 @@ def test_an_idle_machine_is_refused_with_the_table_it_lacks() -> None:
         abu_calc.grinding(abu_calc.read(STRAIGHT), accuracy=2.0)
 
 
+@pytest.mark.slow
 def test_parts_of_a_result_agree_with_one_another() -> None:
     """Two balls of m·R_p each open to an angle whose cosine is |V|/(2·m·R_p); the printed ones likewise."""
     result = worked(STRAIGHT, "golden")

@@ -34,6 +34,7 @@ def test_the_line_on_the_arm_comes_first() -> None:
     assert len(gaps) == len(result["data_gaps"]) == 3
 
 
+@pytest.mark.slow
 def test_numbers_of_the_arm_in_json() -> None:
     """The keys others call, and what stands beside them."""
     result = once("size", PRESET, "--json").document["result"]

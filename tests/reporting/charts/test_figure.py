@@ -151,6 +151,7 @@ def test_motion_stands_still_as_the_angles_of_the_balls() -> None:
     assert ends == pytest.approx(sorted(angles))
 
 
+@pytest.mark.slow
 def test_starts_are_those_of_the_ensemble() -> None:
     result = sized()
     views = result.starts.views

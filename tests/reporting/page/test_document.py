@@ -132,6 +132,7 @@ def test_size_has_its_figures_with_captions_and_alternatives(written: Any) -> No
     assert f"{document['result']['measured_after']['measured_level_db']:.1f} dB" in told
 
 
+@pytest.mark.slow
 def test_calculation_note_and_what_is_needed_to_repeat_it(written: Any) -> None:
     text, document, _ = written("size")
     words = " ".join(data for _, data in read(text).texts)
