@@ -68,6 +68,7 @@ def test_levels_of_the_straight_machine_are_as_published() -> None:
     assert result["vibration"]["level_after_db"] == pytest.approx(100.4, abs=0.5)
 
 
+@pytest.mark.slow
 def test_under_load_the_level_does_not_contradict_the_simulation() -> None:
     """Wheel and work part, by 49 N of variation on 45 N: bunched balls leave what the simulation of grinding shows, and
     go on so; settled ones, as one works, leave less.

@@ -26,13 +26,22 @@ def imports() -> dict[str, set[str]]:
 
 
 def _imported(path: Path) -> Iterator[str]:
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in _statements(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("abu_calc"):
             for alias in node.names:
                 inner = f"{node.module}.{alias.name}"
                 yield inner if inner in files() else str(node.module)
         elif isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in files())
+
+
+def _statements(block: ast.AST) -> Iterator[ast.AST]:
+    """All statements within a block; expressions, most of a tree, hold none."""
+    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+        inner = getattr(block, part, ())
+        for node in inner if isinstance(inner, list) else ():
+            yield node
+            yield from _statements(node)
 
 
 def circles() -> list[set[str]]:

@@ -36,6 +36,7 @@ def idle() -> SimulateResult:
     return run()
 
 
+@pytest.mark.slow
 def test_a_machine_is_judged_as_it_is_sized(idle: SimulateResult) -> None:
     checks = {check.code: check for check in recalled("size", abu_calc.read("msh-230")).checks}
     judged = found(idle)

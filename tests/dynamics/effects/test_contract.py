@@ -222,6 +222,7 @@ def check_energy(sample: Sample) -> None:
     assert change == pytest.approx(power(sample.scene, t, y, modes), rel=1e-9, abs=1e-10)
 
 
+@pytest.mark.few(6)
 @pytest.mark.parametrize(("support", "names"), shared_out())
 def test_energy_changes_by_the_power_alone(support, names):
     for sample in samples(taken(support, *names), 2):
@@ -299,6 +300,7 @@ def check_turned(scene: Scene, angle: float) -> None:
         np.testing.assert_allclose(found, sample.rhs, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.few(30)
 @pytest.mark.parametrize("rotor", ["", "run_up", "motor"])
 @each_effect(*WAYS)
 def test_mirror_case_turns_the_other_way(support, name, rotor):

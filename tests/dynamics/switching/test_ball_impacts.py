@@ -49,6 +49,7 @@ def twisted(sample: Sample, torques: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return solved.balls / motion.radii, solved.normal, derivative(motion, solved, sample.y, acting)
 
 
+@pytest.mark.few(10)
 @pytest.mark.parametrize("rotor", ROTORS)
 @pytest.mark.parametrize(("support", "beside"), [(s, b) for s in SUPPORTS for b in BESIDE if taken(s, b)])
 def test_unit_torques_answer_like_torques_put_in(support, beside, rotor):

@@ -97,6 +97,7 @@ def test_where_scipy_takes_too_long_for_its_events_the_loop_verifies_itself(monk
     assert asked[-2:] == [("compiled-rk45", 1e-8), ("compiled-dop853", 1e-9)] and reference.tolerances == (1e-8, 1e-9)
 
 
+@pytest.mark.slow
 def test_the_picture_stays_within_eighty_columns(measured):
     lines = picture(tuple(map(MeasuredPoint.read, measured.points)))
     assert max(map(len, lines)) <= 80
@@ -116,12 +117,14 @@ def test_a_reference_that_two_methods_do_not_share_is_none(monkeypatch):
         price_list(scene, Ledger(scene, (), scene), "amplitude", 0.01, 60.0, quiet)
 
 
+@pytest.mark.slow
 def test_unknown_quantities_are_refused(measured):
     with pytest.raises(InputError, match="known quantities"):
         price_list(measured.reference.response, Ledger(None, (), None), "beauty", 0.01, 1.0, quiet)
     assert isinstance(measured.reference, ReferenceRun)
 
 
+@pytest.mark.slow
 def test_each_method_tells_how_many_are_done(measured):
     shares = [one.share for one in TOLD[1:]]
     assert TOLD[0] == "reference" and len(shares) == len(measured.points)

@@ -28,6 +28,7 @@ def golden() -> GrindingResult:
     return worked(STRAIGHT, "golden")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stiffness", "bounds", "part"),
     [

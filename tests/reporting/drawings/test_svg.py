@@ -43,12 +43,13 @@ def sheet(name: str) -> Drawing:
     return section_sheet(result(name))
 
 
-@pytest.mark.few(8)
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", MACHINES)
 def test_nothing_overlaps(name: str) -> None:
     check_clear(sheet(name))
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_views_stand_apart_from_title_and_notes(name: str) -> None:
     """All that is drawn of the autobalancer lies above the frames and texts of the sheet."""

@@ -90,6 +90,7 @@ def test_three_decimals_stand_with_a_tolerance_only(name: str, index: int) -> No
             assert "±" in text or below or re.search(r" [a-zA-Z]+\d", text), text
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize(("name", "index"), PARTS)
 def test_written_sizes_are_the_profile_s(name: str, index: int) -> None:
     _, plan = planned(name, index)
