@@ -149,10 +149,14 @@ def start_once(
     work: int = WORK,
     early_end: bool = True,
     wanted: str = "auto",
+    *,
+    to_rest: bool = True,
 ) -> StartOutcome | Lost:
-    """One start, by one run; `work`: what it may take; `early_end`: whether it may end early."""
+    """One start, by one run; `work`: what it may take; `early_end`: whether it may end early; `to_rest`: whether it is
+    followed until its balls rest, though the machine balances and is quiet soon and with a margin.
+    """
     try:
-        return run_of_start(design, member, accuracy, tolerance, work, early_end, wanted).outcome
+        return run_of_start(design, member, accuracy, tolerance, work, early_end, wanted, to_rest=to_rest).outcome
     except NotTrustworthyError as error:
         reason = str(error).splitlines()[0]
         if not isinstance(error, TooMuchWorkError) or patience.over():
@@ -191,6 +195,8 @@ def run_of_start(
     work: int = WORK,
     early_end: bool = False,
     wanted: str = "auto",
+    *,
+    to_rest: bool = True,
 ) -> StartRun:
     """The same with the run itself; raises NotTrustworthyError.
 
@@ -198,13 +204,21 @@ def run_of_start(
     longer: their run is done again, as long as settling may matter.
     """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
-    run, longest = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
-    while longest is not None:
+    to_rest = to_rest or design.case.table.limits.rest_time_s is not None
+    run, longest = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted, to_rest)
+    soon = not to_rest and _surely(design, run.outcome)
+    while longest is not None and (run.outcome.creeping or not soon):
         spent, duration = run.outcome.work, longest
         longer = replace(scene, duration=duration)
-        run, longest = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
+        run, longest = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted, to_rest)
         run = run._replace(outcome=replace(run.outcome, work=spent + run.outcome.work, duration=duration))
     return run
+
+
+def _surely(design: Design, outcome: StartOutcome) -> bool:
+    """True if a machine balances, is quiet within half of the time permitted, and is less loud by a margin."""
+    soon = outcome.quiet_time_or_inf <= design.case.table.limits.longest_quiet_time / 2
+    return outcome.balanced and soon and outcome.loudest <= design.case.level_limit - 2 * MARGIN
 
 
 def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, early: Early, run: Samples) -> float | None:
@@ -238,16 +252,23 @@ def integrated(
     return run, choice.work(run)
 
 
-def _early(design: Design, member: Member, scene: Scene) -> Early:
+def _early(design: Design, member: Member, scene: Scene, to_rest: bool = True) -> Early:
     """Early stopping of a start case's run."""
-    return Early(scene, scene.full_speed, partial(_decided, design, member, scene))
+    return Early(scene, scene.full_speed, partial(_decided, design, member, scene, to_rest))
 
 
 def _run_of_scene(
-    design: Design, member: Member, scene: Scene, tolerance: float, work: int, early_end: bool, wanted: str
+    design: Design,
+    member: Member,
+    scene: Scene,
+    tolerance: float,
+    work: int,
+    early_end: bool,
+    wanted: str,
+    to_rest: bool,
 ) -> tuple[StartRun, float | None]:
     """One run, and the time [s] until which it must be followed; None: no longer."""
-    early = _early(design, member, scene)
+    early = _early(design, member, scene, to_rest)
     run, spent = integrated(scene, early.sampling() if early_end else needed_times(scene), tolerance, work, wanted)
     outcome = outcome_of(design, member, scene, early.response(run))
     outcome = replace(outcome, work=spent, rise=early.rising(run))
@@ -255,7 +276,7 @@ def _run_of_scene(
 
 
 def _decided(
-    design: Design, member: Member, scene: Scene, response: Response, creep: float, rise: float
+    design: Design, member: Member, scene: Scene, to_rest: bool, response: Response, creep: float, rise: float
 ) -> bool:  # fmt: skip
     """True if a start case balances well and in time, even with the change still possible.
 
@@ -263,7 +284,7 @@ def _decided(
     small creep is many decibels.
     """
     outcome, limits = outcome_of(design, member, scene, response), design.case.table.limits
-    if linger(design, scene, outcome.imbalance):
+    if linger(design, scene, outcome.imbalance) and (to_rest or not _surely(design, outcome)):
         return False
     if (
         not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip)

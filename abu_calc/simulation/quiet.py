@@ -62,18 +62,23 @@ class TimeRange:
 def range_of(times: Array, values: Array, limit: float, began: float) -> TimeRange:
     """From when on values stay at or below a limit, in a run that is at full speed from `began` [s] on."""
 
-    def at(threshold: float) -> float | None:
+    def at(threshold: float, smooth: bool) -> float | None:
         """The same for one threshold."""
-        time = last_crossing(times, values, threshold)
+        time = last_crossing(times, values, threshold, smooth)
         return None if time is None else max(time - began, 0.0)
 
-    return TimeRange(at(limit), at((1 + GRAZE) * limit), at((1 - GRAZE) * limit))
+    time, earliest, latest = at(limit, True), at((1 + GRAZE) * limit, False), at((1 - GRAZE) * limit, False)
+    if time is None:
+        return TimeRange(None, earliest, latest)
+    # All three may lie between the same samples.
+    return TimeRange(time, time if earliest is None else min(earliest, time),
+                     None if latest is None else max(latest, time))  # fmt: skip
 
 
-def last_crossing(t: NDArray[Any], values: Array, limit: float) -> float | None:
+def last_crossing(t: NDArray[Any], values: Array, limit: float, smooth: bool = True) -> float | None:
     """The earliest time [s] of a run after which values stay below the limit; None if after 95 % of the run.
 
-    Between two samples it is read from the quintic through the six about them.
+    Between two samples it is read from the quintic through the six about them; `smooth` False: from a line.
     """
     above = np.flatnonzero(values > limit)
     if not len(above):
@@ -81,7 +86,7 @@ def last_crossing(t: NDArray[Any], values: Array, limit: float) -> float | None:
     last = int(above[-1])
     if last == len(t) - 1:
         return None
-    time = _crossing(t, values, limit, last)
+    time = _crossing(t, values, limit, last) if smooth else _on_line(t, values, limit, last)
     return time if time <= LAST * t[-1] else None
 
 
@@ -92,6 +97,12 @@ def _crossing(t: Array, values: Array, limit: float, last: int) -> float:
     inside = [root.real for root in np.roots(curve).tolist() if root.imag == 0 and 0 <= root.real <= 1]
     # Rounding may move a root that is a sample itself out of the interval.
     return low + (high - low) * max(inside, default=1.0)
+
+
+def _on_line(t: Array, values: Array, limit: float, last: int) -> float:
+    """The same by the line between the two samples."""
+    share = (values[last] - limit) / (values[last] - values[last + 1])
+    return float(t[last] + share * (t[last + 1] - t[last]))
 
 
 def turn_velocities(velocities: Array) -> Array:

@@ -11,6 +11,7 @@ The neighbourhood of the slowest and of the loudest is searched last.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import cycle
 from typing import Final
 
@@ -18,7 +19,16 @@ from abu_calc.features.design.band import corners, promised, usual
 from abu_calc.foundation import patience
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
-from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK, every_start, first_tolerance
+from abu_calc.simulation.ensemble import (
+    MORE,
+    TIGHTER,
+    WORK,
+    Runner,
+    every_start,
+    first_tolerance,
+    integrator_for,
+    start_once,
+)
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
 from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Member, usual_run_up
@@ -349,7 +359,9 @@ def neighbours(member: Member) -> Iterator[Member]:
 def _run(
     design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int
 ) -> tuple[StartOutcome, ...]:
-    """Outcomes of the start cases that gave an answer."""
-    early = [(start, True) for start in starts]
-    answers = every_start(design, early, accuracy, first_tolerance(design), within(progress, "further"), workers)
+    """Outcomes of the start cases that gave an answer. When balls rest decides nothing beside listed ones."""
+    early, runner = [(start, True) for start in starts], Runner(partial(start_once, to_rest=False), integrator_for)
+    answers = every_start(
+        design, early, accuracy, first_tolerance(design), within(progress, "further"), workers, runner=runner
+    )
     return tuple(outcome for outcome in answers if isinstance(outcome, StartOutcome))
