@@ -143,7 +143,14 @@ def level_checks(
     )  # fmt: skip
 
 
-OTHERWISE = "No drag rate and no larger ball that were tried help. Permit a longer quiet time."
+NOTHING = "No drag rate and no larger ball that were tried help."
+OTHERWISE = {
+    "ABU701": f"{NOTHING} Run farther above the critical speeds.",
+    "ABU702": f"{NOTHING} Permit a longer quiet time.",
+    "ABU704": f"{NOTHING} Run up faster, or farther above the critical speeds.",
+}
+LONGER = "Allow some minutes: --patience 600 (not tried)."
+"""Actions where no change that was tried helps, and where start cases gave no answer."""
 
 
 def start_checks(design: TwoRaceDesign, ensemble: Ensemble | None, action: Action | None) -> Iterator[Check]:
@@ -153,4 +160,5 @@ def start_checks(design: TwoRaceDesign, ensemble: Ensemble | None, action: Actio
             yield coded(code, "not-done", "Not simulated below a critical speed", remedy="See ABU101.")
         return
     for check in ensemble_checks(design, ensemble):
-        yield check if check.status == "pass" else check.with_action(action or OTHERWISE)
+        otherwise = LONGER if check.status == "not-done" else OTHERWISE[check.code]
+        yield check if check.status == "pass" else check.with_action(action or otherwise)

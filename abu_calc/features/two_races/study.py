@@ -160,7 +160,7 @@ def _advice(
     design: TwoRaceDesign, ensemble: Ensemble | None, accuracy: float, progress: Progress, workers: int
 ) -> tuple[Action | None, Action | None]:
     """Changes that were tried: one if a start case is late or does not balance, one if a start case is too loud."""
-    if ensemble is None or not ensemble.outcomes or patience.over():
+    if ensemble is None or not ensemble.outcomes or ensemble.lost or patience.over():
         return None, None
     limits = design.case.table.limits
     late = any(not run.balanced or not run.in_time(limits) for run in ensemble.outcomes)

@@ -18,6 +18,7 @@ from abu_calc.features.two_races.figures import two_race_extras
 from abu_calc.features.two_races.records import TwoRaceSizeResult
 from abu_calc.features.two_races.start_cases import start
 from abu_calc.formulas.two_races import resultant_quantile
+from abu_calc.foundation import patience
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble_results import Ensemble, Lost
@@ -205,3 +206,12 @@ def test_both_autobalancers_stand_at_their_planes_as_solids() -> None:
             assert ball.shift[2] == pytest.approx(own.plane_mm)
         mass = sum(item.solid.mass_g for item in assembly.items if item.name.startswith(f"race {number} "))
         assert mass == pytest.approx(own.mass_g, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_nothing_is_advised_where_no_start_case_was_simulated() -> None:
+    with patience.limited(0.5):
+        result = abu_calc.size(read_machine("pedestal-grinder"))
+    actions = {check.code: check.remedy or "" for check in result.checks if check.status == "not-done"}
+    assert {"ABU701", "ABU702", "ABU704"} <= set(actions) and result.verdict.word == "not-known"
+    assert "--patience" in actions["ABU701"] and not any("tried help" in text for text in actions.values())
