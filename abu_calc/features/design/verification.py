@@ -28,7 +28,7 @@ from abu_calc.sizing.oil import overriding
 
 OILS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
 """Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
-MOST_DRAGS, NEAR = 5, 1.2
+MOST_DRAGS, NEAR = 5, 1.15
 """Most drag rates that are tried, and the factor within which another drag rate counts as the same."""
 
 FASTER, DAMPED = 0.5, 2.0
