@@ -47,6 +47,7 @@ def test_the_contact_is_placed_among_its_regions(
     assert part in said(contact_blocks(replace(golden, model=model, contact_stiffness_regions_N_per_m=bounds)))
 
 
+@pytest.mark.slow
 def test_balls_are_told_with_their_places(golden: GrindingResult) -> None:
     here = replace(golden, ball_resultant_g_mm=100.0, ball_angles_deg=(10.0, -20.0), printed=None)
     assert "The balls balance: 100.0 g·mm, at 10.00°, -20.00° from the imbalance." in said(balls_blocks(here))

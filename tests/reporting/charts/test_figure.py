@@ -172,6 +172,7 @@ def test_starts_are_those_of_the_ensemble() -> None:
     assert ensemble.level_db.worst == max(one.level_db for one in views)
 
 
+@pytest.mark.slow
 def test_a_name_that_is_not_there_is_refused_with_those_there_are() -> None:
     with pytest.raises(InputError) as refused:
         sized().figure("arm")

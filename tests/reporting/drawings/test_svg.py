@@ -67,6 +67,7 @@ def test_the_views_stand_apart_from_title_and_notes(name: str) -> None:
     assert min(low[1] for low, _ in views) > top
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_file_is_to_scale(name: str) -> None:
     """Millimetres of the file, the sheet's scale, and the largest circle agree with the outer diameter."""

@@ -143,7 +143,7 @@ def test_calculation_note_and_what_is_needed_to_repeat_it(written: Any) -> None:
     assert "autobalancer.capacity_margin = 1.3" in words
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["size", "simulate", "stability", "check-fit"])
 def test_settings_on_the_page_give_the_same_result(name: str, written: Any) -> None:
     """The command and its options stand there as labels and values, which no reader takes for advice."""
@@ -171,6 +171,7 @@ def _said(text: str) -> list[str]:
     return [words for tag, words in read(text).texts if tag not in ("script", "style")]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", PAGES)
 def test_pages_advise_no_commands_and_no_options(name: str, written: Any) -> None:
     assert [words for words in _said(written(name).text) if ADVICE.search(words)] == []

@@ -140,6 +140,7 @@ def test_the_detail_is_marked_where_it_lies_as_it_is_drawn(name: str) -> None:
     assert [shape.text for shape in shapes if isinstance(shape, Text)] == ["Z"]
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_an_undercut_stands_only_where_the_seat_has_room(name: str) -> None:
     """DIN 509 E 0.4 × 0.2 is 2 mm wide; covers are 1.5 or 2 mm thick, so their seats have none."""
