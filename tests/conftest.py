@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from abu_calc.foundation.disk_cache import FOLDER, Cache
 from tests import remembered
 
 settings.register_profile("any machine", deadline=None)  # timings decide no test
@@ -51,9 +52,23 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.fixture(scope="session", autouse=True)
 def studies(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Processes of a session tell each other what they have computed, and those of sessions that name one folder."""
+    """Processes of a session tell each other what they have computed, and those of sessions that name one folder.
+
+    Without a home they keep compiled code among the files of the session.
+    """
     base = tmp_path_factory.getbasetemp()
     if "ABU_CALC_TEST_STUDIES" in os.environ:
         remembered.share(Path(os.environ["ABU_CALC_TEST_STUDIES"]))
     elif base.name.startswith("popen-"):
         remembered.share(base.parent / "studies")
+    if not _can_be_written(Cache.own().folder):
+        os.environ[FOLDER] = str(base.parent / "compiled")
+
+
+def _can_be_written(folder: Path) -> bool:
+    """Whether files may be kept in a folder; not in a home that is missing or read-only."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK)

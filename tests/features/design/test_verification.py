@@ -38,8 +38,9 @@ def ensemble(*starts: SimpleNamespace) -> Any:
 
 
 def test_the_nearest_drags_come_first_and_none_that_is_the_same() -> None:
-    """Off 15 by factors of 1.25, 1.8, 1.875, 2.67, 3; 18 is off by 1.2, which counts as the same."""
-    assert other_drags(15.0, only_more=False) == [12.0, 27.0, 8.0, 40.0, 5.0]
+    """Off 15 by factors of 1.2, 1.25, 1.8, 1.875, 2.67; 17 is off 18 by 1.06, which counts as the same."""
+    assert other_drags(15.0, only_more=False) == [18.0, 12.0, 27.0, 8.0, 40.0]
+    assert 18.0 not in other_drags(17.0, only_more=True)
     assert all(drag > 15 for drag in other_drags(15.0, only_more=True))
     assert other_drags(0.0, only_more=False)[0] == 3.0
     assert other_drags(60.0, only_more=True) == []
