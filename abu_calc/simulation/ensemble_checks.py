@@ -279,17 +279,21 @@ def _g_mm(value: float | None) -> float | None:
     return None if value is None else from_si(value, "g_mm")
 
 
+IDLE: Final = ("idle", "swing-arm-idle")
+"""Scenes that many start cases repeat."""
+
+
 def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str | None = None) -> Check:
     """The check of a scene whose simulation gave no number to be trusted.
 
-    `answered`: whether many starts of the idle machine gave theirs: then one that did not is no veto. `mean`: what a
-    chaotic motion comes to on average, where that is known.
+    `answered`: whether many starts of the machine, idle as in this scene, gave theirs: then one that did not is no
+    veto. `mean`: what a chaotic motion comes to on average, where that is known.
     """
     if mean is not None:
         return coded(
             "ABU703", "warn", mean, of=scene, remedy="Keep the wheel on the workpiece, see `abu grinding FILE`."
         )
-    status: Grade = "warn" if answered and scene == "idle" and not patience.over() else "not-done"
+    status: Grade = "warn" if answered and scene in IDLE and not patience.over() else "not-done"
     return coded("ABU703", status, f"No simulation of this scene can be trusted: {reason}", of=scene,
                  remedy="Specify a drag rate nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).",
                  )  # fmt: skip

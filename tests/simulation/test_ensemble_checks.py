@@ -124,5 +124,7 @@ def test_a_scene_that_was_not_simulated_passes_nothing() -> None:
     assert not_simulated("grinding", "chaotic").status == "not-done"
     assert not_simulated("grinding", "chaotic", answered=True).status == "not-done"
     assert not_simulated("idle", "chaotic", answered=True).status == "warn"
+    assert not_simulated("swing-arm-idle", "chaotic", answered=True).status == "warn"
+    assert not_simulated("swing-arm-cutting", "chaotic", answered=True).status == "not-done"
     check = not_simulated("grinding", "chaotic", mean="104 dB on average")
     assert (check.status, check.message) == ("warn", "104 dB on average") and check.name.endswith("grinding")

@@ -262,8 +262,14 @@ def size(
     stays = _on_work(design, runs, accuracy, progress)
     started = start_checks(design, tried.ensemble, tried.searched, tried.change)
     level = started.pop("ABU401")
-    answered = tried.ensemble is not None and bool(tried.ensemble.given)
-    lost = (not_simulated(fault.scene, fault.reason, answered=answered, mean=_mean(fault, work)) for fault in failures)
+    given = () if tried.ensemble is None else tried.ensemble.given
+    lost = (
+        not_simulated(
+            fault.scene, fault.reason, mean=_mean(fault, work),
+            answered=any(outcome.member.on_arm == fault.scene.startswith("swing-arm") for outcome in given),
+        )
+        for fault in failures
+    )  # fmt: skip
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
