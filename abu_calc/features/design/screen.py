@@ -537,10 +537,6 @@ def _rank(check: Check) -> int:
     return RANK.index(check.status) if check.status in RANK else len(RANK)
 
 
-MOST_ROWS: Final = 9
-"""Most rows of the section in characters."""
-
-
 def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:
     """The section in at most so many lines, and one that says what it shows; nothing where that is too few."""
     lines = section_lines(result.autobalancer, result.section, rows)
