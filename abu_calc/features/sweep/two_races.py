@@ -12,7 +12,7 @@ from abu_calc.features.sweep.columns import What, drag_ratio
 from abu_calc.features.sweep.samples import SweepStudy, Values
 from abu_calc.features.two_races.case import TwoRaceCase, one_race_machine, read_case
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
-from abu_calc.features.two_races.start_cases import race_centre, start, start_once, wheels_share
+from abu_calc.features.two_races.start_cases import FIRST_TOLERANCE, race_centre, start, start_once, wheels_share
 from abu_calc.formulas.two_races import eccentricity_resultants
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -21,7 +21,7 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.text import Part
 from abu_calc.inputs.two_races import RACES, TwoRaceFile
 from abu_calc.inputs.variation import Variants
-from abu_calc.simulation.ensemble import MORE, TOLERANCE, WORK
+from abu_calc.simulation.ensemble import MORE, WORK
 from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.start_cases import Member
@@ -78,7 +78,7 @@ class TwoRaceBuilds(SweepStudy):
         """One start of one machine. Raises NotTrustworthyError if the run gives no answer."""
         made = built_two_races(self.design, self.variants.table(self._in_file(values)))
         member = started(made, values)
-        run = start_once(made, member, self.accuracy, TOLERANCE, MORE * WORK)
+        run = start_once(made, member, self.accuracy, FIRST_TOLERANCE, MORE * WORK)
         if isinstance(run, Lost):
             raise NotTrustworthyError(run.reason)
         limits = made.case.table.limits

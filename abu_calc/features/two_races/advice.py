@@ -5,13 +5,13 @@ from dataclasses import replace
 from typing import Final, NamedTuple
 
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.start_cases import ensemble_of, start_once
+from abu_calc.features.two_races.start_cases import FIRST_TOLERANCE, ensemble_of, start_once
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.simulation.ensemble import TOLERANCE, WORK
+from abu_calc.simulation.ensemble import WORK
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing.balls import CAPACITY, MASS
@@ -214,7 +214,7 @@ def _mended(
             break
         other, given = change.design, design.case.drag
         same = replace(first, drag=first.drag * other.case.drag / given) if given else first
-        run = start_once(other, same, accuracy, TOLERANCE, WORK)
+        run = start_once(other, same, accuracy, FIRST_TOLERANCE, WORK)
         left -= run.work
         if not isinstance(run, StartOutcome) or not passes(run):
             continue
