@@ -21,7 +21,7 @@ Quantity = Annotated[
         "--quantity", metavar="NAME", help="Quantity to compare: amplitude, level, quiet, rest, settling, angles."
     ),
 ]
-Budget = Annotated[float, typer.Option("--time-budget", metavar="S", help="Computing time to spend.")]
+Budget = Annotated[float, typer.Option("--time-budget", "--budget", metavar="S", help="Computing time to spend.")]
 
 
 def accuracy(
