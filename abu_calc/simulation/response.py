@@ -233,7 +233,8 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
     rms = float(np.sqrt(_mean(scene.axis_velocity(whole) ** 2)).max())
     left = scene.total_imbalance(whole[balls])
     settled, end = float(_mean(np.abs(left))[0]), complex(left[:-1].mean())
-    creeping = _drift(scene, course) > SETTLED * reference_imbalance(scene)
+    steps = (scene.duration - scene.full_speed) * course.count / scene.duration
+    creeping = drift(course.imbalances, steps) > SETTLED * reference_imbalance(scene)
     theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
     return Response(
@@ -294,23 +295,23 @@ def _rest_in(scene: Scene, course: Course, end: complex, creep: float) -> TimeRa
     return range_of(course.times, away, band, scene.full_speed)
 
 
-def _drift(scene: Scene, course: Course) -> float:
-    """Change of the imbalance left [kg m] at its pace near the end, over the time at full speed.
+def drift(imbalances: Array, steps: float) -> float:
+    """Change of the imbalance left [kg m] at its pace near the end of these samples, over so many of them.
 
     The pace is the least of that between the last two windows and that over a quarter of the run: balls that have just
     come to rest have none by the first, balls that swing with a slow support none by the second.
     """
-    turns = max(course.count // 20 // PER_TURN, 1) * PER_TURN
+    count = len(imbalances)
+    turns = max(count // 20 // PER_TURN, 1) * PER_TURN
 
     def pace(lag: int) -> float:
         """Change [kg m] a sample of the mean over a window since so many samples before."""
-        if course.count < lag + turns:
+        if count < lag + turns:
             return 0.0
-        last, before = course.imbalances[-turns:].mean(), course.imbalances[-turns - lag : -lag].mean()
+        last, before = imbalances[-turns:].mean(), imbalances[-turns - lag : -lag].mean()
         return float(abs(last - before)) / lag
 
-    steps = (scene.duration - scene.full_speed) * course.count / scene.duration
-    return steps * min(pace(turns), pace(max(course.count // 4, turns)))
+    return steps * min(pace(turns), pace(max(count // 4, turns)))
 
 
 def _settled_in(scene: Scene, course: Course, settled: float) -> float | None:

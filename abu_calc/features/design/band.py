@@ -13,6 +13,7 @@ from typing import Annotated, Any, Final
 
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.simulation.scene_of_design import Start
 from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Axis, Member, Variation, usual_run_up
 from abu_calc.sizing.design import Design
@@ -62,9 +63,8 @@ def axes_in_use(design: Any) -> tuple[Axis | None, ...]:
     """
     table = design.case.table
     given, held = table.machine.spindle_axis, table.machine.held
-    in_hands = (
-        getattr(table, "swing_arm", design) is None and max(table.suspension.frequencies or (0.0,)) <= SOFTLY_HELD
-    )
+    soft = isinstance(table, MachineFile) and max(table.suspension.frequencies or (0.0,)) <= SOFTLY_HELD
+    in_hands = soft and table.swing_arm is None
     if held == "as-given" or (held is None and not in_hands):
         return (None,)
     return (None, "vertical" if given == "horizontal" else "horizontal")

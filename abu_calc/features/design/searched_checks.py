@@ -120,7 +120,8 @@ def with_searched(
     if not broken and not rare:
         return check
     worst = max(broken or searched.outcomes, key=order)
-    check = replace(check, value=DECIDES[check.code](worst) if broken else searched.foreseen)
+    value = float(len(broken)) if check.code == "ABU704" else DECIDES[check.code](worst)
+    check = replace(check, value=value if broken else searched.foreseen)
     share = f"Further start cases: {len(broken)} of {len(searched.outcomes)} {words(worst)}"
     if not broken:
         share = (
@@ -195,9 +196,8 @@ DECIDES: Final[dict[str, Callable[[StartOutcome], float | None]]] = {
     "ABU401": lambda outcome: outcome.loudest,
     "ABU701": lambda outcome: from_si(outcome.imbalance, "g_mm"),
     "ABU702": lambda outcome: outcome.quiet_time,
-    "ABU704": lambda outcome: 1.0,
 }
-"""The value of a further start case that decides a check."""
+"""The value of a further start case that decides a check; of stalled balls the number of start cases counts."""
 NOT_TRIED: Final = "No change was simulated; --full prints a command that repeats the start case, to try one."
 NAMES: Final = {
     "ABU401": "loudest",

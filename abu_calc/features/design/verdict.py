@@ -11,6 +11,15 @@ WORDS: Final[dict[Grade, str]] = {
     "pass": "suits", "warn": "suits-but", "fail": "does-not-suit", "not-done": "not-known"
 }  # fmt: skip
 """The word for the worst grade of all checks."""
+SENTENCES: Final[dict[Grade, str]] = {
+    "warn": "The machine suits with a reservation", "fail": "The machine does not suit",
+    "not-done": "Whether the machine suits is not known",
+}  # fmt: skip
+VERBS: Final[dict[Grade, tuple[str, str]]] = {
+    "warn": ("this check warns", "these checks warn"), "fail": ("this check fails", "these checks fail"),
+    "not-done": ("this check is not evaluated", "these checks are not evaluated"),
+}  # fmt: skip
+"""How the sentence begins, and its verb for one check and for several."""
 
 
 @record
@@ -29,9 +38,10 @@ class Verdict(Record):
             return cls(word=WORDS[grade], sentence=benefit, next=None)
         deciding = [check for check in checks if check.requested and check.status == grade]
         reasons = "; ".join(dict.fromkeys(map(_reason, deciding)))
+        sentence = f"{SENTENCES[grade]}, for {VERBS[grade][len(deciding) > 1]}: {reasons}."
         entries = next((check.overrides for check in deciding if check.overrides), ())
         words = ["abu", "size", file or "FILE", *(word for entry in entries for word in ("--set", entry))]
-        return cls(word=WORDS[grade], sentence=f"{reasons}.", next=shlex.join(words) if entries else None)
+        return cls(word=WORDS[grade], sentence=sentence, next=shlex.join(words) if entries else None)
 
 
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:
@@ -44,9 +54,10 @@ def benefit(place: str, before: float | None, after: float | None, limit: float,
 
 
 def _reason(check: Check) -> str:
-    """Name of a check with its value and limit."""
-    name = check.name[:1].upper() + check.name[1:]
-    if check.value is None or check.limit is None:
-        return f"{name}: {check.message.split('. ')[0]}"
+    """Name of a check with its value and limit; if the value keeps the limit, with what its message says last."""
+    value, limit = check.value, check.limit
+    kept = value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit)
+    if kept:
+        return f"{check.name} ({check.message.split('. ')[-1].rstrip('.')})"
     unit = f" {check.unit}" if check.unit else ""
-    return f"{name}: {check.value:.4g}{unit} (at {check.bound} {check.limit:.4g})"
+    return f"{check.name} ({value:.4g}{unit}, at {check.bound} {limit:.4g}{unit})"

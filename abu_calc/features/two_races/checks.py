@@ -160,5 +160,5 @@ def start_checks(design: TwoRaceDesign, ensemble: Ensemble | None, action: Actio
             yield coded(code, "not-done", "Not simulated below a critical speed", remedy="See ABU101.")
         return
     for check in ensemble_checks(design, ensemble):
-        otherwise = LONGER if check.status == "not-done" else OTHERWISE[check.code]
-        yield check if check.status == "pass" else check.with_action(action or otherwise)
+        advice = LONGER if check.status == "not-done" else action or OTHERWISE[check.code]
+        yield check if check.status == "pass" else check.with_action(advice)

@@ -32,11 +32,20 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
-from abu_calc.simulation.ensemble import TIGHTER, TOLERANCE, WORK, Runner, integrated, simulate_starts
+from abu_calc.simulation.ensemble import (
+    LONGEST_CREEPING,
+    MORE,
+    TIGHTER,
+    TOLERANCE,
+    WORK,
+    Runner,
+    integrated,
+    simulate_starts,
+)
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.quiet import PER_TURN, last_crossing, turn_velocities
 from abu_calc.simulation.residual_criteria import slip
-from abu_calc.simulation.response import amplitude_window, evaluate, needed_times
+from abu_calc.simulation.response import amplitude_window, drift, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.start_cases import ALIKE, RUN_UP, Axis, Member, Variation
@@ -235,13 +244,25 @@ def start_once(
     design: TwoRaceDesign, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = False,
     wanted: str = "auto",
 ) -> TwoRaceOutcome | Lost:  # fmt: skip
-    """One start, by one run to its end; `work`: what it may take."""
+    """One start, by one run to its end, once more for longer if its balls still creep; `work`: what a run may take."""
     design, scene = at_speed(design, member.speed), scene_of(design, member)
     try:
-        times = merged(needed_times(scene), revolution_times(scene))
-        return _observed(design, member, scene, *integrated(scene, times, tolerance, work, wanted))
+        outcome = _run(design, member, scene, tolerance, work, wanted)
+        if not outcome.creeping or outcome.hanging:
+            return outcome
+        longest = member.run_up + LONGEST_CREEPING * design.case.table.limits.longest_quiet_time
+        longer = _run(design, member, replace(scene, duration=longest), tolerance, MORE * work, wanted)
+        return replace(longer, work=outcome.work + longer.work, duration=longest)
     except NotTrustworthyError as error:
         return Lost(member, str(error).splitlines()[0], work, isinstance(error, TooMuchWorkError))
+
+
+def _run(
+    design: TwoRaceDesign, member: Member, scene: Scene, tolerance: float, work: int, wanted: str
+) -> TwoRaceOutcome:
+    """Outcome of one run. Raises NotTrustworthyError."""
+    times = merged(needed_times(scene), revolution_times(scene))
+    return _observed(design, member, scene, *integrated(scene, times, tolerance, work, wanted))
 
 
 def _integrator(design: TwoRaceDesign, member: Member, accuracy: float, tolerance: float) -> str:
@@ -271,8 +292,9 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
     states = samples.at(revolution_times(scene))
     needs = wheels_share(design, 0, member), wheels_share(design, 1, member)
     left = [_end(each) for each in residual_imbalances(scene, states, needs)]
-    worst = wheels_share(design, 0, of_file), wheels_share(design, 1, of_file)
-    allowed = [max(abs(need) / 2, unavoidable_imbalance(design, k)) for k, need in enumerate(worst)]
+    of_wheels = wheels_share(design, 0, of_file), wheels_share(design, 1, of_file)
+    creeping = creep(scene, states, needs, of_wheels)
+    allowed = [max(abs(need) / 2, unavoidable_imbalance(design, k)) for k, need in enumerate(of_wheels)]
     farther = max((0, 1), key=lambda k: left[k] / allowed[k] if allowed[k] else left[k])
     displacements = tuple(_amplitude(scene, samples, window, place) for place in at)
     without = max(abs(case.rotor.whirl(place, wheels, case.speed)) for place in at)
@@ -280,8 +302,8 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
         member=member,
         settling_time=settling_time(scene, states, needs),
         quiet_time=quiet_time(scene, states, case, without),
-        rest_time=rest_time(scene, states, needs, worst),
-        creeping=False,
+        rest_time=None if creeping else rest_time(scene, states, needs, of_wheels),
+        creeping=creeping,
         residual=max(_amplitude(scene, samples, window, place) for place in case.races),
         level=level_of(max(displacements), case.speed),
         slip=slip(response, case.speed),
@@ -289,7 +311,7 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
         imbalance=left[farther],
         allowed=allowed[farther],
         work=work,
-        moved=abs(worst[farther]),
+        moved=abs(of_wheels[farther]),
         displacements=displacements,
     )
 
@@ -377,6 +399,14 @@ def rest_time(
         times.append(last_crossing(scene.revolution / PER_TURN * np.arange(len(left)), away, band))
     first, second = times
     return None if first is None or second is None else max(first, second)
+
+
+def creep(scene: Scene, states: Array, needs: tuple[complex, complex], of_file: tuple[complex, complex]) -> bool:
+    """True if the balls of a race still drift at the end, as those of one race do."""
+    return any(
+        drift(left, len(left)) > SETTLED * max(abs(need), HARDLY * race.static_moment)
+        for race, need, left in zip(scene.races, of_file, _left(scene, states, needs), strict=True)
+    )
 
 
 def _end(residual: Array) -> float:

@@ -62,6 +62,7 @@ from abu_calc.simulation.result import Provenance
 
 ONE_RACE_PLACES: Final = 9
 """Places of a single race that are tried between both races."""
+UNTRIED: Final = Action("No change was tried, since start cases gave no answer or the time of --patience was over.")
 RUN_UP_ACCURACY: Final = 0.01
 """Accuracy of the run-up that is drawn."""
 RESPONSE_TO: Final = 1.1
@@ -74,7 +75,8 @@ def size_two_races(
 ) -> TwoRaceSizeResult:
     """Size both autobalancers, judge stability, and simulate start cases over the unknown phases.
 
-    `accuracy` of the simulations, ACCURACY at best; `workers`: start cases side by side, None: one for each processor.
+    `accuracy` moves nothing: start cases run at tolerances of their own. `workers`: start cases side by side, None: one
+    for each processor.
 
     Raises InputError with file, line and key for what cannot be made, and if the file has one race.
     """
@@ -160,8 +162,10 @@ def _advice(
     design: TwoRaceDesign, ensemble: Ensemble | None, accuracy: float, progress: Progress, workers: int
 ) -> tuple[Action | None, Action | None]:
     """Changes that were tried: one if a start case is late or does not balance, one if a start case is too loud."""
-    if ensemble is None or not ensemble.outcomes or ensemble.lost or patience.over():
+    if ensemble is None or not ensemble.outcomes:
         return None, None
+    if ensemble.lost or patience.over():
+        return UNTRIED, UNTRIED
     limits = design.case.table.limits
     late = any(not run.balanced or not run.in_time(limits) for run in ensemble.outcomes)
     loud = any(run.level > limits.vibration_level_db for run in ensemble.outcomes)

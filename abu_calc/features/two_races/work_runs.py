@@ -20,6 +20,7 @@ from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.contact import PressedWheel, ball_angles, contact_of, resultants_at_work
 from abu_calc.features.two_races.start_cases import (
     ACCURACY,
+    DRAGS,
     Kind,
     all_phases,
     scene_of,
@@ -217,7 +218,7 @@ def work_cases(design: TwoRaceDesign, wheel: PressedWheel) -> tuple[WorkCase, ..
     turned, given = all_phases(design.case), design.case.drag
     spread = [start(design, "spread", phases) for phases in turned]
     few = spread[:: max(1, len(turned) // 2)]
-    oils = [replace(each, drag=factor * given, promised=False) for factor in (1 / 3, 3.0) for each in few]
+    oils = [replace(each, drag=factor * given, promised=False) for factor in DRAGS[1:] for each in few]
     early = [start(design, kind, phases) for kind in EARLY for phases in turned]
     return (
         *(WorkCase(wheel, "without", each) for each in spread),

@@ -21,9 +21,21 @@ def of_grades(*grades: Grade) -> Verdict:
     ("grades", "word", "sentence"),
     [
         (("pass", "pass"), "suits", "It helps."),
-        (("pass", "warn", "pass"), "suits-but", "Check 1: reason 1."),
-        (("warn", "not-done", "pass"), "not-known", "Check 1: reason 1."),
-        (("not-done", "fail", "warn", "fail"), "does-not-suit", "Check 1: reason 1; Check 3: reason 3."),
+        (
+            ("pass", "warn", "pass"),
+            "suits-but",
+            "The machine suits with a reservation, for this check warns: check 1 (And more).",
+        ),
+        (
+            ("warn", "not-done", "pass"),
+            "not-known",
+            "Whether the machine suits is not known, for this check is not evaluated: check 1 (And more).",
+        ),
+        (
+            ("not-done", "fail", "warn", "fail"),
+            "does-not-suit",
+            "The machine does not suit, for these checks fail: check 1 (And more); check 3 (And more).",
+        ),
     ],
 )
 def test_the_worst_grade_decides(grades: tuple[Grade, ...], word: str, sentence: str) -> None:
@@ -39,7 +51,9 @@ def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
 def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> None:
     late = Check("ABU702", "quiet time", "fail", "late", 1.25, 1.0, "s", "Set …", overrides=("a.b=2", 'c.d="x y"'))
     verdict = Verdict.of([LEVEL, late], "", "my machine.toml")
-    assert verdict.sentence == "Quiet time: 1.25 s (at most 1)."
+    assert verdict.sentence == "The machine does not suit, for this check fails: quiet time (1.25 s, at most 1 s)."
+    creeps = Check("ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further: 1 of 72 still creeps", 0.1, 1.0, "s")
+    assert "quiet time (Further: 1 of 72 still creeps)" in Verdict.of([creeps], "", None).sentence
     assert verdict.next is not None
     assert shlex.split(verdict.next) == ["abu", "size", "my machine.toml", "--set", "a.b=2", "--set", 'c.d="x y"']
 
