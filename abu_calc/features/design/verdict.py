@@ -6,6 +6,7 @@ from typing import Annotated, Final, Self
 
 from abu_calc.foundation.checks import Check, Grade, worst
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.sizing.actions import SIMULATED
 
 WORDS: Final[dict[Grade, str]] = {
     "pass": "suits", "warn": "suits-but", "fail": "does-not-suit", "not-done": "not-known"
@@ -39,7 +40,9 @@ class Verdict(Record):
         deciding = [check for check in checks if check.requested and check.status == grade]
         reasons = "; ".join(dict.fromkeys(map(_reason, deciding)))
         sentence = f"{SENTENCES[grade]}, for {VERBS[grade][len(deciding) > 1]}: {reasons}."
-        entries = next((check.overrides for check in deciding if check.overrides), ())
+        # A change that was calculated alone may leave another check failing.
+        simulated = (check.overrides for check in deciding if SIMULATED in (check.remedy or ""))
+        entries = next(filter(None, simulated), ())
         words = ["abu", "size", file or "FILE", *(word for entry in entries for word in ("--set", entry))]
         return cls(word=WORDS[grade], sentence=sentence, next=shlex.join(words) if entries else None)
 

@@ -49,7 +49,9 @@ def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
 
 
 def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> None:
-    late = Check("ABU702", "quiet time", "fail", "late", 1.25, 1.0, "s", "Set …", overrides=("a.b=2", 'c.d="x y"'))
+    late = Check(
+        "ABU702", "quiet time", "fail", "late", 1.25, 1.0, "s", "Set … (simulated).", overrides=("a.b=2", 'c.d="x y"')
+    )
     verdict = Verdict.of([LEVEL, late], "", "my machine.toml")
     assert verdict.sentence == "The machine does not suit, for this check fails: quiet time (1.25 s, at most 1 s)."
     creeps = Check("ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further: 1 of 72 still creeps", 0.1, 1.0, "s")
