@@ -40,6 +40,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.own_markers[:] = [mark for mark in item.own_markers if mark.name != "slow"]
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_collect_file(file_path: Path) -> Any:
+    """A module without an example in its docstrings is not searched for one."""
+    collectors = yield
+    return [one for one in collectors if type(one) is pytest.Module or b">>>" in file_path.read_bytes()]
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """A process that has nothing left takes from another: long tests at the end of the list keep none waiting."""

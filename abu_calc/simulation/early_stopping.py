@@ -160,7 +160,7 @@ class Early:
         end = float(samples.t[-1])
         if end < self.scene.duration:
             return False
-        left = _over_turns(self._left(samples.at(self._late(end))))
+        left = over_turns(self._left(samples.at(self._late(end))))
         return bool(np.abs(left - left[-1]).max() > RESTING * reference_imbalance(self.scene))
 
     def _late(self, end: float) -> Array:
@@ -173,7 +173,7 @@ class Early:
         if len(times) < 4 * PER_TURN:
             return math.inf, math.inf
         states = samples.at(times)
-        left, speed = _over_turns(self._left(states)), _over_turns((self.scene.axis_velocity(states) ** 2).sum(axis=0))
+        left, speed = over_turns(self._left(states)), over_turns((self.scene.axis_velocity(states) ** 2).sum(axis=0))
         ahead = (self.scene.duration - end) / seen
         half = len(speed) // 2
         before, after = float(speed[:half].mean()), float(speed[half:].mean())
@@ -185,6 +185,6 @@ class Early:
         return self.scene.total_imbalance(states[first : first + len(self.scene.ball_masses)])
 
 
-def _over_turns(values: np.ndarray) -> np.ndarray:
+def over_turns(values: np.ndarray) -> np.ndarray:
     """Means over one turn each."""
     return np.convolve(values, np.full(PER_TURN, 1 / PER_TURN), "valid")

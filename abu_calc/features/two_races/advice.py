@@ -11,9 +11,8 @@ from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.simulation.ensemble import WORK
+from abu_calc.simulation.ensemble import MORE, WORK
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing.balls import CAPACITY, MASS
 from abu_calc.sizing.requirements import missed_by_race
 from abu_calc.standards.balls import stock_diameters
@@ -29,7 +28,7 @@ ROOMIER: Final = (1.25, 1.6)
 """Factors on the room of both autobalancers that are tried."""
 HEAVIER: Final = (0.08, 0.15)
 """Shares of the machine's mass that are tried for each autobalancer."""
-MOST_WORK: Final = 3_500_000
+MOST_WORK: Final = 2_000_000
 """Work of all start cases of changes that are tried for one check."""
 
 
@@ -156,7 +155,7 @@ def tried_change(
         """True if the run balances within the limit."""
         return run.balanced and run.in_time(limits)
 
-    mended = _mended(design, _quicker(design), slow.member, in_time, accuracy, progress, workers)
+    mended = _mended(design, _quicker(design), before, in_time, accuracy, progress, workers)
     if mended is None:
         return None
     change, after = mended
@@ -179,7 +178,7 @@ def quieter_change(
         """True if the run balances below the limit."""
         return run.balanced and run.level <= limits.vibration_level_db
 
-    mended = _mended(design, _quieter(design), loud.member, quiet, accuracy, progress, workers)
+    mended = _mended(design, _quieter(design), before, quiet, accuracy, progress, workers)
     if mended is None:
         return None
     change, after = mended
@@ -204,22 +203,26 @@ def sturdier_change(design: TwoRaceDesign) -> Action | None:
 
 
 def _mended(
-    design: TwoRaceDesign, changes: Iterable[Change], first: Member, passes: Callable[[StartOutcome], bool],
+    design: TwoRaceDesign, changes: Iterable[Change], before: Ensemble, passes: Callable[[StartOutcome], bool],
     accuracy: float, progress: Progress, workers: int,
 ) -> tuple[Change, Ensemble] | None:  # fmt: skip
-    """The first change at which every start case passes, with these; the start case `first` is tried before all."""
-    left = MOST_WORK
+    """The first change at which every start case passes, with these; those that did not `before` are tried first."""
+    failed = sorted((run for run in before.outcomes if not passes(run)), key=lambda run: run.badness, reverse=True)
+    left, given = MOST_WORK, design.case.drag
     for change in changes:
-        if left <= 0 or patience.over():
-            break
-        other, given = change.design, design.case.drag
-        same = replace(first, drag=first.drag * other.case.drag / given) if given else first
-        run = start_once(other, same, accuracy, FIRST_TOLERANCE, WORK)
-        left -= run.work
-        if not isinstance(run, StartOutcome) or not passes(run):
-            continue
-        after = ensemble_of(other, accuracy, within(progress, change.text), workers)
-        left -= after.work
-        if not after.lost and all(map(passes, after.outcomes)):
-            return change, after
+        other = change.design
+        scale = other.case.drag / given if given else 1.0
+        for run in failed:
+            if left <= 0 or patience.over():
+                return None
+            member, work = replace(run.member, drag=scale * run.member.drag), MORE * WORK if run.member.run_up else WORK
+            again = start_once(other, member, accuracy, FIRST_TOLERANCE, work, early_end=True)
+            left -= again.work
+            if not isinstance(again, StartOutcome) or not passes(again):
+                break
+        else:
+            after = ensemble_of(other, accuracy, within(progress, change.text), workers)
+            left -= after.work
+            if not after.lost and all(map(passes, after.outcomes)):
+                return change, after
     return None

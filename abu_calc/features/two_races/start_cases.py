@@ -4,6 +4,7 @@ import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import cycle, islice
 from typing import Any, Final, Literal
 
@@ -21,7 +22,7 @@ from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
 from abu_calc.dynamics.supports.tilting import tilting
-from abu_calc.dynamics.trajectory import Samples, merged
+from abu_calc.dynamics.trajectory import Samples, Sampling, Until, merged
 from abu_calc.features.design.band import NEW_WHEEL, axes_in_use, sequence
 from abu_calc.features.two_races.case import TwoRaceCase, felt_mass
 from abu_calc.features.two_races.choice import TwoRaceDesign
@@ -32,6 +33,7 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
+from abu_calc.simulation.early_stopping import LOOKS, SEEN, over_turns
 from abu_calc.simulation.ensemble import (
     LONGEST_CREEPING,
     MORE,
@@ -44,7 +46,7 @@ from abu_calc.simulation.ensemble import (
 )
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.quiet import PER_TURN, last_crossing, turn_velocities
-from abu_calc.simulation.residual_criteria import slip
+from abu_calc.simulation.residual_criteria import MARGIN, slip
 from abu_calc.simulation.response import amplitude_window, drift, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
@@ -65,6 +67,8 @@ SMALLEST: Final = 1e-12
 """Displacement [m] that counts as none."""
 FIRST_TOLERANCE: Final = TIGHTER * TOLERANCE
 """Tolerance of the first run of a start case: at ten times this the median level of a drum is 0.15 dB off."""
+STILL: Final = 0.003
+"""Share of what a race has to balance that may still change where a run ends early."""
 ACCURACY: Final = 0.05
 """Accuracy of a simulation of two races: many of them are done."""
 
@@ -244,10 +248,12 @@ def start_once(
     design: TwoRaceDesign, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = False,
     wanted: str = "auto",
 ) -> TwoRaceOutcome | Lost:  # fmt: skip
-    """One start, by one run to its end, once more for longer if its balls still creep; `work`: what a run may take."""
+    """One start, by one run, once more for longer if its balls still creep; `work`: what a run may take; `early_end`:
+    whether it may end early.
+    """
     design, scene = at_speed(design, member.speed), scene_of(design, member)
     try:
-        outcome = _run(design, member, scene, tolerance, work, wanted)
+        outcome = _run(design, member, scene, tolerance, work, wanted, early_end)
         if not outcome.creeping or outcome.hanging:
             return outcome
         longest = member.run_up + LONGEST_CREEPING * design.case.table.limits.longest_quiet_time
@@ -258,11 +264,31 @@ def start_once(
 
 
 def _run(
-    design: TwoRaceDesign, member: Member, scene: Scene, tolerance: float, work: int, wanted: str
-) -> TwoRaceOutcome:
+    design: TwoRaceDesign, member: Member, scene: Scene, tolerance: float, work: int, wanted: str,
+    early_end: bool = False,
+) -> TwoRaceOutcome:  # fmt: skip
     """Outcome of one run. Raises NotTrustworthyError."""
-    times = merged(needed_times(scene), revolution_times(scene))
-    return _observed(design, member, scene, *integrated(scene, times, tolerance, work, wanted))
+    times, turns = merged(needed_times(scene), revolution_times(scene)), revolution_times(scene)
+    looks = tuple(float(turns[int(share * len(turns))]) for share in LOOKS) if early_end else ()
+    windows = [amplitude_window(replace(scene, duration=look)).times for look in looks]
+    until = Until(looks, partial(_enough, design, member, scene))
+    run, spent = integrated(scene, Sampling(merged(times, *windows), until=until), tolerance, work, wanted)
+    return _observed(design, member, replace(scene, duration=float(run.t[-1])), run, spent)
+
+
+def _enough(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samples) -> bool:
+    """True if both races balance in time and nothing that still moves will change that, as for one race."""
+    so_far, of_file = replace(scene, duration=float(samples.t[-1])), replace(member, varied=Variation())
+    turns = revolution_times(so_far)
+    late = turns[-int(SEEN * len(turns)) :]
+    ahead = (scene.duration - so_far.duration) / (late[-1] - late[0])
+    states, needs = samples.at(late), (wheels_share(design, 0, member), wheels_share(design, 1, member))
+    for k, left in enumerate(map(over_turns, _left(scene, states, needs))):
+        balanced = max(abs(wheels_share(design, k, of_file)), HARDLY * scene.races[k].static_moment)
+        if ahead * np.abs(left - left[-1]).max() > STILL * balanced:
+            return False
+    outcome, limits = _observed(design, member, so_far, samples, 0), design.case.table.limits
+    return not outcome.creeping and outcome.holds(limits, limits.vibration_level_db - MARGIN)
 
 
 def _integrator(design: TwoRaceDesign, member: Member, accuracy: float, tolerance: float) -> str:
@@ -368,7 +394,7 @@ def _left(scene: Scene, states: Array, needs: tuple[complex, complex]) -> tuple[
     for race, need in zip(scene.races, needs, strict=True):
         count = len(race.ball_masses)
         moments = np.array(race.ball_masses) * race.pitch_radius
-        found.append(need + moments @ np.exp(1j * states[first : first + count]))
+        found.append(need + (moments[:, None] * np.exp(1j * states[first : first + count])).sum(axis=0))
         first += count
     return found[0], found[1]
 

@@ -12,6 +12,7 @@ from abu_calc.dynamics.scene import without
 from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.start_cases import (
+    FIRST_TOLERANCE,
     OF_BAND,
     TwoRaceOutcome,
     ensemble_of,
@@ -33,6 +34,7 @@ from abu_calc.simulation.ensemble import TOLERANCE, WORK
 from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.simulate import simulate
 from abu_calc.simulation.start_cases import Variation
+from abu_calc.sizing.vibration import LEVEL_ERROR
 
 TRUE = (
     *(f"autobalancer.{k}.race_eccentricity_mm=0.0" for k in (0, 1)),
@@ -245,3 +247,19 @@ def test_chaotic_starts_take_no_more_work_than_others() -> None:
 def test_the_answer_does_not_depend_on_workers() -> None:
     design = design_of()
     assert ensemble_of(design, 0.05, silent, 3) == ensemble_of(design, 0.05, silent, 1)
+
+
+def test_a_start_that_ends_early_is_judged_as_the_whole_one() -> None:
+    """Times are final once nothing moves; the level is that of the end within what no check decides by."""
+    design = design_of()
+    ended = 0
+    for member in list(start_cases(design))[::9]:
+        short, whole = (start_once(design, member, 0.05, FIRST_TOLERANCE, early_end=early) for early in (True, False))
+        assert isinstance(short, TwoRaceOutcome) and isinstance(whole, TwoRaceOutcome)
+        assert (short.balanced, short.creeping, short.hanging) == (whole.balanced, whole.creeping, whole.hanging)
+        assert short.quiet_time == whole.quiet_time
+        assert short.rest_time == pytest.approx(whole.rest_time, rel=0.01)
+        assert short.level == pytest.approx(whole.level, abs=2 * LEVEL_ERROR)
+        assert short.imbalance == pytest.approx(whole.imbalance, abs=0.01 * whole.moved)
+        ended += short.work < 0.8 * whole.work
+    assert ended >= 3
