@@ -4,7 +4,7 @@
 """
 
 import math
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
@@ -59,8 +59,8 @@ And how many starts at the drag given may be without an answer until no others a
 
 MORE, MOST_MORE = 10, 24_000_000
 """Times the work that a start may take in a second run, where that of the first did not suffice, and the work of all
-runs together up to which there are second ones: about half a minute of compiled code. A run-up takes long, so its first
-run may take as much."""
+runs together after which none is begun: about half a minute of compiled code. A run-up takes long, so its first run may
+take as much."""
 
 STARTS = 30
 """About how many starts and closer runs a machine has."""
@@ -75,10 +75,13 @@ ALWAYS = ("dry_rolling_friction", "ball_contact")
 
 
 class Runner(NamedTuple):
-    """How one start of a machine is run, as `start_once` does it, and which integrator all its starts ask for."""
+    """How one start of a machine is run, as `start_once` does it, which integrator all its starts ask for, and the work
+    after which no further start is begun.
+    """
 
     once: Callable[..., "StartOutcome | Lost"]
     integrator: Callable[[Any, Member, float, float], str]
+    most: int = MOST_MORE
 
 
 class StartRun(NamedTuple):
@@ -114,9 +117,18 @@ def simulate_starts(
 
     `design`: of whatever machine `runner` runs; None: one with a single race.
     """
+    runner = runner or Runner(start_once, integrator_for)
     results = _found(design, starts, accuracy, tolerance, progress, workers, runner)
     spent = sum(result.work for result in results)
     while undecided := deciding(results, design.case.drag):
+        if spent >= runner.most:
+            results = [
+                Lost(result.member, "not confirmed, since others took all the work allowed")
+                if k in undecided
+                else result
+                for k, result in enumerate(results)
+            ]
+            continue
         again = [(results[k].member, early_end) for k, early_end in undecided.items()]
         closer, tight, most = within(progress, "closer"), TIGHTER * tolerance, MORE * WORK
         runs = list(every_start(design, again, accuracy, tight, closer, workers, run_up_work=most, runner=runner))
@@ -297,7 +309,7 @@ def _decided(
 
 def _found(
     design: Any, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int,
-    runner: Runner | None,
+    runner: Runner,
 ) -> list[StartOutcome | Lost]:  # fmt: skip
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(start, True) for start in starts if start.drag == design.case.drag]
@@ -305,30 +317,43 @@ def _found(
     both, most = [*first, *others], MORE * WORK
     runs = every_start(design, both, accuracy, tolerance, progress, workers, run_up_work=most, runner=runner)
     with closing(runs):
-        results = list(islice(runs, len(first)))
-        results = _with_more(design, results, first, accuracy, tolerance, progress, workers, 0, runner)
+        results = _begun(islice(runs, len(first)), first, runner.most)
+        spent = sum(result.work for result in results)
+        results = _with_more(design, results, first, accuracy, tolerance, progress, workers, spent, runner)
+        spent = sum(result.work for result in results)
         if sum(isinstance(result, Lost) for result in results) >= MOST_LOST:
-            return [*results, *(Lost(start, "not tried, since others gave no answer", 0) for start, _ in others)]
-        rest = list(runs)
-    spent = sum(result.work for result in results)
+            return [*results, *(Lost(start, "not tried, since others gave no answer") for start, _ in others)]
+        rest = _begun(runs, others, runner.most - spent)
+    spent += sum(result.work for result in rest)
     return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers, spent, runner)]
+
+
+def _begun(
+    runs: Iterable[StartOutcome | Lost], starts: Sequence[tuple[Member, bool]], most: int
+) -> list[StartOutcome | Lost]:
+    """Results of runs, none begun after so much work."""
+    results = list[StartOutcome | Lost]()
+    for run in runs:
+        results.append(run)
+        most -= run.work
+        if most <= 0:
+            break
+    short = "not tried, since others took all the work allowed"
+    return [*results, *(Lost(start, short) for start, _ in starts[len(results) :])]
 
 
 def _with_more(
     design: Any, results: list[StartOutcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
-    tolerance: float, progress: Progress, workers: int, spent: int, runner: Runner | None,
+    tolerance: float, progress: Progress, workers: int, spent: int, runner: Runner,
 ) -> list[StartOutcome | Lost]:  # fmt: skip
     """Outcomes of the start cases; those that ran out of allowed work are tried once more.
 
-    `spent`: work of the runs before these.
+    `spent`: work so far.
     """
-    lost = [k for k, outcome in enumerate(results) if isinstance(outcome, Lost) and outcome.short]
-    short = [k for k in lost if results[k].work < MORE * WORK]
-    if not short:
-        return results
-    long = sum(outcome.work > WORK for outcome in results if isinstance(outcome, StartOutcome))
-    work = min(MORE * WORK, (MOST_MORE - spent) // (len(lost) + long))
-    if work <= WORK:
+    lost = [(k, outcome.work) for k, outcome in enumerate(results) if isinstance(outcome, Lost) and outcome.short]
+    short = [k for k, work in lost if work < MORE * WORK]
+    work = min(MORE * WORK, (runner.most - spent) // max(len(short), 1))
+    if not short or work <= WORK:
         return results
     runs = every_start(
         design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work,
@@ -346,7 +371,7 @@ def every_start(
 
     `run_up_work`: work that a run-up may take; None: as much as any start.
     """
-    once, integrator = runner or Runner(start_once, integrator_for)
+    once, integrator, _ = runner or Runner(start_once, integrator_for)
     wanted = integrator(design, starts[0][0], accuracy, tolerance) if starts else "auto"
     long = work if run_up_work is None else run_up_work
     tasks = [

@@ -37,6 +37,7 @@ from abu_calc.simulation.early_stopping import LOOKS, SEEN, over_turns
 from abu_calc.simulation.ensemble import (
     LONGEST_CREEPING,
     MORE,
+    MOST_MORE,
     TIGHTER,
     TOLERANCE,
     WORK,
@@ -297,7 +298,8 @@ def _integrator(design: TwoRaceDesign, member: Member, accuracy: float, toleranc
     return "compiled" if name.startswith("compiled") else "auto"
 
 
-TWO_RACES: Final = Runner(start_once, _integrator)
+TWO_RACES: Final = Runner(start_once, _integrator, MOST_MORE // 4)
+"""An evaluation with two races takes three to four times as long as its balls alone say."""
 
 
 def ensemble_of(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int) -> Ensemble:

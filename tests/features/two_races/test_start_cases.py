@@ -30,10 +30,10 @@ from abu_calc.foundation.progress import silent
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation import ensemble as ensemble_module
-from abu_calc.simulation.ensemble import TOLERANCE, WORK
+from abu_calc.simulation.ensemble import MOST_MORE, TOLERANCE, WORK, Runner, simulate_starts
 from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.simulate import simulate
-from abu_calc.simulation.start_cases import Variation
+from abu_calc.simulation.start_cases import Member, Variation
 from abu_calc.sizing.vibration import LEVEL_ERROR
 
 TRUE = (
@@ -263,3 +263,21 @@ def test_a_start_that_ends_early_is_judged_as_the_whole_one() -> None:
         assert short.imbalance == pytest.approx(whole.imbalance, abs=0.01 * whole.moved)
         ended += short.work < 0.8 * whole.work
     assert ended >= 3
+
+
+def test_no_start_is_begun_after_the_work_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor confirmed: what others have spent is told for each."""
+    design, begun = design_of(), list[str]()
+
+    def dear(_: object, member: Member, *given: object) -> TwoRaceOutcome | Lost:
+        begun.append(member.name)
+        return Lost(member, "more work than allowed", MOST_MORE // 10, short=True)
+
+    runner = Runner(dear, lambda *_: "auto", MOST_MORE // 4)
+    found = simulate_starts(design, list(start_cases(design)), 0.05, FIRST_TOLERANCE, silent, 1, runner)
+    assert len(begun) == 3 and found.outcomes == ()
+    reasons = {lost.reason for lost in found.lost}
+    assert reasons == {
+        "more work than allowed", "not tried, since others took all the work allowed",
+        "not tried, since others gave no answer",
+    }  # fmt: skip
