@@ -62,6 +62,9 @@ MORE, MOST_MORE = 10, 24_000_000
 runs together after which none is begun: about half a minute of compiled code. A run-up takes long, so its first run may
 take as much."""
 
+BEGUN = 0.75
+"""Share of that work after which only confirming runs are begun."""
+
 STARTS = 30
 """About how many starts and closer runs a machine has."""
 
@@ -130,7 +133,8 @@ def simulate_starts(
             ]
             continue
         again = [(results[k].member, early_end) for k, early_end in undecided.items()]
-        closer, tight, most = within(progress, "closer"), TIGHTER * tolerance, MORE * WORK
+        closer, tight = within(progress, "closer"), TIGHTER * tolerance
+        most = max(WORK, min(MORE * WORK, runner.most - spent))
         runs = list(every_start(design, again, accuracy, tight, closer, workers, run_up_work=most, runner=runner))
         runs = _with_more(design, runs, again, accuracy, tight, closer, workers, spent, runner)
         spent += sum(run.work for run in runs)
@@ -138,6 +142,21 @@ def simulate_starts(
             results[k] = worse(results[k], rerun)
     outcomes = tuple(result for result in results if isinstance(result, StartOutcome))
     return Ensemble(design.case.drag, outcomes, tuple(result for result in results if isinstance(result, Lost)))
+
+
+def _unconfirmed(
+    design: Any, results: list[StartOutcome | Lost], undecided: Iterable[int]
+) -> tuple[list[StartOutcome | Lost], bool]:
+    """Results without those that decide and that no work is left for, and whether one of these breaks a limit.
+
+    Where none does, what decides less may stay: something is missing already.
+    """
+    limits, left = design.case.table.limits, list(results)
+    deciders = {k: each for k in undecided if isinstance(each := results[k], StartOutcome)}
+    failing = {k: each for k, each in deciders.items() if not each.holds(limits, limits.vibration_level_db)}
+    for k, each in (failing or deciders).items():
+        left[k] = Lost(each.member, "not confirmed, since others took all the work allowed")
+    return left, bool(failing)
 
 
 def simulate_first(design: Design, accuracy: float = 0.01) -> Ensemble:
@@ -314,16 +333,16 @@ def _found(
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(start, True) for start in starts if start.drag == design.case.drag]
     others = [(start, True) for start in starts if start.drag != design.case.drag]
-    both, most = [*first, *others], MORE * WORK
+    both, most = [*first, *others], min(MORE * WORK, runner.most // 2)
     runs = every_start(design, both, accuracy, tolerance, progress, workers, run_up_work=most, runner=runner)
     with closing(runs):
-        results = _begun(islice(runs, len(first)), first, runner.most)
+        results = _begun(islice(runs, len(first)), first, int(BEGUN * runner.most))
         spent = sum(result.work for result in results)
         results = _with_more(design, results, first, accuracy, tolerance, progress, workers, spent, runner)
         spent = sum(result.work for result in results)
         if sum(isinstance(result, Lost) for result in results) >= MOST_LOST:
             return [*results, *(Lost(start, "not tried, since others gave no answer") for start, _ in others)]
-        rest = _begun(runs, others, runner.most - spent)
+        rest = _begun(runs, others, int(BEGUN * runner.most) - spent)
     spent += sum(result.work for result in rest)
     return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers, spent, runner)]
 
