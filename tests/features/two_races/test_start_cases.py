@@ -271,11 +271,11 @@ def test_no_start_is_begun_after_the_work_of_all(monkeypatch: pytest.MonkeyPatch
 
     def dear(_: object, member: Member, *given: object) -> TwoRaceOutcome | Lost:
         begun.append(member.name)
-        return Lost(member, "more work than allowed", MOST_MORE // 10, short=True)
+        return Lost(member, "more work than allowed", MOST_MORE // 10)
 
     runner = Runner(dear, lambda *_: "auto", MOST_MORE // 4)
     found = simulate_starts(design, list(start_cases(design)), 0.05, FIRST_TOLERANCE, silent, 1, runner)
-    assert len(begun) == 3 and found.outcomes == ()
+    assert len(begun) == 2 and found.outcomes == ()
     reasons = {lost.reason for lost in found.lost}
     assert reasons == {
         "more work than allowed", "not tried, since others took all the work allowed",
