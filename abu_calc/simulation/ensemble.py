@@ -121,6 +121,8 @@ def simulate_starts(
     `design`: of whatever machine `runner` runs; None: one with a single race.
     """
     runner = runner or Runner(start_once, integrator_for)
+    if patience.given():
+        runner = runner._replace(most=patience.UNBOUNDED)
     results = _found(design, starts, accuracy, tolerance, progress, workers, runner)
     spent = sum(result.work for result in results)
     while undecided := deciding(results, design.case.drag):

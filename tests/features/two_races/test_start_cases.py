@@ -26,6 +26,7 @@ from abu_calc.features.two_races.start_cases import (
     start_once,
     wheels_share,
 )
+from abu_calc.foundation import patience
 from abu_calc.foundation.progress import silent
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.inputs.read_machine import read_machine
@@ -281,3 +282,6 @@ def test_no_start_is_begun_after_the_work_of_all(monkeypatch: pytest.MonkeyPatch
         "more work than allowed", "not tried, since others took all the work allowed",
         "not tried, since others gave no answer",
     }  # fmt: skip
+    with patience.limited(600):
+        simulate_starts(design, list(start_cases(design))[:6], 0.05, FIRST_TOLERANCE, silent, 1, runner)
+    assert len(begun) == 2 + 6
