@@ -45,7 +45,7 @@ def test_commands_advised_for_presets_run(name: str, tmp_path: Path, monkeypatch
     assert name != "swing-arm-grinder" or f"`abu stability {name} --scene swing-arm-cutting`" in text
 
 
-@pytest.mark.few(0, 2)
+@pytest.mark.few(0, 1)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230",
                                   "swing-arm-grinder", "mmg-3200k-knife-shaft"])  # fmt: skip
@@ -57,7 +57,7 @@ def test_commands_advised_in_every_report_of_a_preset_run(
     assert ADVISED.findall(text) and NAMED.findall(text) == [] and list(failing(name, text)) == []
 
 
-@pytest.mark.few(0, 2)
+@pytest.mark.few(0, 1)
 @pytest.mark.parametrize("file", FILES_BY_HAND)
 def test_commands_advised_for_hard_machines_run(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)

@@ -132,7 +132,7 @@ def test_check_fit_of_the_source() -> None:
 
 
 # What must hold whatever happens
-@pytest.mark.slow
+@pytest.mark.hard
 @given(machines())
 @settings(max_examples=2, deadline=None, derandomize=True)
 def test_exit_status_agrees_with_the_checks(changes: dict) -> None:

@@ -69,7 +69,7 @@ def test_no_uncertainty_of_nothing_is_told() -> None:
         assert not re.search(r"± *0(\.0)? dB", flat(once("grinding", name, "--full").out))
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_sheet_counts_one_entry_as_one(tmp_path: Path) -> None:
     drawing = tmp_path / "section.svg"
     assert abu("size", "avtovaz-707-370", "--set", "machine.mass_kg=5.4", "--output", str(drawing)).status == 0
@@ -110,7 +110,7 @@ def test_a_small_benefit_is_named_at_the_top_and_an_action_finer_than_practice_s
         assert finer is (min(finest, default=1.0) < 0.005)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_an_action_is_no_command_that_repeats_a_start_case() -> None:
     """The whole report has the command, with the file and the entries of the result."""
     options = ("--set", "limits.quiet_time_s=0.6")

@@ -235,7 +235,7 @@ def test_six_degrees_of_freedom_without_balls() -> None:
     assert integrated.tolist() == pytest.approx(velocity_rms(motion, case.speed), rel=2e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_six_degrees_of_freedom_with_balls() -> None:
     places = {**G230.handles, "race": G230.race}
     integrated = settled_amplitudes(G230, places, balls=True, turns=620)

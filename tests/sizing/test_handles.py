@@ -136,7 +136,7 @@ def test_point_mass_and_missing_handles_pass_with_three_times_the_value(made: An
         assert (asked in (check.remedy or "")) is (status == "warn")
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_speed_that_is_not_weighted_is_not_evaluated() -> None:
     """85 000 rpm are 1417 Hz, above the band of W_h."""
     fast = angle_grinder(machine__speed_rpm=85_000.0, limits={"a_hv_m_per_s2": 5.0}, wheel__imbalance_g_mm=1.0)

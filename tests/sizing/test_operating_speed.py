@@ -62,7 +62,7 @@ def test_a_motor_settles_at_the_idle_speed(table: Any) -> None:
     assert speed == pytest.approx(balance, rel=5e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_refuted_machine_fails_at_its_idle_speed() -> None:
     """It passed at 13993 rpm; at 15107 rpm the level is 109.2 dB and the race goes oval."""
     result = recalled("size", abu_calc.read(MACHINES / "motor-no-load-speed.toml"))

@@ -122,7 +122,7 @@ def test_two_races_take_their_checks_by_the_same_rule(preset: str, request: pyte
     assert advice.changed(after, {"rolling_drag_per_s": 30.0}) is not None
 
 
-@pytest.mark.few(0, 2)
+@pytest.mark.few(0, 1)
 @pytest.mark.parametrize(
     "preset", [*(pytest.param(name, marks=pytest.mark.slow) for name in PRESETS),
                *(pytest.param(name, marks=pytest.mark.hard) for name in TWO_RACES)]

@@ -68,7 +68,7 @@ def test_long_runs_are_compiled_and_short_ones_are_not(scene):
     assert ("switches" in long.why) is (scene is switching)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @pytest.mark.usefixtures("unloaded")
 def test_a_run_in_plain_python_that_proves_long_goes_on_in_compiled_code():
     """Steps are two thousand times as short as counting expects."""

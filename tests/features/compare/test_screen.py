@@ -42,7 +42,7 @@ def test_levels_and_quiet_times_stand_first_case_by_case_with_their_limits() -> 
     assert line_of(screen, "bound of friction").split()[-2:] == ["105.4", "105.4"]  # equal ones stand there, too
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_machine_without_an_autobalancer_has_no_level() -> None:
     with remembered():
         result = abu_calc.compare([abu_calc.read("msh-230"), abu_calc.read("mmg-3200k-knife-shaft")])

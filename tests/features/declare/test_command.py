@@ -24,7 +24,7 @@ def test_presets_have_a_screen(preset: str) -> None:
     assert seen.width <= 80 and len(seen.out.splitlines()) <= 48
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_common_tool_shows_its_handles_out_of_the_box() -> None:
     """Two handles in three axes, the limit of a_hv, and a declared value that falls by more than K."""
     for command in ("size", "levels", "declare"):

@@ -34,7 +34,7 @@ def test_two_balls_do_not_suffice_under_load() -> None:
     assert design.autobalancer.capacity_ratio < 1.2
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
     seen = once("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
                 "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip

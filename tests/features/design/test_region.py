@@ -127,7 +127,7 @@ def test_modes_of_a_machine_in_hands_with_the_damped_one() -> None:
 FLUTTERING = ('suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1")
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_hands_that_let_the_balls_flutter_fail() -> None:
     """Not stable and a pass cannot stand together."""
     region = region_of("msh-230", *FLUTTERING)
@@ -174,7 +174,7 @@ def test_the_command_finds_the_boundary_of_the_region(
     assert limit.speed_rpm == pytest.approx(from_si(last.speed, "rpm"), rel=1e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
     held = region_of(HANDS).check
     assert (

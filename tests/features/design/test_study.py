@@ -33,7 +33,7 @@ def test_a_scene_that_cannot_be_simulated_leaves_the_others() -> None:
     assert (check.code, check.status) == ("ABU703", "not-done") and "swing-arm-cutting" in check.name
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
     """An arm that does not stand at the work: the design stands, its other scenes too."""
     machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.contact_angle_deg": 5.0})

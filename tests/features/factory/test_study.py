@@ -73,7 +73,7 @@ def test_presets_assume_alike() -> None:
         assert all(content[table][key] == value for content in tables), key
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_file_of_others_is_compared_where_its_handles_are(tmp_path: Path) -> None:
     """Centre of mass on the spindle: a handle moves by 1/M + p·a/J, along the spindle not at all."""
     file = tmp_path / "mine.toml"
@@ -148,7 +148,7 @@ def test_a_file_without_measurements_is_refused() -> None:
         factory([abu_calc.read("swing-arm-grinder")])
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_predictions_are_those_of_the_other_commands() -> None:
     document = once("factory", "--json").document
     rows = {(row["machine"], row["state"], row["octave_hz"]): row for row in document["result"]["rows"]}

@@ -56,7 +56,7 @@ def test_any_executor_gives_the_same_answer(small: OptimiseResult, monkeypatch: 
         assert _again(monkeypatch, executor=executor).to_dict() == small.to_dict()
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_store_goes_on_and_computes_nothing_twice(
     small: OptimiseResult, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

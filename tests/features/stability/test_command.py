@@ -187,7 +187,7 @@ def test_a_swing_arm_alone(tmp_path: Path) -> None:
     assert any("cannot carry" in told for told in seen.document["warnings"])
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_tilting_rotor(tmp_path: Path) -> None:
     file = written(tmp_path, TILTING)
     result = abu("stability", file, "--speeds", "1000:6000", "--json").document["result"]
@@ -208,7 +208,7 @@ def test_what_is_not_known_is_not_done(tmp_path: Path) -> None:
     assert "differs along x and y" in seen.document["checks"][0]["message"]
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_scenes_of_a_machine() -> None:
     tables = ["--set", "swing_arm.arm_length_mm=350.0"]
     for name in ("swing-arm-idle", "swing-arm-cutting"):

@@ -41,7 +41,7 @@ def machine() -> abu_calc.Machine:
     return abu_calc.read("avtovaz-707-222").changed(QUIET)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_share_that_meets_a_level_is_that_of_the_eccentricity(machine: abu_calc.Machine) -> None:
     """L = 20 lg(Ω·Δ/√2/v₀) for Δ uniform: members are strata of it, so the share is right to one and a half of them."""
     runs, low, high = 24, 0.004, 0.016
@@ -160,7 +160,7 @@ def test_no_member_with_a_number_is_no_answer(machine: abu_calc.Machine, monkeyp
         abu_calc.sweep(machine, {ECCENTRICITY: [0.004, 0.005, 0.006]})
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_designs_are_sized_anew() -> None:
     machine = abu_calc.read("avtovaz-707-222")
     with remembered():

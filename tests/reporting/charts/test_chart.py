@@ -69,7 +69,7 @@ def test_growth_over_speeds_is_that_of_each_speed() -> None:
     assert [rate for _, rate in at_edges] == pytest.approx([0.0] * len(edges), abs=1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_orbits_reach_as_far_as_the_amplitudes_say() -> None:
     from abu_calc.features.grinding.study import grinding
 

@@ -121,7 +121,7 @@ def test_too_wide_a_range_of_temperature_overstresses_the_body() -> None:
     assert check(sized("design=light", "temperature_range_C=[-40, 200]"), "ABU311").status == "fail"
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_a_ring_of_a_bearing_does_not_pass_a_thread_of_its_own_diameter() -> None:
     """The core of M62 × 0.5 is 62 − 1.08·0.5 = 61.5 mm wide, the ring 62 mm."""
     screwed = check(sized("design=bearing-ring", "closure=screwed"), "ABU307")
