@@ -6,9 +6,10 @@ import pytest
 
 from abu_calc.foundation.errors import InputError
 from abu_calc.registry import BY_NAME, FEATURES, Feature, Known, absent, imported, known, named
+from tests.rows import for_each
 
 
-@pytest.mark.parametrize("feature", FEATURES, ids=lambda feature: feature.name)
+@for_each(FEATURES)
 def test_all_that_an_entry_names_is_there(feature: Feature) -> None:
     assert callable(importlib.import_module(f"abu_calc.features.{feature.command}").register)
     assert all(isinstance(imported(path), type) for path in feature.results)

@@ -98,6 +98,7 @@ def test_integrators_meet_the_closed_impact_of_two_balls() -> None:
         assert states[-1][2:4] == pytest.approx([meeting - after / 8, 2 + 3 * after / 8], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_integrators_meet_the_closed_motion_under_dry_friction() -> None:
     """By hand: θ'' = −f (Ω + θ')², so Ω + θ' = 1/(1/γ'₀ + f t) until θ' = 0; ball 1 goes back: Ω + θ' grows.
 

@@ -16,6 +16,7 @@ from abu_calc.formulas.oil import (
     viscosity_index,
 )
 from abu_calc.foundation.errors import RangeError
+from tests.rows import for_each
 
 RACE = OilRace(31e-3, 24.4e-3, 16.5e-3, 12.5e-3, 4, 7.9375e-3)
 
@@ -36,7 +37,7 @@ TABLE = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(("at_100", "low", "high"), TABLE)
+@for_each(TABLE)
 def test_curves_of_the_index_are_those_of_the_table(at_100: float, low: float, high: float) -> None:
     """Oils of index 0 and 100 by definition; the table is rounded, and smoothed unlike its polynomials."""
     assert viscosity_index(low, at_100) == pytest.approx(0, abs=1.0)

@@ -9,6 +9,7 @@ import pytest
 from abu_calc.formulas.rigid_body import Inertia, RigidBody, Vector
 from abu_calc.foundation.errors import RangeError
 from tests.formulas.bodies import G125, G230, V305, SpaceCase
+from tests.rows import for_each
 
 
 @pytest.mark.parametrize(
@@ -48,7 +49,7 @@ def random_place(source: random.Random) -> Vector:
     return source.uniform(-0.2, 0.2), source.uniform(-0.2, 0.2), source.uniform(-0.2, 0.2)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@for_each(range(20))
 def test_inertance_is_that_of_newton_and_euler(seed: int) -> None:
     source = random.Random(seed)
     body, p, q = random_body(source), random_place(source), random_place(source)
@@ -62,7 +63,7 @@ def test_inertance_is_that_of_newton_and_euler(seed: int) -> None:
         assert [row[axis] for row in body.inertance(p, q)] == pytest.approx(expected.tolist(), rel=1e-9, abs=1e-12)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@for_each(range(20))
 def test_inertances_are_reciprocal_and_masses_positive(seed: int) -> None:
     source = random.Random(seed)
     body, p, q = random_body(source, polar=1e-4), random_place(source), random_place(source)

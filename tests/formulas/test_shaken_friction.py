@@ -50,6 +50,7 @@ def test_below_one_any_pull_moves_a_ball(number: float) -> None:
     assert _crept(-0.05 * band, band) < -abs(steady) - 1e-6
 
 
+@pytest.mark.slow
 def test_creeping_close_to_the_band_is_as_slow_as_told() -> None:
     """Slips from −φ₁ to 2φ₁ about the pull of gravity, φ₁² = 2δ/g: 4.5·δ²/(J·R_p·g·Ω²) in a revolution."""
     band, beyond = 2 * SHAKE, 0.02 * SHAKE

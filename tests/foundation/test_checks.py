@@ -8,6 +8,7 @@ import pytest
 
 from abu_calc.foundation.checks import CHECK_CODES, HUNDREDS, Check, Grade, coded, overall, verdict, worst
 from tests.house.structure import ROOT
+from tests.rows import for_each
 
 GRADES: tuple[Grade, ...] = ("pass", "warn", "not-done", "fail")
 """From best to worst."""
@@ -18,7 +19,7 @@ def checks(*grades: Grade) -> list[Check]:
     return [Check("ABU101", "any", grade, "") for grade in grades]
 
 
-@pytest.mark.parametrize("grades", list(combinations_with_replacement(GRADES, 3)))
+@for_each(list(combinations_with_replacement(GRADES, 3)))
 def test_several_checks_are_as_good_as_the_worst(grades: tuple[Grade, ...]) -> None:
     """In any order; a warning passes, what was not done never does."""
     bad = max(grades, key=GRADES.index)

@@ -21,6 +21,7 @@ from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.formula import REGISTERED, Formula, formula_of
 from abu_calc.foundation.validity import Range
 from tests.cli.runner import abu
+from tests.rows import for_each
 
 PACKAGE = Path(abu_calc.__file__).parent
 ROOMS = ("standards", "formulas", "features/seats", "features/balancing", "features/grinding", "sizing")
@@ -50,7 +51,7 @@ def test_every_registered_formula_is_shown_by_a_step() -> None:
     assert len(KEYS) == len(set(KEYS))
 
 
-@pytest.mark.parametrize("one", FORMULAS, ids=lambda one: one.key)
+@for_each(FORMULAS)
 def test_a_formula_says_what_it_gives_and_is_helped_with(one: Formula) -> None:
     assert one.gives
     assert not one.gives.endswith(".")
@@ -59,7 +60,7 @@ def test_a_formula_says_what_it_gives_and_is_helped_with(one: Formula) -> None:
         assert inspect.getdoc(COMPUTING[one.key]).startswith(one.paragraphs[0])
 
 
-@pytest.mark.parametrize("one", [one for one in FORMULAS if one.key in COMPUTING], ids=lambda one: one.key)
+@for_each([one for one in FORMULAS if one.key in COMPUTING])
 def test_ranges_said_to_be_checked_are_checked(one: Formula) -> None:
     """The module of the formula refuses what is outside each of its ranges, by the very object that is shown."""
     module = inspect.getmodule(COMPUTING[one.key])

@@ -11,6 +11,7 @@ import pytest
 import abu_calc
 from abu_calc.foundation.quantity import Record, hints, quantities, record
 from abu_calc.simulation.result import Result
+from tests.rows import for_each
 
 PACKAGE = Path(abu_calc.__file__).parent
 for file in PACKAGE.rglob("*.py"):
@@ -34,7 +35,7 @@ def held(hint: object) -> Iterator[object]:
 SHOWN = sorted({kind for kind in kinds(Record) if not kind.__name__.endswith("Model")} - {Result}, key=str)
 
 
-@pytest.mark.parametrize("kind", SHOWN, ids=lambda kind: kind.__name__)
+@for_each(SHOWN)
 def test_every_quantity_has_a_label(kind):
     silent = [
         name

@@ -76,6 +76,7 @@ def test_html_escapes() -> None:
     assert "<script>" not in html and "&lt;script&gt;" in html and "and 10 more" in html
 
 
+@pytest.mark.slow
 def test_pandas_round_trip() -> None:
     pandas = pytest.importorskip("pandas")
     frame = ROWS.to_pandas()
@@ -85,6 +86,7 @@ def test_pandas_round_trip() -> None:
     assert pandas.DataFrame(ROWS)["name"].tolist() == COLUMNS["name"]
 
 
+@pytest.mark.slow
 def test_polars_round_trip() -> None:
     polars = pytest.importorskip("polars")
     for frame in (polars.DataFrame(ROWS), polars.from_dataframe(ROWS)):

@@ -14,13 +14,14 @@ from abu_calc.foundation.units import SI_PER_UNIT
 from abu_calc.foundation.validity import Range
 from abu_calc.sizing.strength import permitted_pressure
 from tests.cli.runner import abu
+from tests.rows import for_each
 
 FORMULAS = [formula for step in STEPS.values() for formula in step.formulas]
 INDEXED = re.compile(r"(?<![\w·])[^\W\d_][₀-₉]*_[A-Za-z]+")
 SI = {"m", "rad", "rad/s", "Pa", "m/s", "kg m"}
 
 
-@pytest.mark.parametrize("one", FORMULAS, ids=lambda one: one.key)
+@for_each(FORMULAS)
 def test_every_sign_is_told(one: Formula) -> None:
     """Of equations every letter; of sentences beside them what has an index."""
     equations = [one.equation, *(line for line in one.where.splitlines() if line.startswith("    "))]
@@ -91,7 +92,7 @@ def test_units_are_those_of_files_or_of_si() -> None:
     assert conversions(formula_of("formulas.balls:capacity").file_units) == expected
 
 
-@pytest.mark.parametrize("one", FORMULAS, ids=lambda one: one.key)
+@for_each(FORMULAS)
 def test_words_and_differentials_are_no_signs(one: Formula) -> None:
     """An article before a word, "as" and the d of a derivative: "a" is an acceleration, "s" and "d" have meanings."""
     assert not re.search(r"\b(a [a-z]{3,}|as [a-z])", one.equation)

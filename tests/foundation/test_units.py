@@ -15,9 +15,10 @@ from abu_calc.foundation.units import (
     velocity_from_level,
     wrapped_deg,
 )
+from tests.rows import for_each
 
 
-@pytest.mark.parametrize("unit", SI_PER_UNIT)
+@for_each(SI_PER_UNIT)
 def test_there_and_back_is_nowhere(unit: str) -> None:
     assert from_si(to_si(0.37, unit), unit) == pytest.approx(0.37, rel=1e-15)
 

@@ -15,6 +15,7 @@ from abu_calc.foundation.written_units import (
     allowed_units,
     written_unit,
 )
+from tests.rows import for_each
 
 # Worked out by hand from the definitions of the units (SI Brochure; NIST SP 811 for inch, pound, ounce, kgf).
 GOLDENS = [
@@ -60,7 +61,7 @@ GOLDENS = [
 ]
 
 
-@pytest.mark.parametrize(("key", "text", "value"), GOLDENS)
+@for_each(GOLDENS)
 def test_known_conversions(key: str, text: str, value: float) -> None:
     unit = written_unit(key)
     assert unit is not None
@@ -117,7 +118,7 @@ REFUSED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("text", "fault"), REFUSED)
+@for_each(REFUSED)
 def test_other_texts_are_refused_with_the_units(text: str, fault: str) -> None:
     unit = written_unit("mass_kg")
     with pytest.raises(WrittenUnitError, match=fault) as caught:

@@ -28,7 +28,7 @@ QUICK: Final[dict[str, Callable[[], None]]] = {
 }
 
 
-@pytest.mark.few(6)
+@pytest.mark.few(2)
 @pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)
 def test_quick(case: Callable[[], None]) -> None:
     """As the hard suite has it."""

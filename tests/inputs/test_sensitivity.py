@@ -6,6 +6,7 @@ import pytest
 
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.sensitivity import sensitivities, sensitivity_of
+from tests.rows import for_each
 
 G = 9.80665
 
@@ -32,7 +33,7 @@ def test_channels_by_name_and_number() -> None:
     assert sensitivity_of(made[:1], "b", 2) is None
 
 
-@pytest.mark.parametrize("given", [
+@for_each([
     0.0, -1.0, math.nan, math.inf, "10,2", "", "mV/g", "100 g", "100 mV", "100 mV/kg", "100 pC/g", "100 mV/g/g",
     "ax=", "ax=1=2 mV", "1e", "1e999", ["ax=1", "ax=2"], [1.0, 2.0],
 ])  # fmt: skip

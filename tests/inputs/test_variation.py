@@ -4,6 +4,7 @@ import pytest
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.inputs.variation import variation
+from tests.rows import for_each
 
 HERE = Place(key="vary x")
 
@@ -47,8 +48,7 @@ def test_a_choice_is_drawn_not_listed() -> None:
     assert found.values == (2, 3, "roller") and not found.listed
 
 
-@pytest.mark.parametrize(
-    ("text", "part"),
+@for_each(
     [
         ("", "not a way"),
         ("about five", "not a way"),
@@ -76,8 +76,7 @@ def test_a_choice_is_drawn_not_listed() -> None:
         ([], "no values"),
         (5.0, "not a way"),
         (True, "not a way"),
-    ],
-    ids=str,
+    ]
 )
 def test_wrong_ones_are_refused_with_the_place(text: object, part: str) -> None:
     with pytest.raises(InputError) as refused:

@@ -8,6 +8,7 @@ from abu_calc.foundation.quantity import Quantity
 from abu_calc.reporting.blocks import Grid, number, shown_as
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(
     st.lists(st.text("ab1.", max_size=14), min_size=3, max_size=7).flatmap(

@@ -32,6 +32,7 @@ def named(tmp_path: Path, name: str, text: str = BEARINGS) -> Path:
     return file
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("suffix", [".txt", ".csv", ".toml", ".json"])
 def test_files_do(tmp_path: Path, suffix: str) -> None:
     output = tmp_path / f"out{suffix}"

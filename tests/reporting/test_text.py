@@ -24,6 +24,7 @@ def named(tmp_path: Path, name: str, text: str = BEARINGS) -> Path:
     return file
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("more", [(), ("--full",), ("--explain",)])
 def test_reports_show_what_acts_on_terminals_escaped(tmp_path: Path, more: tuple[str, ...]) -> None:
     seen = abu("check-fit", str(named(tmp_path, HOSTILE)), *more)
@@ -89,6 +90,7 @@ def test_a_long_name_forges_no_verdict(tmp_path: Path) -> None:
     assert not [line for line in seen.out.splitlines() if re.match(r" {0,2}PASS", line)]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("arguments", [
     ("\x1b[2J\nPASS: x",), ("presets", "\x1b[2J\nPASS: x"), ("schema", "\x1b[2J\nPASS: x"),
     ("explain", "\x1b[2J\nPASS: x"), ("check-fit", "--designation", "\x1b[2J\nPASS: x", "--shaft", "k6", "--housing",
@@ -104,6 +106,7 @@ def test_command_lines_are_harmless(arguments: tuple[str, ...]) -> None:
     assert not any(line.startswith("PASS") for line in seen.err.splitlines())
 
 
+@pytest.mark.slow
 def test_found_values_are_cut(tmp_path: Path) -> None:
     long = "y" * 5000
     for arguments in (("explain", long), ("schema", long), (long,), ("validate", long), ("validate", f"--{long}")):

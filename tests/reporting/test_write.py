@@ -150,6 +150,7 @@ def test_loops_of_links_are_no_targets(tmp_path: Path) -> None:
         assert seen.status == 2 and "--figure" in seen.err and "symbolic links" in seen.err
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     ("arguments", "name", "taken"),
     [

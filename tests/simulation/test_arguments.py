@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import abu_calc
+from tests.rows import for_each
 
 STUDIES = (
     *(abu_calc.size, abu_calc.check_fit, abu_calc.simulate, abu_calc.stability, abu_calc.accuracy, abu_calc.effects),
@@ -47,8 +48,7 @@ def test_every_argument_of_every_study_refuses_what_it_cannot_be(study: Any, nam
     assert error.place.key == name and error.found and error.allowed, error
 
 
-@pytest.mark.parametrize(
-    ("study", "name", "value", "allowed"),
+@for_each(
     [
         (abu_calc.size, "machine", "msh-230", "a machine that was read"),
         (abu_calc.size, "machine", None, "a machine that was read"),
@@ -86,8 +86,7 @@ def test_every_argument_of_every_study_refuses_what_it_cannot_be(study: Any, nam
         (abu_calc.accuracy, "budget_s", True, "a number"),
         (abu_calc.effects, "without_effects", "gravity", "a list, each of it text"),
         (abu_calc.check_fit, "machine", MACHINE.tables, "a machine that was read"),
-    ],
-    ids=lambda value: getattr(value, "__name__", str(value)[:20]),
+    ]
 )
 def test_a_wrong_argument_is_refused_by_its_name(study: Any, name: str, value: object, allowed: str) -> None:
     named = {} if name in ("machine", "source") else {next(iter(get_type_hints(study))): first(study)}

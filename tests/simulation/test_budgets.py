@@ -32,6 +32,7 @@ def test_a_reference_without_end_is_broken_off(monkeypatch: pytest.MonkeyPatch) 
         abu_calc.accuracy(abu_calc.read("msh-230"), budget_s=0.2)
 
 
+@pytest.mark.slow
 def test_a_method_without_end_is_skipped(monkeypatch: pytest.MonkeyPatch) -> None:
     """And so are tighter tolerances of it."""
     scene = subject_of(abu_calc.read("msh-230"), None, None).scene

@@ -167,6 +167,7 @@ def test_what_is_left_out_of_a_machine_changes_no_more_than_promised(name: str) 
             assert told.difference <= 0.5
 
 
+@pytest.mark.slow
 def test_balls_roll_across_a_race_that_tilts_without_any_axial_runout() -> None:
     """Left out it changes this run by 0.16, with no runout at all."""
     bare = replace(random_scene(16), effects=())

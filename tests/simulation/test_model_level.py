@@ -28,6 +28,7 @@ def integrated(scene, tolerance=1e-6):
     return evaluate(scene, scipy_.integrate(assemble(scene), tolerance, needed_times(scene)))
 
 
+@pytest.mark.slow
 def test_envelope_follows_the_equations_of_a_grinder():
     """The balls' rate is 58 against 607 rad/s, so a few hundredths for where four balls find their places."""
     scene = replace(straight_grinder(), effects=(RaceEccentricityEffect(1e-5, 0.4),))
@@ -38,6 +39,7 @@ def test_envelope_follows_the_equations_of_a_grinder():
         assert QUANTITIES[quantity](scene, slow, full) < most, quantity
 
 
+@pytest.mark.slow
 def test_gravity_gives_the_balls_a_mean_speed_at_the_start():
     """Without it their places would be a tenth off."""
     scene = replace(straight_grinder(), effects=(RaceEccentricityEffect(1e-5, 0.4), GravityEffect()))
@@ -76,6 +78,7 @@ LIGHT = replace(dimensionless(3.0, 2e-4, 1e-4, 0.3, 0.04, (0.4, 1.0), 400.0), qu
 """With a level that is asked for: its motion dies out, so that the level of its end is no measure."""
 
 
+@pytest.mark.slow
 def test_the_cheapest_rung_that_is_accurate_enough_is_taken():
     """Light balls: the envelope for a per cent, the equations for more, or where they are asked for."""
     slow, full = simulate(LIGHT, 0.02), simulate(LIGHT, 1e-5)

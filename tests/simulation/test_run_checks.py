@@ -61,6 +61,7 @@ def test_limits_of_the_file_fail_a_run(key: str, limit: float, code: str) -> Non
     assert (failed["ABU702"].value is None) is (code == "ABU401")
 
 
+@pytest.mark.slow
 def test_rest_is_told_and_judged_only_if_the_file_limits_it(idle: SimulateResult) -> None:
     assert idle.rest_time_s is not None and not idle.creeping
     assert f"The balls rest after {idle.rest_time_s:#.3g} s" in found(idle)["ABU702"].message

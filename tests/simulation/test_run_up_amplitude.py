@@ -30,6 +30,7 @@ def scene_of() -> Scene:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_machine_without_balls_runs_up_as_an_own_integration_does() -> None:
     """M·r'' + c·r' + k·r = U·(Ω² − iΩ')·e^{iφ}, φ = ½·(Ω/t_u)·t²: largest distance from the mean of each revolution."""
 

@@ -101,6 +101,7 @@ def test_arm_carries_the_autobalancer_but_not_its_balls(designs):
     assert cutting.start_position == pytest.approx((design.swing_arm.pressed_angle,), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_settled_balls_balance(designs):
     """They start where they carry the imbalance, idle and pressed to the work."""
     for scene in ("idle", "grinding"):

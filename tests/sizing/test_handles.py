@@ -117,6 +117,7 @@ def test_top_speed_of_the_range_decides() -> None:
     assert "12000 rpm" in fast.message and fast.value > slow.value
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("made", "asked"),
     [

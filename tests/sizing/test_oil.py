@@ -32,6 +32,7 @@ def test_drag_rates_of_start_cases_are_those_of_working_hot_and_cold_oil() -> No
     assert drag_share(design.case, design.autobalancer, 5.0) == pytest.approx(oil.shares[2])
 
 
+@pytest.mark.slow
 def test_a_given_rate_overrides_the_oil_and_keeps_its_ratios() -> None:
     design = oiled(autobalancer__rolling_drag_per_s=15.0)
     oil = design.case.oil

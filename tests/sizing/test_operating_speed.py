@@ -100,6 +100,7 @@ def test_losses_pull_the_idle_speed_below_the_rated_one() -> None:
     assert (check.code, check.status, check.bound, check.limit) == ("ABU104", "warn", "least", 5800)
 
 
+@pytest.mark.slow
 def test_a_motor_runs_up_to_one_speed_in_its_own_time() -> None:
     design = size(with_motor())
     by_motor = [member for member in members(design) if member.by_motor]

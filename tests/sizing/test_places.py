@@ -124,6 +124,7 @@ def test_handle_of_an_old_file_is_judged_as_before() -> None:
     assert x == y and x.before == held.idle.places[0].levels.before and z.before == 0.0
 
 
+@pytest.mark.slow
 def test_the_same_body_in_space_has_the_same_levels_at_handles() -> None:
     """Two ways to write one body on its spindle; what differs is which place is limited."""
     handles = [{"name": "front", "from_center_of_mass_mm": 100.0}, {"name": "rear", "position_mm": [0.0, 0.0, -200.0]}]
@@ -169,6 +170,7 @@ def test_hands_hold_a_body_in_space_at_two_handles() -> None:
     assert any("first two handles" in warning for warning in one.warnings)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("case", "suspension", "expected"),
     [

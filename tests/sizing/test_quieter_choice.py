@@ -137,6 +137,7 @@ def test_no_check_comes_out_worse_than_with_the_lightest(seed: int, tmp_path: Pa
         assert all(grade <= first[code] for code, grade in grades(chosen).items()), share
 
 
+@pytest.mark.slow
 def test_a_file_that_places_its_balls_keeps_their_number() -> None:
     angles = [0.0, 60.0, 120.0, 180.0, 240.0]
     placed = limited("avtovaz-707-370", 0.778, start__angles_deg=angles)
@@ -146,6 +147,7 @@ def test_a_file_that_places_its_balls_keeps_their_number() -> None:
     assert free.autobalancer.mass < placed.autobalancer.mass
 
 
+@pytest.mark.slow
 def test_the_choice_is_told() -> None:
     chosen = limited("avtovaz-707-370", 0.778)
     lightest, _ = chosen.choice.runners_up[0]

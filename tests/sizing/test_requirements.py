@@ -61,7 +61,7 @@ def sized(preset: str) -> Design:
     return size(read_machine(preset).whole("size"))
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", PRESETS)
 def test_a_check_that_only_informs_and_kept_limits_change_no_design(
     preset: str, request: pytest.FixtureRequest

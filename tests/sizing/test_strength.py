@@ -83,6 +83,7 @@ def _thicker(design: Design, wall: float) -> Case:
     return read_case(table.model_copy(update={"autobalancer": changed}))
 
 
+@pytest.mark.slow
 def test_the_search_avoids_races_that_go_oval() -> None:
     """At 11 000 rpm fewer and larger balls on a smaller race would be lighter, and good for everything else."""
     design = size(machine(machine__speed_rpm=11000, wheel__imbalance_g_mm=400.0))

@@ -9,6 +9,7 @@ from abu_calc.sizing.track import carry_over_speed
 from tests.sizing.machines import PINNED, check_of, machine, ranged
 
 
+@pytest.mark.slow
 def test_stress_and_roundness_are_judged_at_the_top_and_carry_over_at_the_bottom() -> None:
     design = ranged(120.0)
     for code in ("ABU301", "ABU303", "ABU304"):

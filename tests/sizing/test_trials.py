@@ -54,6 +54,7 @@ def entries_of(overrides: Iterable[str]) -> dict[str, object]:
             for key, value in values.items()}  # fmt: skip
 
 
+@pytest.mark.slow
 def test_what_no_change_holds_is_said() -> None:
     remedy = check_of(size(machine(autobalancer__max_mass_fraction=0.001)), "ABU203").remedy or ""
     assert remedy.startswith("No change was found. Calculated without success: design")

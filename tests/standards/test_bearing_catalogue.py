@@ -5,6 +5,7 @@ import pytest
 from abu_calc.foundation.errors import InputError
 from abu_calc.standards.bearing_catalogue import bearing
 from abu_calc.standards.tables import csv_rows
+from tests.rows import for_each
 from tests.standards.second_sources import GOST_BALL, GOST_PAIRS, GOST_TAPERED, GOST_TAPERED_OLD, NACHI_TAPERED
 
 ROWS = csv_rows("bearings")
@@ -56,7 +57,7 @@ def test_spaces_case_and_cyrillic_letters_do_not_matter():
     assert bearing("7516А") == bearing("7516A") == bearing("7516")
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[row[0] for row in ROWS])
+@for_each(ROWS)
 def test_rows_follow_the_system_of_designations(row):
     """Bore number times five (20 mm up), sections that nest, ISO and GOST names of one bearing."""
     found = bearing(row[0])
@@ -105,7 +106,7 @@ def test_nonsense_is_refused_with_a_remedy():
         bearing("???")
 
 
-@pytest.mark.parametrize("row", typed(GOST_BALL), ids=lambda row: row[1])
+@for_each(typed(GOST_BALL))
 def test_ball_bearings_stand_in_a_catalogue_by_both_names(row):
     gost, name, *sizes, nominal = row
     base = int(gost) % 80000 if gost.startswith("80") else int(gost) % 50000
@@ -126,7 +127,7 @@ def test_angular_contact_bearings_are_half_of_their_pairs(row, suffix, series):
     assert sizes_of(name) == [float(bore), float(outer), half, chamfer, half, chamfer]
 
 
-@pytest.mark.parametrize("row", typed(GOST_TAPERED), ids=lambda row: row[1])
+@for_each(typed(GOST_TAPERED))
 def test_tapered_bearings_stand_in_a_catalogue_by_both_names(row):
     gost, name, *sizes, nominal = row
     assert gost in BY_NAME[name][1].split("/")

@@ -12,6 +12,7 @@ from abu_calc.standards.catalogue import (
     estimated_ratings,
     fatigue_limit,
 )
+from tests.rows import for_each
 from tests.standards.second_sources import (
     NKE_RATINGS,
     NSK_RATINGS,
@@ -38,7 +39,7 @@ def test_32_bearings_stand_in_two_other_catalogues_or_more():
         assert sum(name in other for other in others) >= 3, name
 
 
-@pytest.mark.parametrize("row", SKF_2018_RATINGS, ids=lambda row: row[0])
+@for_each(SKF_2018_RATINGS)
 def test_ratings_agree_with_the_later_edition_of_skf(row):
     """The same maker: 1 %, but for C of rollers, which rose (tapered ones by a quarter), and C0 of 16008."""
     name, C, C0, limit = row
@@ -50,9 +51,7 @@ def test_ratings_agree_with_the_later_edition_of_skf(row):
     assert speed == pytest.approx(limit, rel=0.01)
 
 
-@pytest.mark.parametrize(
-    "row", [*NSK_RATINGS, *((n, 1e3 * C, 1e3 * C0, f, s) for n, C, C0, f, s in NTN_RATINGS)], ids=str
-)
+@for_each([*NSK_RATINGS, *((n, 1e3 * C, 1e3 * C0, f, s) for n, C, C0, f, s in NTN_RATINGS)])
 def test_bearings_agree_with_nsk_and_ntn(row):
     """C, C0 and f0; their limiting speed is that with grease, well below SKF's mechanical limit."""
     name, C, C0, f0, grease = row
@@ -63,7 +62,7 @@ def test_bearings_agree_with_nsk_and_ntn(row):
     assert 0.5 < grease / listed(ours)[2] < 0.85
 
 
-@pytest.mark.parametrize("row", NKE_RATINGS, ids=lambda row: row[0])
+@for_each(NKE_RATINGS)
 def test_bearings_agree_with_nke(row):
     """C, C0, and the limiting speed, which NKE states as SKF does."""
     name, C, C0, limit = row
@@ -73,7 +72,7 @@ def test_bearings_agree_with_nke(row):
     assert speed == pytest.approx(limit, rel=0.01)
 
 
-@pytest.mark.parametrize("row", SKF_NEEDLES, ids=lambda row: row[0])
+@for_each(SKF_NEEDLES)
 def test_needle_bearings_of_ntn_agree_with_skf(row):
     name, C, C0 = row
     dynamic, static, _ = listed(catalogue_bearing(name))
@@ -98,7 +97,7 @@ def test_rows_are_bearings_that_can_be():
             assert pytest.approx(0.6 / row.e, rel=0.08) == row.Y, row.designation
 
 
-@pytest.mark.parametrize("name", [name for name in catalogue() if not name.startswith(("RNA", "HK", "BK"))])
+@for_each([name for name in catalogue() if not name.startswith(("RNA", "HK", "BK"))])
 def test_a_size_finds_a_bearing_of_its_type(name):
     row = catalogue()[name]
     found = of_size(row.bore, row.outer, row.inner_width, row.kind)

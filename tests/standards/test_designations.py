@@ -6,11 +6,10 @@ import pytest
 
 from abu_calc.foundation.errors import InputError
 from abu_calc.standards.bearing_catalogue import read_designation
+from tests.rows import for_each
 
 
-@pytest.mark.parametrize(
-    ("text", "name", "group", "accuracy"),
-    [
+@for_each([
         ("6203", "6203", None, None), ("6203-2RS", "6203", None, None), ("6203ZZ", "6203", None, None),
         ("6203 2Z C3 P5", "6203", "C3", "5"), ("6203-2RS1/C3", "6203", "C3", None), ("6203/P63", "6203", "C3", "6"),
         ("6203.2ZR.C4", "6203", "C4", None), ("608-2RSH", "608", None, None), ("180203", "6203", None, None),
@@ -22,8 +21,7 @@ from abu_calc.standards.bearing_catalogue import read_designation
         ("6-205", "6205", None, "6"), ("76-180205", "6205", "C3", "6"), ("5 – 206", "6206", None, "5"),
         ("0−205", "6205", None, "0"), ("6Х-7516", "32216", None, "6X"),
         ("32008 X/Q", "32008", None, None), ("61805-2Z", "61805", None, None), ("NA4905", "NA4905", None, None),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_suffixes_are_read(text, name, group, accuracy):
     found = read_designation(text)
     assert (found.size.designation, found.group, found.accuracy) == (name, group, accuracy)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from abu_calc.foundation.errors import InputError, RangeError
 from abu_calc.standards.tables import csv_rows
 from abu_calc.standards.tolerance_classes import ring_limits
+from tests.rows import for_each
 from tests.standards.second_sources import CATALOGUES, CONSOLIDATED, GOST_520
 
 CLASSES = {"radial": ("0", "6", "5", "4", "2"), "tapered": ("0", "6X", "6", "5", "4", "2")}
@@ -33,7 +34,7 @@ def at_ends(line: str) -> list[tuple[float, float]]:
     return [(size, value) for over, to, value in rows_of(line) for size in (over + 0.001, to)]
 
 
-@pytest.mark.parametrize(("key", "line"), GOST_520.items(), ids=str)
+@for_each(GOST_520.items())
 def test_every_row_stands_in_gost_520(key, line):
     for size, value in at_ends(line):
         assert lower(*key, size) == value, size
@@ -52,7 +53,7 @@ def test_the_table_has_every_class_and_no_other():
     }
 
 
-@pytest.mark.parametrize(("maker", "kind", "ring", "name", "line"), CATALOGUES, ids=lambda value: str(value)[:12])
+@for_each(CATALOGUES)
 def test_the_catalogues_of_makers_agree(maker, kind, ring, name, line):
     for size, value in at_ends(line):
         assert lower(kind, ring, name, size) == value, (maker, size)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from abu_calc.foundation.errors import InputError, RangeError
 from abu_calc.standards.tolerance_classes import part_limits, tolerance_classes
+from tests.rows import for_each
 from tests.standards.second_sources import DELTA, ISOFITS, PRESSFIT, RF_TOLERANCE_R
 
 # ISO 286-1:2010, table 1 and tables of fundamental deviations, µm. A row of 13 values stands for the main ranges.
@@ -88,7 +89,7 @@ CASES = [pytest.param("shaft", name, shaft_by_rule, id=name) for name in toleran
 ]
 
 
-@pytest.mark.parametrize(("seat", "name", "rule"), CASES)
+@for_each(CASES)
 def test_rows_agree_with_the_rules_of_iso_286_1(seat, name, rule):
     for over, to in itertools.pairwise((2.9, *FINE)):
         for size in (to, over + 0.4 * (to - over)) if to > 3 else (to,):
@@ -150,9 +151,7 @@ def pairs(line: str) -> list[tuple[float, float]]:
     return [(float(upper), float(lower)) for upper, lower in (pair.split("/") for pair in line.split())]
 
 
-@pytest.mark.parametrize(
-    "name", [name for seat in ("shaft", "housing") for name in tolerance_classes(seat) if name not in BY_RULE_ALONE]
-)
+@for_each([name for seat in ("shaft", "housing") for name in tolerance_classes(seat) if name not in BY_RULE_ALONE])
 def test_rows_over_3_up_to_400_mm_agree_with_isofits(name):
     ends = FINE[1:-2] if name == "r6" else MAIN[1:-1]
     published = pairs(ISOFITS[name])
@@ -171,7 +170,7 @@ def test_what_isofits_misprints_is_no_grade_wide(name, size):
     assert ours[0] == upper and ours[0] - ours[1] == IT[6][main_range(size)]
 
 
-@pytest.mark.parametrize("name", PRESSFIT)
+@for_each(PRESSFIT)
 def test_the_ends_of_the_range_agree_with_pressfit(name):
     for size, row in zip((3, 400.001, 450, 450.001, 500), pairs(PRESSFIT[name]), strict=True):
         assert micrometres(part_limits(seat_of(name), name, size / 1e3)) == row

@@ -36,7 +36,7 @@ def test_every_cell_has_a_place_of_its_own() -> None:
     assert records.letters() == tuple("abcdefgh") == tuple(sorted(RECIPES))
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_a_cell_opened_as_a_command_gives_its_value(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(FOLDER.parents[2])

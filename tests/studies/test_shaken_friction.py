@@ -16,7 +16,7 @@ def one(seed: int, told: float, largest: float) -> Comparison:
     return Comparison(seed, 1.0, 4, 5800.0, told, 2 * told, largest, largest / 2, 0)
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [100, 104])
 def test_the_machine_that_runs_lies_horizontal_and_is_the_one_whose_residual_is_told(seed: int, tmp_path: Path) -> None:
     text, design, number = horizontal_machine(seed, tmp_path / "machine.toml")

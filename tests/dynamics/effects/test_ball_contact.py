@@ -71,6 +71,7 @@ masses_and_speeds = st.integers(2, 6).flatmap(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(masses_and_speeds, st.sampled_from([0.0, 0.3, 0.8, 1.0]))
 def test_an_impact_keeps_momentum_and_adds_no_energy(balls, restitution):
@@ -115,7 +116,7 @@ def test_an_elastic_row_passes_the_impact_on():
     np.testing.assert_allclose(end[-4:], (0, 0, 0, 0.3), atol=1e-9)
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 0.9])
 def test_below_resonance_balls_stay_packed(restitution):
     """The largest resultant of touching balls, m R_p sin(nβ)/sin β, on the heavy side."""
@@ -213,6 +214,7 @@ def test_a_ball_is_held_by_its_neighbour():
     assert alone[0].direction.tolist() == [1.0, 0.0]
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(
     st.lists(st.floats(0.001, 0.3), min_size=2, max_size=12),

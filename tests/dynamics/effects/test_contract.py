@@ -136,6 +136,7 @@ def test_a_support_that_cannot_take_an_effect_says_so():
         assemble(scene_on("planar", EXAMPLES["lift_off"]))
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @each_effect(*of_kind("conservative"))
 def test_conservative_force_is_the_slope_of_its_energy(support, name):
@@ -254,7 +255,7 @@ def test_work_does_its_power_on_the_wheel_where_they_touch(support):
         assert power_of(sample, "grinding_contact") == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("rotor", [(), ("run_up",), ("motor",)], ids=str)
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_points_in_a_groove_obey_lagrange(support, rotor):

@@ -48,7 +48,7 @@ def whirl(angles: tuple[float, ...]) -> complex:
     return complex(resultant * SPEED**2 / (1 - mass * SPEED**2 + 2j * DAMPING * SPEED))
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("coefficient", [1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
 def test_balls_come_to_rest_within_the_band(coefficient):
     """|w| ≤ f R_p/min(|sin θ*|, |cos θ*|), first order in |w|/R_p: n differs from R_p Ω² by that much."""
@@ -113,6 +113,7 @@ def smoothed(scene: Scene, coefficient: float, times: list[float], sides: Sequen
     return np.asarray(solution.y)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("coefficient", [1e-3, 1e-2])
 def test_same_motion_as_friction_smoothed_over_a_tiny_speed(coefficient):
     """What creeps at 1e-6 rad/s for 20 s differs by 2e-5 rad from what sticks."""
@@ -172,6 +173,7 @@ def test_a_ball_off_the_outer_side_of_its_race_rubs_on_the_inner_one():
     assert accelerations(np, 0.0, state, equations.in_mode(modes))[2].normal[1] < -0.4
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("coefficient", [1e-3, 1e-2])
 def test_same_motion_as_smoothed_where_balls_change_sides(coefficient):
     """What creeps at 1e-6 rad/s for 5 s differs by 5e-6 rad from what sticks."""
@@ -228,6 +230,7 @@ def test_every_start_obeys_the_law_of_coulomb(balls, exponent, position):
     np.testing.assert_array_equal(rates, speeds)
 
 
+@pytest.mark.slow
 @settings(max_examples=8, deadline=None, derandomize=True)
 @given(st.lists(st.floats(0, 6.2), min_size=1, max_size=5), st.floats(-4, -1), st.floats(0.4, 3.0))
 def test_balls_rest_exactly_or_move(angles, exponent, speed):

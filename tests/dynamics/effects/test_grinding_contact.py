@@ -146,6 +146,7 @@ def test_balls_fixed_in_place(sense):
     np.testing.assert_allclose(normal_forces(equations, trajectory), expected, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_compliant_contact_without_balls():
     """H = −iN_c = c_n E (c_η − MΩ²)/(c_η + c_n − MΩ²) where U = 0, and with an imbalance alike."""
     stiffness, U = 4.9e5, 30e-6
@@ -164,6 +165,7 @@ def test_compliant_contact_without_balls():
     assert contact.remarks(equations, trajectory) == ()
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("stiffness", "stable"), [(4.9e5, True), (3e6, False), (6e6, True)])
 def test_compliant_contact_with_free_balls(stiffness, stable):
     """H = c_n E (c_ξ + c_η − 2MΩ²)/(c_ξ + c_η + c_n − 2MΩ²); between MΩ² − c_η and 2MΩ² − c_ξ − c_η balls leave it."""
@@ -193,7 +195,7 @@ def test_balls_at_right_angles_flutter_below_the_limit_of_drag(drag, flutters):
     assert swung.min() > 20 if flutters else swung.max() < 0.5
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [1e4, 1e6, 1e8, 1e10])
 def test_bounces_are_elastic_and_on_time(stiffness):
     """A wheel dropped by the press: flight 2√(2hM/N₀), in the work 2(π − arccos(y₀/A))/ω, and back to its height."""
@@ -220,7 +222,7 @@ def grazing(share: float) -> Trajectory:
     return scipy_.integrate(assemble(scene), 1e-9, [0.1])
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.98, 1 - 1e-12, 1.0, 1 + 1e-12, 1 + 1e-6, 1.02])
 def test_a_graze_is_passed(share):
     events = grazing(share).events
@@ -244,6 +246,7 @@ def test_bouncing_wheel(stiffness):
     assert bool(contact.remarks(equations, fine)) == part
 
 
+@pytest.mark.slow
 def test_what_would_part_is_told():
     """No separation iff |N_c| ≤ N₀: 160.6 N in the first golden row."""
     angles = tuple(math.radians(angle) for angle in GOLDEN[0][2])

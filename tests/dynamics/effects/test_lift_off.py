@@ -54,6 +54,7 @@ def through(scene: Scene, integrator: str, tolerance: float = 1e-9) -> Trajector
     return choose(equations, integrator, tolerance).integrate(equations, tolerance, times, 10**6)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("integrator", ["compiled", "plain", "scipy"])
 @pytest.mark.parametrize("gap", [2e-6, GAP, 5e-3])
 def test_an_arm_bounces_as_by_hand(integrator: str, gap: float) -> None:

@@ -52,6 +52,7 @@ def ramp(folder: Path, what: str = "ball", radius: str = RADIUS, effects: str = 
     return scene_from(read(folder, text).scene)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("what", FACTORS)
 def test_balls_lag_less_by_the_spin_that_the_race_gives_them(tmp_path, what):
     """J θ'' + h₀ θ' = −(1 − (J − 1) r/R_p) Ω': 2/5 of r/R_p for a ball, 1/2 for a roller, nothing for a point."""
@@ -162,6 +163,7 @@ def test_a_scene_file_gives_the_rotor_its_inertia(tmp_path):
     assert "more inertia than the arm" in str(error) and "below" in str(error)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("held", [2**22, 0])
 def test_remarks_on_the_whole_run_do_not_hang_on_how_it_is_shown(monkeypatch, held):
     """A share of the time is that of the run, of a long one too, which is shown block by block."""

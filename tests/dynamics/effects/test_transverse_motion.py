@@ -52,7 +52,7 @@ def frequency(equations: Equations, end: float) -> float:
     return float(math.pi * (len(crossings) - 1) / (crossings[-1] - crossings[0]))
 
 
-@pytest.mark.few(3)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("groove", [KLADIEV, 0.0105, 0.030, 0.1])
 @pytest.mark.parametrize("free", [False, True])
 def test_frequency_across(groove, free):

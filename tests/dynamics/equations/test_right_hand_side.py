@@ -48,7 +48,7 @@ def every_scene(*rotors: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("support", "rotor"), cases)
 
 
-@pytest.mark.few(3)
+@pytest.mark.few(1)
 @every_scene()
 @settings(deadline=None, derandomize=True, max_examples=5)
 @given(seed=seeds, t=moments, more=st.sampled_from(MORE))

@@ -111,6 +111,7 @@ def test_implicit_methods_do_so(scene, name):
     assert 0.7 < found < 1.3
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("name", "order", "steps"), [("scipy-rk45", 5, (0.03, 0.2)), ("scipy-dop853", 8, (0.15, 0.5))])
 def test_fixed_steps_show_the_order(name, order, steps):
     """A longest step that rules all but the first steps and the last: errors at the end go by its power."""

@@ -15,6 +15,7 @@ EDGES = [0, 25, 50, 75, 100, 150, 200, 300, 400, 500, 600, 700]
 LARGEST = [0.0484, 0.0436, 0.0362, 0.0281, 0.0236, 0.0187, 0.0123, 0.0076, 0.0045, 0.0029, 0.0020]
 
 
+@pytest.mark.slow
 def test_published_transient():
     """Rodrigues et al. 2008, fig. 11 i: largest displacement per window and last angles, read off a figure to ±2 %.
 

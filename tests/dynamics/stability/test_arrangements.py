@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import minimize
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import likeness, rests, spread
+from abu_calc.dynamics.stability.arrangements import _sizes, likeness, rests, spread
 from abu_calc.dynamics.stability.boundaries import boundaries, crossings_of
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.resting import NotKnownError
@@ -186,3 +186,9 @@ def test_the_start_decides_where_balls_go() -> None:
     with pytest.raises(NotKnownError, match="start angles"):  # they would end one in another
         rests(scene, 0.1, "start")
     assert stability(stuck, 0.0, "start").stable is None
+
+
+def test_equal_balls_are_grouped_once_and_others_in_every_order() -> None:
+    once = {(3, 1, 0), (2, 2, 0), (2, 1, 1)}
+    assert set(_sizes(np.ones(4))) == once
+    assert set(_sizes(np.array([1.0, 1.0, 1.0, 2.0]))) == once | {(1, 3, 0), (1, 2, 1), (1, 1, 2)}

@@ -151,6 +151,7 @@ def test_multipliers_are_those_of_the_motion_itself(stiffness: tuple[float, floa
     np.testing.assert_allclose(by_size(found), by_size(expected), atol=1e-7)
 
 
+@pytest.mark.slow
 def test_nearly_isotropic_supports_are_nearly_the_same() -> None:
     one = [b.speed for b in boundaries(scene_of(), 0.9, 3.0)]
     other = boundaries(scene_of(stiffness=(1.0, 1.0 + 1e-6)), 0.9, 3.0)

@@ -281,6 +281,7 @@ def test_no_tongue_at_whole_ratios(kappa: float, ratio: float) -> None:
         assert abs(stability(arm(kappa, near * ratio)).growth_rate) < 1e-7
 
 
+@pytest.mark.slow
 def test_the_tongue_of_the_arm_is_found() -> None:
     """Its ends at |ω₀/Ω − ½| = (κ/4)√(1 − 4σ²), to leading order."""
     kappa, sigma, natural = 0.01, 0.2, 150.0

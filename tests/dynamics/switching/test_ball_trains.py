@@ -52,6 +52,7 @@ def test_on_a_heavy_support_the_ends_are_those_of_a_straight_row(count: int) -> 
     np.testing.assert_allclose(plastic, SPEED / count, atol=1e-9)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("count", [6, 25])
 def test_the_loop_has_the_same_rule(count: int, restitution: float) -> None:

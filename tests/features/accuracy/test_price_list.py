@@ -110,6 +110,7 @@ def test_no_time_is_told_beforehand():
         price_list(scene, Ledger(scene, (), scene), "amplitude", 0.01, 1e-6, quiet)
 
 
+@pytest.mark.slow
 def test_a_reference_that_two_methods_do_not_share_is_none(monkeypatch):
     scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
     monkeypatch.setitem(module.QUANTITIES, "amplitude", lambda *_: math.inf)

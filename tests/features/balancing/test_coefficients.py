@@ -122,6 +122,7 @@ def test_a_damaged_file_is_refused_with_line_and_key(tmp_path: Path) -> None:
         assert seen.status == 2 and words in seen.err and "coefficients.toml:" in seen.err, seen.err
 
 
+@pytest.mark.slow
 def test_the_options_of_the_command(tmp_path: Path) -> None:
     """A file is not overwritten, and answers without trial masses have no coefficients to save."""
     shop = noisy_rig(6)

@@ -111,7 +111,7 @@ def test_trial_runs_that_do_not_suffice_are_refused_with_what_is_missing(tmp_pat
     assert seen.status == 2 and "one speed" in seen.err
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [1, 12])
 def test_every_report_fits(tmp_path: Path, count: int) -> None:
     """Many runs of all quantities near a natural frequency, with everything that can be said."""

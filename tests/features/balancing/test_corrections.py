@@ -23,6 +23,7 @@ from abu_calc.features.balancing.corrections import (
 SPREAD = st.lists(st.floats(0, 6.28), min_size=2, max_size=6).filter(lambda p: abs(math.sin(p[1] - p[0])) > 0.01)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(st.floats(0.001, 1.0), st.floats(-7, 7), st.none() | st.floats(0, 1), st.none() | SPREAD)
 def test_shares_take_away_the_heavy_spot(mass: float, angle: float, removable: float | None, places) -> None:

@@ -9,6 +9,7 @@ import abu_calc
 from abu_calc.features.balancing.instrument import instrument_of, known_units
 from abu_calc.foundation.errors import InputError
 from tests.features.balancing.rig import RIG, ROTOR, Workshop, written
+from tests.rows import for_each
 
 OMEGA = 100 * math.pi
 
@@ -18,7 +19,7 @@ FACTORS = {
 PER_PEAK = {"0-peak": 1.0, "peak-peak": 2.0, "rms": 1 / math.sqrt(2)}
 
 
-@pytest.mark.parametrize("unit", known_units())
+@for_each(known_units())
 def test_every_unit_by_hand(unit: str) -> None:
     size, detector = unit.split(" ")
     shown = instrument_of(unit)

@@ -118,6 +118,7 @@ def test_the_command_finds_them(tmp_path: Path, quantity: str, left: float, righ
 positive = st.floats(0.2, 5.0)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(
     st.tuples(*[positive] * 10), st.floats(0, 0.2), st.floats(1.5, 8.0), st.tuples(*[st.floats(0.01, 50)] * 2),
@@ -141,6 +142,7 @@ def test_any_rig_gives_back_what_it_was_made_of(factors, ratio, over, masses, an
 # Noise
 
 
+@pytest.mark.slow
 def test_two_runs_bring_a_damped_noisy_rig_below_a_tenth_in_99_of_100_seeds() -> None:
     damped = Simulated(damping=support_damping(replace(ROLL, damping_ratio=0.02)))
     good = 0

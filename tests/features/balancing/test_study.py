@@ -35,6 +35,7 @@ def test_the_printed_formula_with_accelerations_points_to_the_wrong_side(tmp_pat
     assert "wrong side" in said and "25.0° left" in said and "140.0° right" in said
 
 
+@pytest.mark.slow
 def test_the_verification_run_is_as_predicted(tmp_path: Path) -> None:
     """Rigs that differ from the file, readings and corrections off by their errors: rms, and twice it as a bound."""
     said = RIG + "damping_ratio = 0.0\n"

@@ -21,7 +21,7 @@ def quiet(**values: object) -> Fan:
     return Fan(reading_error=0.0, placing_error=0.0, **values)  # type: ignore[arg-type]
 
 
-@pytest.mark.few(3)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("angle", [0.0, 77.0, 180.0, 301.0])
 @pytest.mark.parametrize("mass", [3.0, 100.0])
 def test_four_runs_give_mass_and_angle(tmp_path: Path, mass: float, angle: float) -> None:

@@ -43,6 +43,7 @@ def test_seats_from_the_command_line(tmp_path: Path) -> None:
     jsonschema.Draft202012Validator(schema).validate(document)
 
 
+@pytest.mark.slow
 def test_files_keep_places_of_what_is_missing(tmp_path: Path) -> None:
     target = tmp_path / "both.toml"
     assert abu(*SHAFT[:3], "bearing[0].speed_rpm=900", "--output", str(target)).status == 1
@@ -61,6 +62,7 @@ def test_three_and_more_machines_fit_the_screen() -> None:
     assert seen.status == max(0 if one["status"] == "pass" else 1 for one in files["files"])
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [

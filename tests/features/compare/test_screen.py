@@ -68,6 +68,7 @@ def test_no_raw_keys_and_every_line_that_is_left_out_is_counted() -> None:
     assert f"{equal} entries of\n  the files" in table or f"{equal} entries of the files" in table
 
 
+@pytest.mark.slow
 def test_nothing_differs_in_a_machine_and_itself() -> None:
     shaft = abu_calc.read("mmg-3200k-knife-shaft")
     screen = as_text(compare_screen(abu_calc.compare([shaft, shaft])))

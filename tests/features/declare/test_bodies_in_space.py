@@ -22,6 +22,7 @@ def angle(tmp_path_factory: pytest.TempPathFactory) -> DeclareResult:
     return declare(abu_calc.read(written(tmp_path_factory.mktemp("space"), G125)))
 
 
+@pytest.mark.slow
 def test_three_axes_without_autobalancer(angle: DeclareResult) -> None:
     gain = hand_arm_weight(SPEED) * SPEED / 1000
     values = {name: gain * math.hypot(*axes) for name, axes in VELOCITIES.items()}
@@ -44,6 +45,7 @@ def test_break_even_by_the_mass_that_balls_feel(angle: DeclareResult) -> None:
     assert angle.break_even_eccentricity_mm == angle.break_even_frictionless_mm
 
 
+@pytest.mark.slow
 def test_an_estimated_body_has_bands(tmp_path: Path) -> None:
     text = G125.replace("inertia_kg_m2 = [0.0040, 0.0200, 0.0190]\ninertia_xz_kg_m2 = -0.0015\n", "")
     text = text.replace(

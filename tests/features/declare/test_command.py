@@ -37,6 +37,7 @@ def test_a_common_tool_shows_its_handles_out_of_the_box() -> None:
     assert checks == {"ABU431": "pass", "ABU432": "pass", "ABU433": "pass"}
 
 
+@pytest.mark.slow
 def test_a_horizontal_spindle_tells_the_vertical_case_beside() -> None:
     """Friction below gravity leaves nothing: no spread of runs is printed, and both cases stand in the table."""
     seen = once("declare", "avtovaz-707-222", "--starts", "500")
@@ -44,6 +45,7 @@ def test_a_horizontal_spindle_tells_the_vertical_case_beside() -> None:
     assert "standard error" not in seen.out and "rolling friction" not in seen.out.split("Causes")[1].split("Notes")[0]
 
 
+@pytest.mark.slow
 def test_the_document_has_the_fixed_keys(tmp_path: Path) -> None:
     result = abu("declare", written(tmp_path, S150), "--starts", "500", "--json").document["result"]
     assert result.keys() >= KEYS
@@ -99,6 +101,7 @@ def test_wrong_options_end_with_two(arguments: tuple[str, ...]) -> None:
     assert "Traceback" not in seen.err and "bug" not in seen.err
 
 
+@pytest.mark.slow
 def test_recordings_of_a_command_line(tmp_path: Path) -> None:
     files = [run_file(tmp_path, f"{run}.csv", 1.0 + 0.01 * run, unit="mV", per_unit=MV) for run in (1, 2, 3)]
     options = [part for file in files for part in ("--recordings", file)]

@@ -81,6 +81,7 @@ def test_a_machine_that_balances_itself_declares_more(tmp_path: Path) -> None:
     assert declare_recordings(read_recordings(path)).factor == 1.3
 
 
+@pytest.mark.slow
 def test_operators_that_differ_decide_the_uncertainty(tmp_path: Path) -> None:
     names = []
     for operator, size in (("A", 1.0), ("B", 3.0), ("C", 5.0)):
@@ -96,6 +97,7 @@ def test_operators_that_differ_decide_the_uncertainty(tmp_path: Path) -> None:
     assert {check.code: check.status for check in result.checks}["ABU442"] == "warn"
 
 
+@pytest.mark.slow
 def test_the_highest_handle_decides(tmp_path: Path) -> None:
     """One file holds both handles, named by its columns."""
     front, rear = (wave(size) for size in (1.0, 2.0))
@@ -110,6 +112,7 @@ def test_the_highest_handle_decides(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 def test_axes_in_files_of_their_own(tmp_path: Path) -> None:
     entries = []
     for run in (1, 2):
@@ -230,6 +233,7 @@ def test_runs_that_scatter_fail(tmp_path: Path) -> None:
     assert (result.coefficient_of_variation or 0.0) > 0.15
 
 
+@pytest.mark.slow
 def test_small_values_may_scatter(tmp_path: Path) -> None:
     """A standard deviation below 0.3 m/s² suffices, whatever the coefficient of variation."""
     for run, size in enumerate((0.2, 0.3, 0.4, 0.3, 0.2), 1):

@@ -149,6 +149,7 @@ def test_no_friction_needs_no_simulation(tmp_path: Path) -> None:
     assert ideal.break_even_eccentricity_mm == ideal.break_even_frictionless_mm
 
 
+@pytest.mark.slow
 def test_friction_alone_can_leave_no_break_even(tmp_path: Path) -> None:
     rough = result(tmp_path, S100, autobalancer__rolling_friction_mm=0.02)
     assert rough.break_even_eccentricity_mm is None
@@ -211,6 +212,7 @@ def test_a_wheel_without_a_test_wheel_is_refused(tmp_path: Path, diameter: float
     assert caught.value.remedy is not None and "test_wheel_imbalance_g_mm" in caught.value.remedy
 
 
+@pytest.mark.slow
 def test_the_file_chooses_the_test_wheel(tmp_path: Path) -> None:
     other = result(tmp_path, S150, 100, type_test__test_wheel_diameter_mm=125.0)
     assert (other.test_wheel.diameter_mm, other.test_wheel.imbalance_g_mm) == pytest.approx((125.0, 45.0))
@@ -251,6 +253,7 @@ def test_orientations_runs_and_operators_count(tmp_path: Path) -> None:
     assert spans[0] / spans[1] == pytest.approx(math.sqrt(64 / 15), rel=0.15)
 
 
+@pytest.mark.slow
 def test_the_same_machine_gives_the_same_numbers(tmp_path: Path) -> None:
     first, second = (result(tmp_path, S150, 500).to_dict() for _ in range(2))
     assert first == second

@@ -52,6 +52,7 @@ def test_bars_of_the_budget_make_its_sum(shown: dict[str, object]) -> None:
     assert bars.axis.high >= max(bar.value for bar in bars.rows)
 
 
+@pytest.mark.slow
 def test_the_chosen_candidate_is_filled(shown: dict[str, object]) -> None:
     result, plot = whole(), shown["candidates"]
     assert isinstance(plot, Plot)
@@ -71,7 +72,7 @@ def test_costs_fall_from_the_first_bar(shown: dict[str, object]) -> None:
 PRESETS = ("avtovaz-707-222", "msh-230", "swing-arm-grinder")
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PRESETS)
 def test_each_run_of_the_animation_has_its_own_label_that_names_the_case(name: str) -> None:
     result = recalled("size", read_machine(name))
@@ -96,6 +97,7 @@ def test_labels_tell_placed_balls_stalled_balls_and_why_a_case_is_shown() -> Non
     assert start_label(replace(start, why="worst", balanced=False, stalled=True)).endswith(": balls stall, 98.7 dB")
 
 
+@pytest.mark.slow
 def test_caption_of_the_early_pressed_run_names_its_case() -> None:
     """The run is pressed before the balls settle; the level of the one pressed after stands beside it."""
     result = whole()

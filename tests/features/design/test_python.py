@@ -17,6 +17,7 @@ from abu_calc.foundation.units import unit_of
 from abu_calc.simulation.ensemble_checks import NEED_STARTS
 from tests.cli.runner import again
 from tests.remembered import remembered
+from tests.rows import for_each
 
 PRESET = "avtovaz-707-222"
 
@@ -78,6 +79,7 @@ def test_texts_are_short_and_name_the_verdict(result: abu_calc.SizeResult) -> No
     assert re.fullmatch(r"<Check ABU401 [A-Z]+: idle vibration level \([\d.]+ dB, limit 109 dB\)>", repr(level))
 
 
+@pytest.mark.slow
 def test_a_notebook_shows_verdict_section_and_checks(result: abu_calc.SizeResult) -> None:
     late = replace(next(check for check in result.checks if check.code == "ABU702"), status="warn")
     checks = tuple(late if check.code == late.code else check for check in result.checks)
@@ -97,7 +99,7 @@ def test_tables(result: abu_calc.SizeResult) -> None:
     assert ("grinding", result.vibration.place) in rows and len(rows) == len(result.levels)
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("starts", ["none", "one"])
 @pytest.mark.parametrize("preset", [PRESET, "msh-230", "avtovaz-707-305"])
 def test_without_the_starts_no_check_that_needs_them_passes(preset: str, starts: str) -> None:
@@ -142,7 +144,7 @@ def records() -> set[type[Record]]:
     return known
 
 
-@pytest.mark.parametrize("kind", sorted(records(), key=lambda kind: kind.__name__), ids=lambda kind: kind.__name__)
+@for_each(sorted(records(), key=lambda kind: kind.__name__))
 def test_the_docstring_of_each_record_lists_its_fields(kind: type[Record]) -> None:
     text = inspect.getdoc(kind) or ""
     for name, quantity in quantities(kind).items():

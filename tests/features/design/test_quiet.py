@@ -177,6 +177,7 @@ def test_the_bound_of_friction_counts_what_comes_within_a_decibel(sized: SizeRes
     assert FrictionBound.of(replace(design, speed_levels=None), [bound]) is None
 
 
+@pytest.mark.slow
 def test_the_bound_of_friction_alone_is_no_warning(sized: SizeResult) -> None:
     """Below the bound and above every level that was simulated: nothing exceeds this limit."""
     assert sized.friction_bound is not None

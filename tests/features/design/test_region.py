@@ -77,6 +77,7 @@ def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
     assert after.value is not None and f"to {after.value:.3g} 1/s (calculated)" in (check.remedy or "")
 
 
+@pytest.mark.slow
 def test_the_boundary_of_the_even_fan(tmp_path: Path) -> None:
     """1739 rpm, by the eigenvalues of the full motion: stable just above it in the fan, in the worst one not yet."""
     scene = idle_scene(design_of(written(tmp_path), "machine.speed_rpm=1740.5", "machine.speed_range_rpm=[1740, 1741]"))

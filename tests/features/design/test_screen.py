@@ -82,7 +82,7 @@ def test_other_reports(arguments: tuple[str, ...]) -> None:
     assert fits(once(*arguments))
 
 
-@pytest.mark.few(3)
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("text", "duration"),
     [(SCENE, "20"), (PLANAR, ""), (TILTING, "0.2"), (ARM, "0.5")],
@@ -118,6 +118,7 @@ def row_of(text: str, label: str) -> str:
     return row.strip().removeprefix(label)
 
 
+@pytest.mark.slow
 def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> None:
     text = as_text(size_screen(sized))
     vibration, many = sized.vibration, sized.ensemble
@@ -199,6 +200,7 @@ def test_amplitude_without_balls_is_told_to_be_off_the_work() -> None:
     assert "off the work" not in once("simulate", "avtovaz-707-222").out
 
 
+@pytest.mark.slow
 def test_times_after_a_run_up_are_shown_as_they_are_judged() -> None:
     seen = once("simulate", "msh-230", "--scene", "run-up", "--set", "run_up.time_s=1.5")
     quiet, rest = (row_of(seen.out, f"{name} time, from full speed").split() for name in ("quiet", "rest"))
@@ -212,6 +214,7 @@ def graded(status: Grade, number: int = 1) -> Check:
     return Check("ABU403", f"thing {number}", status, f"reason {number}", 1.0, 2.0, "dB", remedy)
 
 
+@pytest.mark.slow
 def test_grades_differ_without_color(sized: SizeResult) -> None:
     """In the words of the verdict, of the reason and of the table."""
     bare = replace(sized, warnings=())

@@ -25,6 +25,7 @@ def _green(points: list[tuple[float, float]]) -> tuple[float, float]:
     return -area, -volume
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", MACHINES)
 def test_parts_and_balls_weigh_what_the_design_weighs(name: str) -> None:
     """Cut into chords and cones, which knows nothing of segments; 200 chords leave 1e-5 of an arc."""

@@ -66,6 +66,7 @@ def design_of(text: str, *overrides: str) -> Design:
         return size(read_machine(str(file), overrides).whole("size"))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["avtovaz-707-222", "swing-arm-grinder", "late-run-up-hands"])
 def test_designed_starts_cover_the_race_without_overlap(name: str) -> None:
     """Bunches all round, every other one in a run-up, the race off to both sides of each kind."""
@@ -246,6 +247,7 @@ TAILS: dict[str, Callable[[np.random.Generator, int], np.ndarray]] = {
 }
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("tail", TAILS)
 def test_how_often_rare_starts_are_missed_and_wrongly_told(tail: str) -> None:
     """138 starts drawn at random, the limit at a known share of all: 1 of 100 late, 3 of 1000, 1 of 100 000 or none.

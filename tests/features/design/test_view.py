@@ -11,6 +11,7 @@ from tests.cli.runner import once
 from tests.reporting.drawings.samples import whole
 
 
+@pytest.mark.slow
 def test_report_reads_like_a_calculation_note() -> None:
     seen = once("size", "avtovaz-707-222", "--full")
     lines = seen.out.splitlines()
@@ -37,6 +38,7 @@ def test_parts_and_balls_of_the_report_add_up_to_the_mass() -> None:
     assert sum(masses) + design.ball_count * design.ball_mass_g == pytest.approx(design.mass_g, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_machine_without_arm_seats_or_starts_has_no_such_chapters() -> None:
     bare = as_text(size_blocks(replace(whole(), ensemble=None, alternatives=())), 80)
     full = as_text(size_blocks(whole()), 80)

@@ -46,6 +46,7 @@ def test_all_effects_there_are() -> None:
     assert all(name in seen.out for name in found) and seen.width <= 80
 
 
+@pytest.mark.slow
 def test_of_a_scene(file: str) -> None:
     """0.0003/(1 % of 13.33 mm) weighs 0.0023, less than half of 0.01; g/(R_p Ω²) = 2.45 far more."""
     found = ledger(file)

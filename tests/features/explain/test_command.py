@@ -24,6 +24,7 @@ def test_a_code_is_explained(code: str) -> None:
         assert " ".join(part.split()) in " ".join(shown.out.split())
 
 
+@pytest.mark.slow
 def test_codes_are_listed_and_given_as_data() -> None:
     listed = abu("explain", "--json").document["result"]
     assert listed["checks"]["ABU203"] == "mass of the autobalancer"

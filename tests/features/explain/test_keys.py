@@ -9,6 +9,7 @@ from abu_calc.inputs.reading.schema import machine_schema
 from tests.cli.runner import abu
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("asked", ["rolling_drag_per_s", "autobalancer.rolling_drag_per_s", "rolling_drag"])
 def test_a_key_is_explained_by_each_of_its_names(asked: str) -> None:
     key = next(key for key in machine_keys(asked) if key.path == "autobalancer.rolling_drag_per_s")
@@ -37,6 +38,7 @@ def test_a_word_of_a_key_names_the_keys() -> None:
     assert machine_keys("nonsense") == [] and keys_with("nonsense") == []
 
 
+@pytest.mark.slow
 def test_a_table_is_explained_key_by_key() -> None:
     table = next(table for header, table in file_tables(machine_schema()) if header == "[limits]")
     names = [name for name, entry in table["properties"].items() if "x-canonical-key" not in entry]

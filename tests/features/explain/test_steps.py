@@ -5,9 +5,10 @@ import pytest
 from abu_calc.features.explain.steps import STEPS, Step, code_blocks, formula_blocks, si_conversions, step_blocks
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.reporting.blocks import Heading, Paragraph
+from tests.rows import for_each
 
 
-@pytest.mark.parametrize("name", STEPS)
+@for_each(STEPS)
 def test_every_key_of_a_step_is_a_registered_formula(name: str) -> None:
     formulas = STEPS[name].formulas
     assert [formula.key for formula in formulas] == list(STEPS[name].keys)

@@ -9,6 +9,7 @@ from abu_calc.foundation.errors import InputError
 from tests.cli.runner import once
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_has_a_schema_that_is_printed_as_it_is(kind: str) -> None:
     outcome = schema(kind)
@@ -17,6 +18,7 @@ def test_every_kind_has_a_schema_that_is_printed_as_it_is(kind: str) -> None:
     assert draft in outcome.result["$schema"]
 
 
+@pytest.mark.slow
 def test_machines_are_the_usual_kind() -> None:
     assert schema().result == schema("machine").result != schema("scene").result
 

@@ -11,6 +11,7 @@ from tests.inputs.samples import BASIC
 from tests.inputs.scenes import ARM, SCENE
 
 
+@pytest.mark.slow
 def test_validate_takes_overrides() -> None:
     """Of every file it is given, as all commands that read one do."""
     seen = abu("validate", "msh-230", "swing-arm-grinder", "--set", "wheel.mass_kg=0.5", "--json")
@@ -19,6 +20,7 @@ def test_validate_takes_overrides() -> None:
     assert wrong.status == 2 and "--set wheel.mass_kg" in wrong.err
 
 
+@pytest.mark.slow
 def test_validate_tells_every_file(tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.toml"
     wrong.write_text("[machine]\n", encoding="utf-8")

@@ -45,6 +45,7 @@ def test_the_same_machine_gives_the_same_number() -> None:
     assert bouncing(scene, 0.01).velocity == bouncing(scene, 0.01).velocity
 
 
+@pytest.mark.slow
 def test_runs_too_far_apart_give_none(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "WIDEST", 0.01)
     with pytest.raises(NotTrustworthyError, match=r"hangs on the start: \d+\.\d to \d+\.\d dB"):

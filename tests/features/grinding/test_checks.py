@@ -33,6 +33,7 @@ def run_of(steady: SteadyWork, **changes: Any) -> WorkSimulation:
     return WorkSimulation(**(values | changes))
 
 
+@pytest.mark.slow
 def test_a_run_that_does_what_the_closed_form_says_is_not_off(design: Design) -> None:
     steady, moment = fitted(design, runout_of(design.case)), design.autobalancer.static_moment
     assert compared(steady, run_of(steady), moment).apart == pytest.approx(0.0, abs=1e-12)

@@ -191,6 +191,7 @@ def test_wrong_entries_are_refused(change: str) -> None:
     assert change.split("=")[0] in seen.err
 
 
+@pytest.mark.slow
 def test_python_returns_what_the_command_prints() -> None:
     result, document = worked("avtovaz-707-370"), once("grinding", "avtovaz-707-370", "--json").document
     assert result.to_dict() == document["result"]

@@ -178,6 +178,7 @@ def test_slow_stiffness_of_two_balls():
         )
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(0, 6.28), min_size=2, max_size=7), st.floats(-0.8, 0.8), st.floats(1e4, 1e8))
 def test_slow_stiffness_of_any_balls(angles, friction, stiffness):
     """The two eigenvalues of −mΩ² Re[G e^{i(Θ_j − Θ_k)}] that are not neutral."""
@@ -247,6 +248,7 @@ def test_largest_runout_without_parting():
     assert 1e6 * free == pytest.approx(24.9, abs=0.05)
 
 
+@pytest.mark.slow
 @given(*(st.complex_numbers(max_magnitude=10, allow_nan=False) for _ in range(2)), st.floats(0.1, 20))
 def test_largest_factor_is_the_last(slope, offset, limit):
     found = largest_factor(slope, offset, limit)

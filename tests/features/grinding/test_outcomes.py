@@ -53,6 +53,7 @@ def _status(work: Work, ensemble: LoadedEnsemble) -> tuple[str, float | None, st
     return check.status, check.value, check.message
 
 
+@pytest.mark.slow
 def test_levels_with_a_gap_of_more_than_a_decibel_are_two_motions() -> None:
     work = _work()
     groups = groups_of(work, _ensemble(work, [104.0, 104.9, 105.8, 119.0], []))
@@ -93,6 +94,7 @@ def test_each_state_by_what_its_balls_do() -> None:
         assert group.state == state
 
 
+@pytest.mark.slow
 def test_the_worst_start_case_decides() -> None:
     """Below the level without in all: pass. One pressed at once above it: warn. One pressed after settling: fail."""
     work = _work()

@@ -87,6 +87,7 @@ def test_friction_leaves_each_start_case_another_level() -> None:
     assert max(levels[0]) < min(levels[1])
 
 
+@pytest.mark.slow
 def test_few_start_cases_are_each_kind_once_with_the_race_off_to_either_side() -> None:
     ensemble = loaded_ensemble(_pressed(), 0.01, most=FEW)
     assert ensemble is not None

@@ -345,6 +345,7 @@ def test_a_parting_wheel_is_judged_by_its_run() -> None:
     assert run.parts
 
 
+@pytest.mark.slow
 def test_flutter_limit_decides_in_simulation() -> None:
     """Two balls at right angles at a rigid contact, f = 0.5: the drag's limit is in the closed form's eigenvalues."""
     design = drawn(0)

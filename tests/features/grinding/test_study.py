@@ -13,6 +13,7 @@ from tests.features.grinding.test_command import STRAIGHT, worked
 from tests.sizing.machines import machine
 
 
+@pytest.mark.slow
 def test_cutting_power_is_friction_times_rim_speed() -> None:
     """f·N₀·Ω·R: 0.4 · 50 N · 5800 rpm · 75 mm = 911 W, whatever the kind of contact."""
     for contact in ("rigid", "face"):
@@ -22,6 +23,7 @@ def test_cutting_power_is_friction_times_rim_speed() -> None:
     assert _cutting_power(size(machine())) == 0.0
 
 
+@pytest.mark.slow
 def test_a_face_has_no_regions_of_stiffness() -> None:
     face = size(machine(grinding={"contact": "face"}))
     assert _regions(face, bare(face, runout_of(face.case))) is None

@@ -57,6 +57,7 @@ def test_balls_are_told_with_their_places(golden: GrindingResult) -> None:
     assert "The balls come to no rest." in said(balls_blocks(lost))
 
 
+@pytest.mark.slow
 def test_friction_that_is_none_is_told_as_none(golden: GrindingResult) -> None:
     smooth = replace(golden.friction, threshold_um=0.0)
     assert said(friction_blocks(replace(golden, friction=smooth))).endswith("None.")

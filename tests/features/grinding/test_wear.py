@@ -119,6 +119,7 @@ def test_a_true_wheel() -> None:
     assert worn(SteadyWork(one, 0j, OWN, OWN), PRESS, WHEEL, 1e-3).rate > 0
 
 
+@pytest.mark.slow
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0))
 def test_needed_exponent_is_the_one(without: float, fitted_part: float) -> None:
     """Forces 1 + a cos: at the exponent the means are 1.5 apart; without more variation there is none."""

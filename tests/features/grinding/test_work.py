@@ -21,6 +21,7 @@ def _design(**changes: Any) -> Design:
     return size(machine(**{"wheel__runout_mm": 0.09, "grinding": grinding, **changes}))
 
 
+@pytest.mark.slow
 def test_steady_contact_holds_while_wheel_and_work_touch() -> None:
     """A force of 200 N is never let go by the 49 N that vary."""
     design = _design(grinding={"contact_stiffness_N_per_m": 4.9e5, "press_force_N": 200.0})

@@ -18,6 +18,7 @@ from tests.features.identification.recorded import scene_file
 NARROW = Box(np.array([2.6, 0.3, 4.0, 11.0]), np.array([2.7, 0.4, 4.2, 11.3]))
 
 
+@pytest.mark.slow
 def test_a_bank_is_kept_and_a_damaged_one_is_made_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(FOLDER, str(tmp_path / "banks"))
     scene = scene_from(read_any(str(scene_file(tmp_path))).scene)  # type: ignore[union-attr]

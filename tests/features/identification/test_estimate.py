@@ -64,6 +64,7 @@ def test_intervals_hold_the_truth_wherever_in_a_narrow_box_it_lies(sets: int) ->
     assert sum(held) >= 0.85 * sets
 
 
+@pytest.mark.slow
 def test_a_bank_with_far_values_gives_the_means_of_the_rest() -> None:
     """One start in twenty ends 30 µm away: ends of the others are −Δ."""
     rng = np.random.default_rng(9)

@@ -40,6 +40,7 @@ def test_oil_that_warms_shows_a_trend(tmp_path: Path, last: float, status: str) 
     assert _trend(starts).status == status
 
 
+@pytest.mark.slow
 def test_a_recording_that_begins_late_is_noticed_by_its_run_up(tmp_path: Path) -> None:
     scene, starts = measured(tmp_path, np.full(2, 14.0), cut=0.1)
     check = _run_up_check(scene, starts)

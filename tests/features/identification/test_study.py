@@ -28,6 +28,7 @@ def starts(folder: Path, count: int, **options: object) -> tuple[Path, list[str]
     return path, files
 
 
+@pytest.mark.slow
 def test_fewer_than_eight_starts_give_no_value(tmp_path: Path) -> None:
     path, files = starts(tmp_path, 5)
     result = abu_calc.identify(read_any(str(path)), files)
@@ -39,6 +40,7 @@ def test_fewer_than_eight_starts_give_no_value(tmp_path: Path) -> None:
     assert ends == pytest.approx(-OFFSET * 1e6, abs=0.4)
 
 
+@pytest.mark.slow
 def test_recordings_that_cannot_be_starts_are_refused(tmp_path: Path) -> None:
     path, files = starts(tmp_path, 1)
     source = read_any(str(path))

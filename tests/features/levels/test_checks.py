@@ -73,6 +73,7 @@ def test_an_axis_without_its_weighted_acceleration_leaves_the_exposure_open() ->
 RIGID = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
 
 
+@pytest.mark.slow
 def test_one_handle_carries_everything_and_none_or_three_leave_it_open() -> None:
     handles = [{"name": f"grip {k}", "from_center_of_mass_mm": 100.0 * k} for k in range(3)]
     design = size(machine(**RIGID, machine__handle=handles[:1]))

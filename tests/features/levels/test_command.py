@@ -8,6 +8,7 @@ from tests.cli.runner import abu
 from tests.features.levels.test_study import sine_file
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("arguments", [
     ("--minutes", "0"), ("--minutes", "1500"), ("--from", "7"), ("--from", "-1"), ("--scene", "idle"),
     ("--duration", "3"), ("--set", "machine.mass_kg=5"), ("--quantity", "force"), ("--scale", "0"), ("--channels", "9"),

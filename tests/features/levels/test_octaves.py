@@ -25,6 +25,7 @@ from abu_calc.features.levels.octaves import (
 )
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.vibration import octaves, third_octaves
+from tests.rows import for_each
 
 CENTRES = [1000 * 10 ** (0.3 * k) for k in range(-7, 1)]
 """IEC 61260-1:2014, written down here again."""
@@ -108,7 +109,7 @@ def test_the_filter_of_a_third_octave_is_of_class_1(away: float, side: int) -> N
         assert lost >= CLASS_1[int(away)]
 
 
-@pytest.mark.parametrize("index", range(24))
+@for_each(range(24))
 def test_a_sine_reads_its_level_in_its_third_octave(index: int) -> None:
     """Centres and edges of IEC 61260-1:2014 written down again; the filter has settled over the periods it names."""
     third, centre = third_octaves()[index], 10 ** ((index + 8) / 10)
@@ -141,6 +142,7 @@ def test_the_edge_belongs_half_to_either_octave() -> None:
     assert [db(signal, 3), db(signal, 4)] == pytest.approx([-10 * math.log10(2)] * 2, abs=0.02)
 
 
+@pytest.mark.slow
 def test_octaves_of_noise_add_up() -> None:
     """Octaves side by side leave out nothing: flat noise of unit power per Hz has its width in each, √2 apart."""
     noise = np.random.default_rng(1).standard_normal(2**18) * math.sqrt(4096 / 2)
@@ -151,7 +153,7 @@ def test_octaves_of_noise_add_up() -> None:
         assert band_rms(signal, octave_filter(band)) == pytest.approx(math.sqrt(width), rel=3 / math.sqrt(128 * width))
 
 
-@pytest.mark.parametrize("centre", range(24))
+@for_each(range(24))
 def test_the_weighting_is_within_1_percent_of_its_table(centre: int) -> None:
     """A sine of unit acceleration at every third octave of ISO 5349-1, table A.2."""
     band = third_octaves()[centre]
@@ -198,6 +200,7 @@ def test_only_what_is_averaged_counts() -> None:
     assert db(AxisSignal(louder, 4096.0, 0), 4) == pytest.approx(10 * math.log10(50.5), abs=0.3)
 
 
+@pytest.mark.slow
 def test_blocks_of_long_records_join() -> None:
     """Longer than a block: two sines, one from the middle on, in two octaves; their powers are half and all."""
     count = 3 * BLOCK

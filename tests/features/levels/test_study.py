@@ -53,6 +53,7 @@ def test_weighted_acceleration_and_exposure_of_three_axes(tmp_path: Path) -> Non
     assert place["weighted_axis_m_per_s2"] == pytest.approx(total / math.sqrt(3), rel=0.01)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(("scale", "axes", "status"), [
     (1.0, 1, "pass"), (1.1, 1, "warn"), (1.0, 3, "pass"), (1.1, 3, "warn"), (1.9, 3, "warn"), (2.1, 3, "fail"),
 ])  # fmt: skip
@@ -82,6 +83,7 @@ def test_a_total_that_lacks_octaves_can_fail_but_not_pass(tmp_path: Path) -> Non
     assert status["weighted overall level"] == "fail" and status["octave level, 125 Hz"] == "fail"
 
 
+@pytest.mark.slow
 def test_a_start_that_is_loud_is_told_and_can_be_left_out(tmp_path: Path) -> None:
     file = Path(sine_file(tmp_path))
     t, v = np.loadtxt(file, delimiter=",", skiprows=1).T
@@ -192,6 +194,7 @@ def test_a_background_is_not_in_the_octaves_and_that_is_said() -> None:
     assert any("background of 95 dB" in one for one in found.warnings)
 
 
+@pytest.mark.slow
 def test_a_level_in_the_wrong_unit_is_wondered_at(tmp_path: Path) -> None:
     file = tmp_path / "v.csv"
     file.write_text(Path(sine_file(tmp_path)).read_text().replace("t_s,vx_mm_per_s", "time,velocity"))

@@ -11,6 +11,7 @@ from tests.cli.runner import abu
 from tests.features.levels.test_study import sine_file
 
 
+@pytest.mark.slow
 def test_the_report_on_one_screen(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     for arguments in (("msh-230", "--minutes", "60"), (sine_file(tmp_path, seconds=0.9), "--minutes", "60")):

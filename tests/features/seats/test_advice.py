@@ -59,7 +59,7 @@ def test_the_makers_own_fits_never_fail_and_are_advised(ratio):
         assert found.bearing.load_ratio == pytest.approx(ratio)
 
 
-@pytest.mark.few(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_a_rotating_outer_ring_gets_the_makers_class_or_one_tighter(ratio):
     maker = "M7" if ratio <= 0.05 else "N7"

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import pytest
+
 from abu_calc.features.seats.formula_view import seat_numbers
 from abu_calc.features.seats.study import check_fit
 from abu_calc.inputs.read_machine import read_machine
@@ -10,6 +12,7 @@ from tests.cli.runner import abu
 FLESHING = ("check-fit", "mmg-3200k-knife-shaft")
 
 
+@pytest.mark.slow
 def test_explain_puts_the_numbers_in() -> None:
     out = " ".join(abu(*FLESHING, "--explain", "--set", "bearing[0].shaft_rz_um=4.0").out.split())
     for line in ("13·3·2.8/29 = 3.766 µm", "0.08·√(80·3000/33) = 6.822 µm", "2 − (0) … 21 − (-15) = 2 … 36 µm",

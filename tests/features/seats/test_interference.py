@@ -116,6 +116,7 @@ def test_exact_parts(male, female, expected):
     assert truncated_clearance_probability(limits(*male), limits(*female)) == pytest.approx(expected)
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None)
 @given(FIELDS, FIELDS, st.integers(0, 30))
 def test_shifting_tighter_never_loosens(male, female, shift):

@@ -30,6 +30,7 @@ def density(x: float, field: DeviationLimits) -> float:
     return math.exp(-(((x - field.middle) / sigma) ** 2) / 2) / (sigma * math.sqrt(2 * math.pi))
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(FIELDS, FIELDS)
 def test_probability_agrees_with_quadrature(male, female):
@@ -69,6 +70,7 @@ def test_parts_without_tolerance():
     assert clearance_probability(limits(0, 0), limits(0, 0)) == 0
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None)
 @given(FIELDS, FIELDS)
 def test_intervals_are_ordered_and_complete(male, female):
@@ -101,6 +103,7 @@ def displacement(r: float, a: float, b: float, inside: float, outside: float, m:
     return ((1 - nu) * mean * r + (1 + nu) * swing / r) / m.youngs_modulus
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None)
 @given(st.floats(0.0, 0.9), st.floats(0.1, 0.95), st.sampled_from([STEEL, ALUMINIUM]))
 def test_the_pressed_parts_close_the_interference(inner_ratio, outer_ratio, material):

@@ -110,6 +110,7 @@ def test_the_group_to_choose_passes():
     assert again.checks[-1].status == "pass"
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("changes", [{}, {"outer_ring_load": "rotating", "housing_fit": "M7"},
                                      {"inner_ring_load": "stationary", "shaft_fit": "h6"}])  # fmt: skip
 def test_every_admissible_field_passes_and_no_other_does(changes):

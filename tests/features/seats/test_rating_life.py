@@ -70,6 +70,7 @@ def test_published_example_through_the_command_s_way() -> None:
     assert life.modified / life.basic == pytest.approx(4.8, abs=0.3)
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None)
 @given(st.sampled_from(["ball", "cylindrical"]), st.sampled_from([0.1, 0.4, 1.0, 4.0]), st.floats(1e-3, 0.3))
 def test_a_iso_is_continuous_where_its_branches_meet(kind: Any, place: float, ratio: float) -> None:
@@ -78,6 +79,7 @@ def test_a_iso_is_continuous_where_its_branches_meet(kind: Any, place: float, ra
     assert below == pytest.approx(above, rel=0.02)
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None)
 @given(st.floats(0.05, 5), st.floats(0.05, 5), st.floats(0, 0.5), st.floats(0, 0.5))
 def test_more_viscosity_or_less_load_never_shortens_life(kappa: float, other: float, low: float, high: float) -> None:
@@ -93,6 +95,7 @@ def test_the_reference_viscosity_is_continuous_at_1000_rpm() -> None:
     assert below == pytest.approx(above, rel=0.03)  # 45000·1000^−0.83 = 145.6, 4500·1000^−0.5 = 142.3
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None)
 @given(
     st.sampled_from(["6205", "7205C", "7205B", "7205AC", "30208", "22208", "NU208", "NA4905"]),

@@ -22,6 +22,7 @@ def zones(*seats: tuple[Sequence[float], Sequence[float], str]) -> list[str]:
     ))  # fmt: skip
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("width", [60, 80])
 def test_the_report_fits_its_width(monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
@@ -78,6 +79,7 @@ def test_lists_of_fits_stand_side_by_side() -> None:
     assert wrong.status == 2 and "--shaft" in wrong.err
 
 
+@pytest.mark.slow
 def test_sorting_and_repair_are_told() -> None:
     out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--shaft", "k6", "--housing", "H7",
               "--asked-interference", "5:22").out  # fmt: skip
@@ -112,6 +114,7 @@ def test_each_word_names_interference_clearance_or_tolerance_class() -> None:
         assert word not in out + whole, word
 
 
+@pytest.mark.slow
 def test_notes_of_several_bearings_stand_once() -> None:
     whole = " ".join(abu(*FLESHING, "--full").out.split())
     # Once for the shaft, once for the housing: both rings are under a rotating load.

@@ -58,6 +58,7 @@ def test_the_envelope(scene: str) -> None:
     assert result["cost"].keys() >= {"integrator", "tolerance", "evaluations", "steps", "wall_s"}
 
 
+@pytest.mark.slow
 def test_a_scene_moves_from_where_it_says(tmp_path: Path) -> None:
     text = SCENE.replace(
         "rolling_inertia = false",
@@ -105,6 +106,7 @@ def test_ball_angles_of_a_trajectory_are_not_wrapped(scene: str, tmp_path: Path)
     assert rows_of(motion)[-1]["ball1_deg"] > 360 * 30
 
 
+@pytest.mark.slow
 def test_a_trajectory_holds_all_that_moves(tmp_path: Path) -> None:
     """Its last row is the end that is reported; bearings and the ball's way along the spindle by own geometry."""
     effects = """[scene.effects]
@@ -202,6 +204,7 @@ def test_a_swing_arm_tells_its_angle(tmp_path: Path) -> None:
     assert final["x_mm"] == pytest.approx(300 * (math.cos(final["arm_angle_mrad"] / 1000) - 1))
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     ("effect", "states"),
     [
@@ -229,6 +232,7 @@ def test_the_model_has_the_states_that_are_integrated(tmp_path: Path, effect: st
     }
 
 
+@pytest.mark.slow
 def test_a_run_up_ends_at_full_speed(tmp_path: Path) -> None:
     text = SCENE + "[scene.effects]\nrun_up = { time_s = 30.0 }\n"
     motion = tmp_path / "motion.csv"
@@ -239,6 +243,7 @@ def test_a_run_up_ends_at_full_speed(tmp_path: Path) -> None:
     assert math.hypot(second["x_mm"], second["y_mm"]) < 0.1 and first["x_mm"] == 0
 
 
+@pytest.mark.slow
 def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
     """Gravity of a scene that turns fast weighs little and is left out; the audit takes it in and compares.
 
@@ -268,6 +273,7 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
     assert seen.status == 1 and seen.document["checks"][1]["remedy"]  # at 19 rpm gravity is all there is
 
 
+@pytest.mark.slow
 def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
     """Light balls are slow: their averages do for two per cent, and the equations are taken for less."""
     heavy = " ".join(abu("simulate", scene, "--duration", "50", "--full").out.split())
@@ -306,6 +312,7 @@ def test_balls_parted_at_the_start_are_told(tmp_path: Path) -> None:
     assert abs(math.remainder(one - other, 2 * math.pi)) == pytest.approx(1e-6, rel=1e-3)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("balls", [0, 1, 5])
 def test_any_number_of_balls(tmp_path: Path, balls: int) -> None:
     masses, angles = [20.0] * balls, [40.0 * k for k in range(balls)]
@@ -349,6 +356,7 @@ def test_starts_of_a_machine() -> None:
     assert all(document["status"] == "pass" for document in starts.values())
 
 
+@pytest.mark.slow
 def test_duration_of_a_machine() -> None:
     assert abu("simulate", "msh-230", "--duration", "0.2", "--json").document["result"]["duration_s"] == 0.2
 
@@ -422,6 +430,7 @@ def test_wrong_options(
     assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -453,6 +462,7 @@ def test_an_accuracy_out_of_reach_ends_with_status_3(
     assert seen.status == 3 and seen.document["error"]["kind"] == "not-trustworthy" and not motion.exists()
 
 
+@pytest.mark.slow
 # other commands that know scenes
 def test_init_validate_and_schema_know_scenes(tmp_path: Path) -> None:
     file = tmp_path / "new.toml"
@@ -465,6 +475,7 @@ def test_init_validate_and_schema_know_scenes(tmp_path: Path) -> None:
     assert seen.status == 2 and "abu simulate" in seen.err
 
 
+@pytest.mark.slow
 def test_every_integrator_is_taken_by_name(tmp_path: Path) -> None:
     """As the help names them; one that is gone, with what replaces it."""
     file = written(tmp_path, SCENE.replace("700.0", "20.0"))

@@ -120,6 +120,7 @@ def test_ends_are_alike_by_the_stated_criterion() -> None:
     assert [len(group) for group in grouped(scene, [first, middle, far])] == [3]
 
 
+@pytest.mark.slow
 def test_balls_of_too_little_capacity_rest_off_balance() -> None:
     scene = dimensionless(3.0, 0.01, 0.1, 0.2, 0.3, (0.1, 0.4), 150.0)
     found = search(scene, 8, 0)

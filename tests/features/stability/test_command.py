@@ -81,6 +81,7 @@ def test_more_than_two_balls_are_told(scene: str) -> None:
     assert len(document["result"]["eigenvalues"]) == 9 and "arrangements" in document["warnings"][0]
 
 
+@pytest.mark.slow
 def test_of_a_machine() -> None:
     """A soft suspension: stable at its speed, unstable near its natural frequency of 150 rpm and below."""
     seen = abu("stability", "avtovaz-707-222", "--speeds", "100:8000", "--json")
@@ -88,6 +89,7 @@ def test_of_a_machine() -> None:
     assert seen.status == 0 and one["stable_above"] and 130 < one["speed_rpm"] < 200
 
 
+@pytest.mark.slow
 def test_the_report_fits_80_columns(scene: str) -> None:
     for extra in ((), ("--speeds", "1:190"), ("--set", "scene.stiffness_N_per_m=[1.0, 2.0]")):
         seen = abu("stability", scene, *extra)
@@ -247,6 +249,7 @@ FOUR = ("--set", "scene.race[0].ball_masses_g=[50, 50, 50, 50]")
 TWO_AND_TWO = (*FOUR, "--set", "scene.race[0].start_angles_deg=[90, 90, -90, -90]")
 
 
+@pytest.mark.slow
 def test_which_arrangement_is_judged(scene: str) -> None:
     """Two and two are less stable than the even fan; the worst is the default, and told."""
     rates = {}

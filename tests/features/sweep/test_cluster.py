@@ -88,6 +88,7 @@ def test_a_worker_with_other_software_is_refused_by_name(other: object, sweeps: 
     assert sweeps.run(executor=Executor(client)).failed.members == 0
 
 
+@pytest.mark.slow
 def test_a_worker_that_comes_later_refuses_itself(sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     """No row of it is kept, not even as a failure."""
     taken = list[Any]()
@@ -108,6 +109,7 @@ def test_a_worker_that_comes_later_refuses_itself(sweeps: Sweeps, monkeypatch: p
     assert sweeps.run(resume=True).failed.members == 0
 
 
+@pytest.mark.slow
 def test_another_state_of_the_source_is_another_study(sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     sweeps.run()
     programs.software.cache_clear()
@@ -119,6 +121,7 @@ def test_another_state_of_the_source_is_another_study(sweeps: Sweeps, monkeypatc
         programs.software.cache_clear()
 
 
+@pytest.mark.slow
 def test_batches_that_come_back_are_handed_out_again(sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     """As after a scheduler was started anew."""
     monkeypatch.setattr(batches, "LOOK_S", 0.01)

@@ -32,6 +32,7 @@ def test_one_screen_and_the_document(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert {"key", "first_order", "total"} == result["sensitivity"][0].keys()
 
 
+@pytest.mark.slow
 def test_who_interrupts_is_told_how_to_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     computed = SweepStudy._row
 
@@ -48,6 +49,7 @@ def test_who_interrupts_is_told_how_to_go_on(tmp_path: Path, monkeypatch: pytest
     assert kept.status == 130 and "no member is kept" in kept.err
 
 
+@pytest.mark.slow
 def test_who_interrupts_the_trials_is_told_that_all_members_are_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -81,6 +83,7 @@ def test_wrong_options_are_refused(arguments: tuple[str, ...], part: str) -> Non
     assert seen.status == 2 and part in seen.err and seen.out == ""
 
 
+@pytest.mark.slow
 def test_a_file_that_is_no_store_is_refused_and_stays(tmp_path: Path) -> None:
     other = tmp_path / "other.sqlite"
     other.write_text("something else", encoding="utf-8")
@@ -119,6 +122,7 @@ def test_memory_is_no_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert seen.status == 2 and "--store" in seen.err and list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_who_lost_a_cluster_is_told_how_to_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     computed = SweepStudy._row
 
@@ -140,6 +144,7 @@ def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
     assert json.loads(seen.out)["error"]["key"] == "--cluster"
 
 
+@pytest.mark.slow
 def test_a_wrong_table_is_named_with_its_file(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     assert abu("init", str(file)).status == 0

@@ -11,6 +11,7 @@ from tests.sizing.machines import PINNED, machine
 KNOWN = {"starts": 10, "rolling_drag_per_s": [12.0, 18.75], "rolling_friction_mm": [0.001, 0.004]}
 
 
+@pytest.mark.slow
 def test_tolerances_draw_from_identified_intervals() -> None:
     plain = dict(of_tolerances(size(machine(**PINNED)), building=True))
     tables = machine(**PINNED, identified=KNOWN)

@@ -43,6 +43,7 @@ def test_members_left_out_are_no_answers_and_are_computed_later(
     assert statuses(again) == statuses(whole) and again.meets_limits == whole.meets_limits
 
 
+@pytest.mark.slow
 def test_more_patience_computes_what_less_left_out(sweeps: Sweeps) -> None:
     """With none at all no member gives a number, yet each stands in the store with the reason."""
     with patience.limited(1e-9), pytest.raises(abu_calc.NotTrustworthyError, match="--patience"):
@@ -87,6 +88,7 @@ def test_worker_processes_know_when_it_is_over() -> None:
     assert [row[-1] for row in found[False]] == [None] * 4
 
 
+@pytest.mark.slow
 def test_the_command_has_the_option() -> None:
     given = ("--vary", "wheel.imbalance_g_mm=uniform(200, 300)", "--runs", "4", "--workers", "1")
     hasty = abu("sweep", "avtovaz-707-222", *given, "--patience", "1e-6")

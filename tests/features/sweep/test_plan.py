@@ -31,6 +31,7 @@ def machine() -> abu_calc.Machine:
     return abu_calc.read("avtovaz-707-222")
 
 
+@pytest.mark.slow
 def test_listed_values_make_as_many_members_as_combinations(machine: abu_calc.Machine) -> None:
     """Three by two; four are too few; Saltelli's design has a power of two for each value and two more."""
     vary = {"wheel.mass_kg": "0.5:0.7:3", "machine.mass_kg": [5.5, 5.7]}

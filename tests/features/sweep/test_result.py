@@ -32,6 +32,7 @@ def test_a_fork_that_ends_leaves_the_members_there(sweeps: Sweeps) -> None:
     assert not folder.exists()
 
 
+@pytest.mark.slow
 def test_copies_carry_the_members_of_a_temporary_store(sweeps: Sweeps) -> None:
     result = unnamed(sweeps)
     level, kind = result.members["level_db"], result.members["start.kind"]

@@ -37,6 +37,7 @@ def failing(monkeypatch: pytest.MonkeyPatch, seeds: dict[int, BaseException]) ->
     return computed
 
 
+@pytest.mark.slow
 def test_a_failed_import_is_no_members_result(sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     seeds = sweeps.run(sweeps.folder / "whole.sqlite").members["seed"].astype(int).tolist()
     with monkeypatch.context() as patch:

@@ -59,6 +59,7 @@ class Meanwhile:
         monkeypatch.setattr(Builds, "numbers", watched)
 
 
+@pytest.mark.slow
 def test_force_leaves_a_store_that_is_in_use(sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     """By another process: it has another connection, as here."""
     refused = []
@@ -84,6 +85,7 @@ def test_force_leaves_what_is_no_store(sweeps: Sweeps) -> None:
     assert rows(sweeps.store, "PRAGMA journal_mode") == [("delete",)]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("way", ["removed", "moved", "replaced", "its log removed", "made anew"])
 def test_a_run_whose_store_is_taken_away_fails(
     way: str, sweeps: Sweeps, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -105,6 +107,7 @@ def test_a_run_whose_store_is_taken_away_fails(
         sweeps.run()
 
 
+@pytest.mark.slow
 def test_members_that_another_program_takes_out_are_missed(sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     Meanwhile(monkeypatch, 8, lambda: edited(sweeps.store, "DELETE FROM members WHERE member = 2"))
     with pytest.raises(abu_calc.OutputError, match="it has 11 samples and not 12"):
@@ -241,6 +244,7 @@ DAMAGE = {
 """Edits by name; each leaves a file that SQLite reads."""
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("explicit", [True, False], ids=["with options", "by the store"])
 def test_whatever_was_edited_is_refused(explicit: bool, sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     """With options the study is known, and opened alone; without them it is read from the store."""
@@ -270,6 +274,7 @@ def test_whatever_was_edited_is_refused(explicit: bool, sweeps: Sweeps, monkeypa
     assert wrong == []
 
 
+@pytest.mark.slow
 def test_views_and_indices_of_users_do_no_harm(sweeps: Sweeps) -> None:
     sweeps.run()
     edited(sweeps.store, "CREATE VIEW loud AS SELECT * FROM members", "CREATE INDEX levels ON members (level_db)")

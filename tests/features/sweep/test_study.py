@@ -193,6 +193,7 @@ grid = ["start.angle_deg", "scene.speed_rpm"]
 """
 
 
+@pytest.mark.slow
 def test_a_table_says_what_options_say(tmp_path: Path) -> None:
     """Below the resonance, at 9.5 rpm, balls go to the heavy side from wherever they start."""
     file = tmp_path / "scene.toml"

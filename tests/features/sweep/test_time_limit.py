@@ -20,6 +20,7 @@ def test_work_without_end_is_given_up() -> None:
     time.sleep(0.1)  # nothing arrives afterwards
 
 
+@pytest.mark.slow
 def test_the_end_of_the_time_is_told_again_if_something_swallows_it() -> None:
     """As callbacks of the garbage collector do."""
     begun = time.perf_counter()

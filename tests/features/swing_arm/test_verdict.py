@@ -110,6 +110,7 @@ def own(one: Judged) -> Own:
     )
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", NAMES)
 def test_bounds_against_a_grid_and_the_balance_of_moments(name: str) -> None:
     one = judged(name)
@@ -188,6 +189,7 @@ def test_stiffness_first_damping_second() -> None:
     assert codes == ["ABU501", "ABU502", "ABU504", "ABU503", "ABU505"]
 
 
+@pytest.mark.slow
 def test_example_data_are_doubted() -> None:
     machine = abu_calc.read("avtovaz-707-222").changed(TWO_BALLS | {"swing_arm.arm_length_mm": 350.0})
     found = judge_arm(size(machine.whole()))

@@ -50,6 +50,7 @@ def test_numbers_of_the_arm_in_json() -> None:
     assert "arm_motion" not in once("size", "msh-230", "--json").document["result"]
 
 
+@pytest.mark.slow
 def test_stability_shows_motion_and_tongue() -> None:
     """Perturbation beside simulation, forced resonances at ω₀/i, rates, the drawing: on one screen."""
     seen = once(*CUTTING)

@@ -138,6 +138,7 @@ def late_by(longest: float | None, *runs: TwoRaceOutcome) -> tuple[str, str, flo
     return check.status, check.message, check.value
 
 
+@pytest.mark.slow
 def test_rest_times_are_judged_where_the_file_limits_them() -> None:
     """Both races must rest in time at the given drag rate; in hot or cold oil a late one warns. Quiet alone decides
     without that limit.

@@ -49,6 +49,7 @@ def test_eccentricity_asks_for_the_mass_that_a_race_feels() -> None:
     assert extra == pytest.approx(1e-5 * (8.59 + 2.57) / 0.36, rel=0.1)
 
 
+@pytest.mark.slow
 def test_the_machine_of_one_race_has_the_same_need() -> None:
     case = case_of()
     need = capacity_needs(case)[0]

@@ -63,6 +63,7 @@ def test_designs_of_two_races_keep_what_is_expected(name: str) -> None:
     assert len(kept) == 6 and not [value for value in compare(kept, {}, entries) if not value.passed]
 
 
+@pytest.mark.slow
 def test_verify_tells_differences_and_update_keeps_comments(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     text = abu("presets", "mmg-3200k-knife-shaft").out.replace('"fits.0.fit" = "k6"', '"fits.0.fit" = "m6"')

@@ -68,6 +68,7 @@ def test_a_file_that_expects_nothing_or_cannot_is_refused(tmp_path) -> None:
         expectations(abu_calc.read_scene(scene))
 
 
+@pytest.mark.slow
 def test_seats_and_readings_are_recomputed_by_their_own_studies() -> None:
     assert set(recompute(abu_calc.read("mmg-3200k-knife-shaft"))) == {"status", "fits"}
     balancing = recompute(abu_calc.read_readings("sapropel-screw-rig"))

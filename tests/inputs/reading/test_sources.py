@@ -97,6 +97,7 @@ def test_counts_are_bounded(tmp_path: Path, header: str, key: str) -> None:
     assert f"{key}: too many tables, {BASIC.count(f'[[{key}]]') + MOST_BEARINGS + 1} of them" in seen.err
 
 
+@pytest.mark.slow
 def test_many_unknown_keys_are_asked_but_once_what_they_were_meant_to_be(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -138,6 +139,7 @@ def test_odd_entries_are_wrong_input(tmp_path: Path, text: str, key: str, line: 
         assert seen.err.count("\n") >= 1
 
 
+@pytest.mark.slow
 def test_the_library_refuses_with_its_own_errors() -> None:
     machine, bearings = abu_calc.read("msh-230"), abu_calc.read("mmg-3200k-knife-shaft")
     scene = subject_of(machine).scene

@@ -17,6 +17,7 @@ from abu_calc.inputs.reading.text import (
     unit_suffix,
     unit_symbol,
 )
+from tests.rows import for_each
 
 TEXTS = ["plain", 'in "quotes"', "back\\slash", "tab\tbell\x07\x7f", "é 球", ""]
 
@@ -44,7 +45,7 @@ def test_what_is_long_is_cut() -> None:
     assert shown_short([{}]) == "an array of tables" and shown({}) == "a table" and shown(10**301) == "a huge integer"
 
 
-@pytest.mark.parametrize("unit", SI_PER_UNIT)
+@for_each(SI_PER_UNIT)
 def test_a_key_ends_in_the_whole_of_its_unit(unit: str) -> None:
     assert unit_suffix(f"some_{unit}") == unit
     assert unit_suffix(f"some{unit}") != unit

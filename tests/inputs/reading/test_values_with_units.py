@@ -17,6 +17,7 @@ from abu_calc.inputs.reading.sources import text_of
 from abu_calc.inputs.reading.table import Table, all_tables, subtable
 from abu_calc.inputs.reading.values_with_units import canonical_keys
 from tests.cli.runner import again
+from tests.rows import for_each
 
 PRESET = "avtovaz-707-222"
 TEXT = text_of(PRESET)
@@ -174,7 +175,7 @@ def test_there_are_a_hundred_of_them() -> None:
     assert len(WRONG) >= 100 and len(set(WRONG)) == len(WRONG)
 
 
-@pytest.mark.parametrize(("key", "path", "written"), WRONG)
+@for_each(WRONG)
 def test_a_wrong_unit_is_refused_with_line_key_and_the_allowed_units(key: str, path: str, written: str) -> None:
     quoted = "'" + written + "'" if "'" not in written else '"' + written + '"'
     entry, table = f"{path.split('.')[1]} = {quoted}", path.split(".")[0]

@@ -40,6 +40,7 @@ def test_a_zero_of_rounding_is_written_as_zero() -> None:
     assert words("a\x1b") == "a\\x1b" and len(words("x" * 200, 60)) <= 60
 
 
+@pytest.mark.slow
 def test_lines_points_and_limit_stand_at_their_values() -> None:
     chart = Plot(
         "Title", "told", Axis("time [s]", 0, 2), Axis("level [dB]", 90, 110), [Curve([(0, 100), (2, 95)], "a", 1)],

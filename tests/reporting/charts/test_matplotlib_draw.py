@@ -35,6 +35,7 @@ def test_png_and_pdf_have_a_title_and_no_date(name: str, suffix: str, begins: by
     assert b"CreationDate" not in file
 
 
+@pytest.mark.slow
 def test_drawing_is_as_large_as_on_paper() -> None:
     shown = _figures()["section"].shown
     assert isinstance(shown, Drawing)
@@ -42,6 +43,7 @@ def test_drawing_is_as_large_as_on_paper() -> None:
     assert (25.4 * wide, 25.4 * high) == pytest.approx(shown.size)
 
 
+@pytest.mark.slow
 def test_missing_matplotlib_is_named_with_what_installs_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     found: Callable[[str], object] = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "matplotlib" else found(name))

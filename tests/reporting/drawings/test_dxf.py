@@ -122,6 +122,7 @@ def _area_and_moment(outline: "ezdxf.entities.LWPolyline") -> tuple[float, float
     return abs(sum(each for each, _ in cross)) / 2, abs(sum(each * y for each, y in cross)) / 6
 
 
+@pytest.mark.slow
 def test_layers_are_kinds_of_line() -> None:
     drawn = document("light")
     used = {entity.dxf.layer for entity in drawn.modelspace()}
@@ -145,6 +146,7 @@ def test_the_title_block_says_where_it_is_from(name: str) -> None:
         assert f"{part.mass_g:.2f}".rstrip("0").rstrip(".") in texts
 
 
+@pytest.mark.slow
 def test_names_stand_as_they_are() -> None:
     """%%c, ^J and \\U+ are escapes of DXF; ezdxf undoes them as CAD programs do."""
     from abu_calc.reporting.drawings.dxf import written

@@ -49,7 +49,7 @@ def test_nothing_overlaps(name: str) -> None:
     check_clear(sheet(name))
 
 
-@pytest.mark.few(3)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_views_stand_apart_from_title_and_notes(name: str) -> None:
     """All that is drawn of the autobalancer lies above the frames and texts of the sheet."""
@@ -77,6 +77,7 @@ def test_the_file_is_to_scale(name: str) -> None:
     assert 2 * widest == pytest.approx(sheet(name).scale * result(name).autobalancer.outer_diameter_mm, abs=1e-3)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_file_says_what_the_drawing_says(name: str) -> None:
     root = ElementTree.fromstring(svg_file((sheet(name),)))
@@ -138,6 +139,7 @@ def test_arcs_of_the_race_go_the_right_way(name: str) -> None:
         assert sweep == (1 if sign > 0 else 0)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", ARMS)
 def test_sketch_of_the_swing_arm(name: str) -> None:
     arm = replace(ARM, **ARMS[name])

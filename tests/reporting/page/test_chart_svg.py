@@ -33,6 +33,7 @@ def test_words_keep_clear_of_lines_and_of_one_another() -> None:
     assert Places(field, [[(100, 100), (300, 100)]], []).put([outside, right]) == right
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(st.lists(st.tuples(st.floats(0, 1), st.floats(0, 1)), min_size=2, max_size=5, unique=True))
 def test_a_words_box_stays_inside_the_chart(places: list[tuple[float, float]]) -> None:

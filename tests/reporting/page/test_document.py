@@ -311,6 +311,7 @@ def test_sections_are_found_by_their_ids_whatever_their_titles_say(title: str) -
 HOSTILE = "</title></pre><script>alert(1)</script>&\"'<b>\x1b[31m\u202e"
 
 
+@pytest.mark.slow
 def test_nothing_in_a_name_acts(tmp_path: Path) -> None:
     target = tmp_path / "fit.html"
     seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", f"machine.name={json.dumps(HOSTILE)}", "-o", str(target))
@@ -323,6 +324,7 @@ def test_nothing_in_a_name_acts(tmp_path: Path) -> None:
     assert not set("\x1b\u202e") & set(text)
 
 
+@pytest.mark.slow
 def test_options_of_a_command_stand_on_its_page(tmp_path: Path) -> None:
     target = tmp_path / "my page.html"
     asked = ("stability", "avtovaz-707-222", "--speeds", "1000:6000", "--crossings")

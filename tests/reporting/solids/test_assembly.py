@@ -30,6 +30,7 @@ def test_volumes_of_known_solids(profile: tuple[tuple[float, float, float], ...]
     assert solid(*profile).mass_g == pytest.approx(volume * 7.8e-3, rel=1e-12)
 
 
+@pytest.mark.slow
 @given(turned_solids())
 def test_the_volume_is_the_sum_of_frusta(part: RevolvedSolid) -> None:
     """Arcs as 400 chords: knows nothing of their integral."""

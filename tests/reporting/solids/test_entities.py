@@ -19,6 +19,7 @@ def test_values_are_spelled(value: object, text: str) -> None:
     assert spelled(value) == text
 
 
+@pytest.mark.slow
 @given(st.text())
 def test_strings_hold_ascii_alone_and_read_back(text: str) -> None:
     """No apostrophe stands in a string: readers such as OpenCASCADE take one before ")" for the string's end."""

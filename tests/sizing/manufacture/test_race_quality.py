@@ -29,6 +29,7 @@ def test_each_requirement_is_its_share_of_the_permitted_displacement_or_its_boun
     assert quality.ball_grade <= max(40e6 * permitted / 64 * 1.0001, 5)
 
 
+@pytest.mark.slow
 def test_a_looser_limit_never_asks_for_more() -> None:
     found = []
     for level in (95.0, 105.0, 115.0, 125.0, 135.0):

@@ -62,6 +62,7 @@ def both(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> tuple[Trajectory, Tra
     return found, every
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_looking_at_all_numbers_finds_the_same_events(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """With more evaluations."""

@@ -10,6 +10,7 @@ import pytest
 from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
 from abu_calc.dynamics.integrators.compiled import translator as language
 from abu_calc.dynamics.integrators.compiled.llvm_text import LanguageError
+from tests.rows import for_each
 
 HEAD = "def go(x: Reals, k: Integers) -> int:\n"
 
@@ -145,7 +146,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("body", REFUSED)
+@for_each(REFUSED)
 def test_what_the_language_does_not_have_is_refused(body: str) -> None:
     text = OTHERS + HEAD + "".join(f" {line}\n" for line in body.splitlines())
     with pytest.raises(LanguageError, match=REFUSED[body]) as refused:

@@ -145,6 +145,7 @@ def test_a_simulated_run_goes_the_whole_way(tmp_path: Path) -> None:
     assert any("lasts 5." in line for line in result.warnings)
 
 
+@pytest.mark.slow
 def test_a_noisy_record_makes_the_answer_less_sure(tmp_path: Path) -> None:
     """Its noise counts beside [errors]; half of the motion's size over 16 000 samples, without other errors."""
     shop = Workshop()

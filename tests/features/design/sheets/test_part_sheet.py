@@ -21,7 +21,7 @@ def frames(sheet: Drawing) -> list[tuple[str, ...]]:
     return [shape.cells for shape in sheet.shapes if isinstance(shape, ToleranceFrame)]
 
 
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", MACHINES)
 def test_nothing_stands_over_a_text(name: str) -> None:
     for sheet in size_sheets(result(name)):
@@ -29,6 +29,7 @@ def test_nothing_stands_over_a_text(name: str) -> None:
         assert sheet.size == pytest.approx((420.0, 297.0)) and sheet.scale in SCALES
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["one-piece", "light", "bearing-ring", "rollers"])
 def test_the_body_has_bore_face_and_datums(name: str) -> None:
     body = next(part_sheets(result(name), 4))
@@ -154,6 +155,7 @@ def test_an_undercut_stands_only_where_the_seat_has_room(name: str) -> None:
             assert sheet.name == "body" and size.ring_end - size.web > 2e-3
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["one-piece", "tiny", "thick wall"])
 def test_the_cover_s_chamfer_clears_the_corner_of_its_stop(name: str) -> None:
     sized = result(name)
