@@ -117,6 +117,17 @@ class RigidBody:
     def _compliance(self) -> Matrix | None:
         return None if self.inertia is None else self.inertia.inverse(self.rotor_polar_inertia)
 
+    @cached_property
+    def _whirls(self) -> dict[tuple[Vector, Vector], complex]:
+        return {}
+
+    def _whirl_by_turning(self, at: Vector, force_at: Vector) -> complex:
+        """The part of the forward whirl by which the body turns [1/kg]: no mass that it carries changes it."""
+        if (at, force_at) not in self._whirls:
+            x, y, _ = self.acceleration(at, force_at, added=math.inf)
+            self._whirls[at, force_at] = x + 1j * y
+        return self._whirls[at, force_at]
+
     def acceleration(self, at: Vector, force_at: Vector, force: Motion = ROTATING, added: float = 0.0) -> Motion:
         """Acceleration at a place by a force at another [per unit force, 1/kg]: A_pq·force.
 
@@ -168,8 +179,7 @@ class RigidBody:
         source="derived by averaging: a backward whirl does not move the balls",
     )
     def forward(self, at: Vector, force_at: Vector, added: float = 0.0) -> complex:
-        x, y, _ = self.acceleration(at, force_at, added=added)
-        return x + 1j * y
+        return 2 / (self.mass + added) + self._whirl_by_turning(at, force_at)
 
     @formula(
         "Effective mass that balls feel at a place of the spindle",

@@ -63,6 +63,8 @@ class Member:
     by_motor: bool = False
     angles: tuple[float, ...] = ()
     """Angles of the balls from the imbalance [rad], if they are `placed`."""
+    lag: float = 0.0
+    """Share of the full speed by which `placed` balls turn more slowly than the race: a restart before they stop."""
     on_arm: bool = False
     """True if the machine idles on its swing arm, off the workpiece."""
     varied: Variation = Variation()
@@ -90,6 +92,8 @@ class Member:
             return "run-up by the motor"
         if self.on_arm:
             return f"{self.start} on the arm"
+        if self.lag:
+            return f"restart, balls at {100 * (1 - self.lag):.0f} % of the speed"
         return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
 
     @property
@@ -167,7 +171,8 @@ def _with(design: Design, member: Member) -> Design:
     table = case.table
     if member.angles:
         angles = tuple(round(from_si(angle, "deg"), 6) % 360 for angle in member.angles)
-        table = table.model_copy(update={"start": StartTable(angles_deg=angles)})
+        speeds = (ball_speed_rpm(design, member),) * len(angles) if member.lag else None
+        table = table.model_copy(update={"start": StartTable(angles_deg=angles, speeds_rpm=speeds)})
     if member.run_up:
         run_up = (given or RunUp()).model_copy(update={"time_s": member.run_up})
         table = table.model_copy(update={"run_up": run_up, "motor": table.motor if member.by_motor else None})
@@ -187,6 +192,11 @@ def _with(design: Design, member: Member) -> Design:
         friction_arm=varied.friction_arm * case.friction_arm,
     )  # fmt: skip
     return replace(design, case=case, track=track(case, design.autobalancer, design.frequency.natural_frequencies))
+
+
+def ball_speed_rpm(design: Design, member: Member) -> float:
+    """Speed of the balls against the race at a restart [rpm], of a digit less than is computed with."""
+    return round(from_si(-member.lag * (member.speed or design.case.speed), "rpm"), 6)
 
 
 KINDS: Final = ("bunched", "spread", "standstill", "run-up")

@@ -6,6 +6,7 @@ Values that the file has pinned are kept.
 from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 from abu_calc.formulas.balls import best_count, capacity, corrector_mass, half_angle, most_balls
 from abu_calc.foundation.errors import InputError, Place
@@ -336,14 +337,14 @@ def _smallest(
 
     The band of friction may narrow at first with the race, while the balls open.
     """
-    free = case.autobalancer.ball_count is None
+    free, ball_mass = case.autobalancer.ball_count is None, _ball_mass(case, diameter)
 
     def suffices(radius: float) -> bool:
         beta = half_angle(diameter / 2, radius - diameter / 2)
         if count > (best_count(beta) if free else most_balls(beta)):
             return False
-        held = capacity(count, _ball_mass(case, diameter), radius - diameter / 2, beta)
-        need = required_capacity(case, imbalance, _mass(case, count, diameter, radius)).required
+        held = capacity(count, ball_mass, radius - diameter / 2, beta)
+        need = required_capacity(case, imbalance, _housing(case, diameter, radius).mass + count * ball_mass).required
         return held >= case.autobalancer.capacity_margin * need
 
     if not suffices(radii[-1]):
@@ -364,7 +365,11 @@ def _ball_mass(case: Case, diameter: float) -> float:
 def _housing(case: Case, diameter: float, radius: float) -> Housing:
     abu = case.autobalancer
     bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
-    return housing(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
+    return _known_housing(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
+
+
+_known_housing = lru_cache(4096)(housing)
+"""Candidates of one diameter ask for the same housings, whatever their number of balls."""
 
 
 def _fills(case: Case, count: int, diameter: float, radius: float) -> bool:
@@ -373,10 +378,6 @@ def _fills(case: Case, count: int, diameter: float, radius: float) -> bool:
     bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
     size = dimensions(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
     return balls_go_in(size, count, diameter)
-
-
-def _mass(case: Case, count: int, diameter: float, radius: float) -> float:
-    return _housing(case, diameter, radius).mass + count * _ball_mass(case, diameter)
 
 
 def enough(case: Case, candidate: Candidate) -> bool:

@@ -95,6 +95,7 @@ def seat_strength(name: str) -> float:
     return float(strengths[name])
 
 
+@cache
 def _material(group: str, name: str) -> Material:
     materials = toml_table("materials")[group]
     if name not in materials:

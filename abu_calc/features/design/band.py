@@ -2,7 +2,8 @@
 
 Promised are the race's eccentricity from none to the value of the file, at any angle, the imbalance from that of a new
 wheel to the value, and any position of a machine that is turned in use. Usual are hot and cold oil, other friction and
-suspension, speeds and run-ups. Values follow a low-discrepancy sequence, so that few starts cover much.
+suspension, speeds, run-ups, and restarts while balls still turn. Values follow a low-discrepancy sequence, so that few
+starts cover much.
 """
 
 import math
@@ -103,6 +104,7 @@ def band(design: Design) -> tuple[BandRow, ...]:
         "autobalancer.rolling_friction_mm": _times(friction_factors(design), abu.rolling_friction_mm),
         "machine.speed_rpm": _times(SPEED, speed),
         "run_up.time_s": RUN_UPS,
+        "start.speeds_rpm": (-speed, 0.0),
     }
     if (most := identified(design, "race_eccentricity_mm", (1.0, 1.0))[1]) > 1:
         usual["autobalancer.race_eccentricity_mm"] = 0.0, most * abu.race_eccentricity_mm
@@ -158,7 +160,7 @@ def corners(design: Design) -> Iterator[Member]:
 
 
 def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
-    """Starts of machines within the usual band and the promised one; every third in a run-up.
+    """Starts of machines within the usual band and the promised one; every third in a run-up, every third a restart.
 
     Where the imbalance is measured, wheels as bad as that have all that the margin of the capacity allows for.
     """
@@ -181,6 +183,8 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
             changed = replace(changed, speed=(start.speed or case.speed) * _between(SPEED, speed))
             if k % 3 == 0:
                 changed = replace(changed, run_up=_between(RUN_UPS, run_up))
+            elif k % 3 == 1 and start.angles:
+                changed = replace(changed, lag=run_up)
         yield changed
 
 

@@ -18,7 +18,7 @@ from abu_calc.simulation.ensemble_checks import (
     level_check,
 )
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
-from abu_calc.simulation.start_cases import Member, Variation
+from abu_calc.simulation.start_cases import Member, Variation, ball_speed_rpm
 from abu_calc.sizing.design import Design
 
 
@@ -48,6 +48,8 @@ def repeated(outcome: StartOutcome, design: Design) -> str:
     if member.angles:
         angles = ", ".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
         sets.append(f"start.angles_deg=[{angles}]")
+        if member.lag:
+            sets.append(f"start.speeds_rpm={[ball_speed_rpm(design, member)] * len(member.angles)}")
     scene = "--scene run-up " if member.run_up else f"--start {member.start} " if not member.angles else ""
     scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
     return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {quoted(entry)}' for entry in sets)}"

@@ -2,6 +2,7 @@
 
 import math
 import shlex
+from dataclasses import replace
 from itertools import islice
 from typing import Any
 
@@ -69,13 +70,14 @@ def test_promised_is_what_the_file_says_at_most(design: Design) -> None:
 
 def test_usual_stays_within_the_band_and_is_not_promised(design: Design) -> None:
     rows = {row.key: row for row in band(design)}
-    assert [row.promised for row in rows.values()] == [True, True, *[False] * 5]
+    assert [row.promised for row in rows.values()] == [True, True, *[False] * 6]
     for member in usual(design, starts(design)):
         assert not member.promised and member.speed is not None
         assert FRICTION[0] <= member.varied.friction_arm <= FRICTION[1]
         assert NATURAL_FREQUENCY[0] <= member.varied.natural_frequency <= NATURAL_FREQUENCY[1]
         assert SPEED[0] <= member.speed / design.case.speed <= SPEED[1]
         assert member.run_up == 0 or RUN_UPS[0] <= member.run_up <= RUN_UPS[1]
+        assert 0 <= member.lag < 1 and not (member.lag and member.run_up)
         drag = rows["autobalancer.rolling_drag_per_s"]
         assert drag.low <= member.drag <= drag.high
 
@@ -168,6 +170,23 @@ def test_the_printed_options_repeat_a_varied_run() -> None:
     result = seen.document["result"]
     assert result["quiet_time_s"] == pytest.approx(outcome.quiet_time, rel=0.02, abs=0.002)
     assert result["residual_imbalance_g_mm"] == pytest.approx(from_si(outcome.imbalance, "g_mm"), abs=1.0)
+
+
+@pytest.mark.slow
+def test_a_restart_begins_with_balls_that_turn_more_slowly() -> None:
+    """Every third usual start; in the room balls turn at 1 − lag times the speed. The printed options repeat it."""
+    design = size(abu_calc.read("avtovaz-707-222").whole("size"))
+    placed = Member("placed", design.case.drag, angles=(0.1, 1.3, 2.6, 4.0))
+    restarts = [member for member in islice(usual(design, [placed] * 30), 30) if member.lag]
+    assert len(restarts) == 10 and max(member.lag for member in restarts) > 0.8
+    member = replace(restarts[0], drag=design.case.drag, speed=None, varied=Variation(), lag=0.4)
+    assert member.name == "restart, balls at 60 % of the speed"
+    scene = scene_of_member(design, member)
+    assert scene.races[0].start_speeds == pytest.approx([-0.4 * scene.speed] * 4)
+    outcome = run_of_start(design, member, 0.01, first_tolerance(design)).outcome
+    seen = abu("simulate", "avtovaz-707-222", *shlex.split(repeated(outcome, design)), "--json")
+    assert seen.status == 0, seen.err
+    assert seen.document["result"]["quiet_time_s"] == pytest.approx(outcome.quiet_time, rel=0.02, abs=0.002)
 
 
 def test_identified_values_vary_within_their_intervals() -> None:
