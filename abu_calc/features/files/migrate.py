@@ -12,7 +12,7 @@ from typing import Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import add_command
+from abu_calc.cli.command import add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.foundation.errors import InputError, OutputError, Place
 from abu_calc.inputs.reading.document import Document, open_document, parsed
@@ -119,7 +119,7 @@ def difference(file: str, before: str, after: str) -> str:
 def migrate(
     how: Delivery,
     file: Annotated[str, typer.Argument(metavar="FILE", help="File of any kind that abu reads.")],
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the difference and write nothing.")] = False,
+    dry_run: Annotated[bool, option("--dry-run", "Show the difference and write nothing.")] = False,
 ) -> Outcome:
     """Rename keys that have changed since the file was written.
 

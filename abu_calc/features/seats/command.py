@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 
 import typer
 
-from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.command import Overrides, add_command, option
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.blocks import Block
 from abu_calc.reporting.outcome import Outcome
@@ -211,7 +211,7 @@ def band(key: str, text: str) -> list[float]:
 def check_fit(
     machine: Annotated[str | None, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")] = None,
     set_: Overrides = None,
-    explain: Annotated[bool, typer.Option("--explain", help="Print the report with every formula.")] = False,
+    explain: Annotated[bool, option("--explain", "Print the report with every formula.")] = False,
     **bearing: object,
 ) -> Outcome:
     """Check bearing seats, or recommend their tolerance classes.
