@@ -5,7 +5,7 @@ Modules are named here and imported when they are needed, so that a command load
 
 import importlib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -38,17 +38,21 @@ class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
     `name`: of the command; `command`: module whose `register` adds it; `results`: types of its results as
-    "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `figures`: their
-    names; `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`.
+    "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `computes`: whether it
+    loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in `FIGURES`.
     """
 
     name: str
     command: str
     results: tuple[str, ...] = ()
     makes_figures: str = ""
-    figures: tuple[Known, ...] = ()
     computes: bool = True
     group: str = "Design"
+
+    @property
+    def figures(self) -> tuple[Known, ...]:
+        """Figures of its results."""
+        return FIGURES.get(self.name, ())
 
 
 def group_of(command: str) -> str | None:
@@ -66,55 +70,103 @@ SETTLES: Final = "the run was simulated, and held from its beginning"
 RUNS_UP: Final = "the rotor runs up in it"
 SEVERAL: Final = "more than one machine has the number"
 
+FIGURES: Final[Mapping[str, tuple[Known, ...]]] = {
+    "size": (
+        Known("section", "", True),
+        Known("face", "", True),
+        Known("arm", "the machine has a [swing_arm]", True),
+        Known("seats-N", "the machine has such a bearing", True),
+        Known("levels", "a level is known at a place"),
+        Known("speeds", "the machine has a range of speeds at which balls balance"),
+        Known("budget", "something keeps the balls from balancing to nothing"),
+        Known("motion", SETTLES),
+        Known("settling", SETTLES),
+        Known("level", SETTLES),
+        Known("level-loaded", "the machine grinds, and that was simulated from its beginning"),
+        Known("run-up", "a start that runs up was simulated"),
+        Known("run-up-amplitude", "a start that runs up was simulated"),
+        Known("candidates", "there are runners-up"),
+        Known("costs", "the drawing's tolerances cost something"),
+    ),
+    "check-fit": (
+        Known("seats-N", "there is such a bearing", True),
+        Known("zones-N", "there is such a bearing", True),
+        Known("interference-N", "there is such a bearing"),
+        Known("clearance-N", "there is such a bearing, of a type whose clearance is in a table"),
+    ),
+    "simulate": (
+        Known("motion", SETTLES + ", with balls"),
+        Known("settling", SETTLES + ", with balls"),
+        Known("level", SETTLES),
+        Known("run-up", RUNS_UP),
+        Known("run-up-amplitude", RUNS_UP),
+    ),
+    "stability": (
+        Known("growth", "growth rates over more than one speed are known"),
+        Known("eigenvalues", "there are such"),
+        Known("multipliers", "the support is not isotropic"),
+        Known("attractors", "attractors were searched"),
+    ),
+    "grinding": (
+        Known("levels", "a level at work is known"),
+        Known("orbit"),
+        Known("orbit-simulated", "it was simulated"),
+        Known("hodograph", "the wheel runs out"),
+        Known("response", "amplitudes over the speeds are known"),
+        Known("force", "forces over the speeds are known"),
+        Known("reaction", "the force round the wheel is known"),
+        Known("wear", "wear is known"),
+        Known("wear-imbalance", "wear is known"),
+    ),
+    "balance": (
+        Known("planes", "", True),
+        Known("residual", "there is imbalance"),
+        Known("verification-N", "the readings have so many speeds and quantities"),
+        Known("uncertainty", "the readings say how far off they may be"),
+        Known("convention", "", True),
+    ),
+    "accuracy": (Known("precision", "a way to compute gave an error"),),
+    "sweep": (
+        Known("shares"),
+        Known("basins", "starts of several kinds were drawn"),
+        Known("percentiles-QUANTITY", "two of its percentiles are known"),
+        Known("decides-QUANTITY", "its variance is split"),
+        Known("tighten", "prices are known"),
+        Known("loosen", "prices are known"),
+        Known("cells", "it went over two keys with --grid"),
+        Known("cells-meets", "it went over two keys with --grid, with several members in a cell"),
+        Known("cells-level", "it went over two keys with --grid"),
+    ),
+    "optimise": (Known("front"),),
+    "identify": (Known("starts", "starts were recorded"),),
+    "declare": (
+        Known("values", "a type test was simulated"),
+        Known("runs", "runs of the simulated type test differ"),
+        Known("eccentricity", "a break-even eccentricity was searched"),
+        Known("series", "a series of recordings has a mean"),
+    ),
+    "compare": (
+        *(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "quiet")),
+        Known("courses", "recorded starts are given with --measured"),
+    ),
+}
+"""Figures of each command; one without a condition stands in every result of its command."""
+
 FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "size",
         "design.command",
         ("design.study:SizeResult", "two_races.records:TwoRaceSizeResult"),
         "design.figures:size_extras",
-        figures=(
-            Known("section", "", True),
-            Known("face", "", True),
-            Known("arm", "the machine has a [swing_arm]", True),
-            Known("seats-N", "the machine has such a bearing", True),
-            Known("levels", "a level is known at a place"),
-            Known("speeds", "the machine has a range of speeds at which balls balance"),
-            Known("budget", "something keeps the balls from balancing to nothing"),
-            Known("motion", SETTLES),
-            Known("settling", SETTLES),
-            Known("level", SETTLES),
-            Known("level-loaded", "the machine grinds, and that was simulated from its beginning"),
-            Known("run-up", "a start that runs up was simulated"),
-            Known("run-up-amplitude", "a start that runs up was simulated"),
-            Known("candidates", "there are runners-up"),
-            Known("costs", "the drawing's tolerances cost something"),
-        ),
     ),
     Feature(
-        "check-fit",
-        "seats.command",
-        ("seats.study:CheckFitResult",),
-        "seats.figures:check_fit_extras",
-        figures=(
-            Known("seats-N", "there is such a bearing", True),
-            Known("zones-N", "there is such a bearing", True),
-            Known("interference-N", "there is such a bearing"),
-            Known("clearance-N", "there is such a bearing, of a type whose clearance is in a table"),
-        ),
-        computes=False,
+        "check-fit", "seats.command", ("seats.study:CheckFitResult",), "seats.figures:check_fit_extras", computes=False
     ),
     Feature(
         "simulate",
         "simulate.command",
         ("simulate.study:SimulateResult",),
         "simulate.view:simulate_extras",
-        figures=(
-            Known("motion", SETTLES + ", with balls"),
-            Known("settling", SETTLES + ", with balls"),
-            Known("level", SETTLES),
-            Known("run-up", RUNS_UP),
-            Known("run-up-amplitude", RUNS_UP),
-        ),
         group="Simulate",
     ),
     Feature(
@@ -122,12 +174,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "stability.command",
         ("stability.study:StabilityResult",),
         "stability.view:stability_extras",
-        figures=(
-            Known("growth", "growth rates over more than one speed are known"),
-            Known("eigenvalues", "there are such"),
-            Known("multipliers", "the support is not isotropic"),
-            Known("attractors", "attractors were searched"),
-        ),
         group="Simulate",
     ),
     Feature(
@@ -135,17 +181,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "grinding.command",
         ("grinding.study:GrindingResult", "two_races.work_records:TwoRaceGrindingResult"),
         "grinding.figures:grinding_extras",
-        figures=(
-            Known("levels", "a level at work is known"),
-            Known("orbit"),
-            Known("orbit-simulated", "it was simulated"),
-            Known("hodograph", "the wheel runs out"),
-            Known("response", "amplitudes over the speeds are known"),
-            Known("force", "forces over the speeds are known"),
-            Known("reaction", "the force round the wheel is known"),
-            Known("wear", "wear is known"),
-            Known("wear-imbalance", "wear is known"),
-        ),
         group="Simulate",
     ),
     Feature(
@@ -153,13 +188,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "balancing.command",
         ("balancing.study:BalanceResult",),
         "balancing.figures:balance_extras",
-        figures=(
-            Known("planes", "", True),
-            Known("residual", "there is imbalance"),
-            Known("verification-N", "the readings have so many speeds and quantities"),
-            Known("uncertainty", "the readings say how far off they may be"),
-            Known("convention", "", True),
-        ),
         group="Measure",
     ),
     Feature(
@@ -173,134 +201,42 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "accuracy.command",
         ("accuracy.study:AccuracyResult",),
         "accuracy.view:accuracy_extras",
-        figures=(Known("precision", "a way to compute gave an error"),),
         group="Simulate",
     ),
-    Feature(
-        "sweep",
-        "sweep.command",
-        ("sweep.result:SweepResult",),
-        "sweep.figures:sweep_extras",
-        figures=(
-            Known("shares"),
-            Known("basins", "starts of several kinds were drawn"),
-            Known("percentiles-QUANTITY", "two of its percentiles are known"),
-            Known("decides-QUANTITY", "its variance is split"),
-            Known("tighten", "prices are known"),
-            Known("loosen", "prices are known"),
-            Known("cells", "it went over two keys with --grid"),
-            Known("cells-meets", "it went over two keys with --grid, with several members in a cell"),
-            Known("cells-level", "it went over two keys with --grid"),
-        ),
-    ),
-    Feature(
-        "optimise",
-        "optimise.command",
-        ("optimise.result:OptimiseResult",),
-        "optimise.view:optimise_extras",
-        figures=(Known("front"),),
-    ),
-    Feature(
-        "levels",
-        "levels.command",
-        ("levels.study:LevelsResult",),
-        group="Measure",
-    ),
+    Feature("sweep", "sweep.command", ("sweep.result:SweepResult",), "sweep.figures:sweep_extras"),
+    Feature("optimise", "optimise.command", ("optimise.result:OptimiseResult",), "optimise.view:optimise_extras"),
+    Feature("levels", "levels.command", ("levels.study:LevelsResult",), group="Measure"),
     Feature(
         "identify",
         "identification.command",
         ("identification.results:IdentifyResult",),
         "identification.view:identify_extras",
-        figures=(Known("starts", "starts were recorded"),),
         group="Measure",
     ),
-    Feature(
-        "measure-plan",
-        "identification.plan_command",
-        ("identification.plan:MeasurePlanResult",),
-        group="Measure",
-    ),
+    Feature("measure-plan", "identification.plan_command", ("identification.plan:MeasurePlanResult",), group="Measure"),
     Feature(
         "declare",
         "declare.command",
         ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
         "declare.pages:declare_extras",
-        figures=(
-            Known("values", "a type test was simulated"),
-            Known("runs", "runs of the simulated type test differ"),
-            Known("eccentricity", "a break-even eccentricity was searched"),
-            Known("series", "a series of recordings has a mean"),
-        ),
         group="Measure",
     ),
-    Feature(
-        "factory",
-        "factory.command",
-        ("factory.study:FactoryResult",),
-        group="Measure",
-    ),
+    Feature("factory", "factory.command", ("factory.study:FactoryResult",), group="Measure"),
     Feature(
         "compare",
         "compare.command",
         ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
         "compare.pages:any_extras",
-        figures=(
-            *(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "quiet")),
-            Known("courses", "recorded starts are given with --measured"),
-        ),
     ),
-    Feature(
-        "verify",
-        "verify.command",
-        ("verify.study:VerifyResult",),
-        group="Files",
-    ),
-    Feature(
-        "validate",
-        "files.validate",
-        (),
-        computes=False,
-        group="Files",
-    ),
-    Feature(
-        "migrate",
-        "files.migrate",
-        (),
-        computes=False,
-        group="Files",
-    ),
-    Feature(
-        "init",
-        "files.init",
-        (),
-        computes=False,
-        group="Files",
-    ),
-    Feature(
-        "presets",
-        "files.presets",
-        (),
-        computes=False,
-        group="Files",
-    ),
-    Feature(
-        "schema",
-        "files.schema",
-        (),
-        computes=False,
-        group="Files",
-    ),
-    Feature(
-        "explain",
-        "explain.command",
-        (),
-        computes=False,
-    ),
+    Feature("verify", "verify.command", ("verify.study:VerifyResult",), group="Files"),
+    Feature("validate", "files.validate", computes=False, group="Files"),
+    Feature("migrate", "files.migrate", computes=False, group="Files"),
+    Feature("init", "files.init", computes=False, group="Files"),
+    Feature("presets", "files.presets", computes=False, group="Files"),
+    Feature("schema", "files.schema", computes=False, group="Files"),
+    Feature("explain", "explain.command", computes=False),
 )
-"""Features in the order of the help.
-
-A figure without a condition stands in every result of its command.
-"""
+"""Features in the order of the help."""
 
 BY_NAME: Final = {feature.name: feature for feature in FEATURES}
 

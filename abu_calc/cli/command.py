@@ -3,6 +3,7 @@
 A parameter of a command is called like the argument of the study it asks, so that an error about an argument names the
 option.
 
+    option             one option, as its help shows it
     SCENES, File, …    types of options that several commands about scenes share
     settings           the command and its options, which give a result again
     write_files        the files that a command was asked for, written when all is computed
@@ -10,6 +11,7 @@ option.
 """
 
 import inspect
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
 from contextlib import contextmanager
 from dataclasses import replace
@@ -36,22 +38,30 @@ if TYPE_CHECKING:
 SCENES: Final = ("idle", "grinding", "run-up", "swing-arm-idle", "swing-arm-cutting")
 """Scenes of a machine; written out here so that `--help` loads no numerics."""
 
+
+def option(usage: str, text: str, panel: str | None = None) -> Any:
+    """An option as its help shows it: its names, each with its dashes, then what stands for its value.
+
+    >>> option("--output -o FILE", "File to write.").metavar
+    'FILE'
+    """
+    names, _, value = re.sub(" (?!-)", "\n", usage, count=1).partition("\n")
+    return typer.Option(*names.split(), metavar=value or None, help=text, rich_help_panel=panel)
+
+
 File = Annotated[str, typer.Argument(metavar="MACHINE|SCENE", help="Machine file, scene file or name of a preset.")]
-WhichScene = Annotated[
-    str | None, typer.Option("--scene", metavar="NAME", help=f"Scene of a machine: {', '.join(SCENES)}.")
-]
+WhichScene = Annotated[str | None, option("--scene NAME", f"Scene of a machine: {', '.join(SCENES)}.")]
 WhichStart = Annotated[
     str | None,
-    typer.Option(
-        "--start",
-        metavar="NAME",
-        help="Balls at the start: bunched (together, the default), behind, spread (evenly), standstill or settled.",
+    option(
+        "--start NAME",
+        "Balls at the start: bunched (together, the default), behind, spread (evenly), standstill or settled.",
     ),
 ]
-Accuracy = Annotated[float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in the results.")]
-Duration = Annotated[float | None, typer.Option("--duration", metavar="S", help="Simulate this many seconds.")]
-With = Annotated[list[str] | None, typer.Option("--with", metavar="EFFECT", help="Add an effect; repeatable.")]
-Without = Annotated[list[str] | None, typer.Option("--without", metavar="EFFECT", help="Remove an effect; repeatable.")]
+Accuracy = Annotated[float, option("--accuracy RATIO", "Relative error allowed in the results.")]
+Duration = Annotated[float | None, option("--duration S", "Simulate this many seconds.")]
+With = Annotated[list[str] | None, option("--with EFFECT", "Add an effect; repeatable.")]
+Without = Annotated[list[str] | None, option("--without EFFECT", "Remove an effect; repeatable.")]
 
 
 def settings(name: str, parameters: Mapping[str, Parameter], given: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
@@ -139,8 +149,7 @@ def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) 
 
 Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")]
 Overrides = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Replace one entry by a TOML value; repeatable."),
+    list[str] | None, option("--set TABLE.KEY=VALUE", "Replace one entry by a TOML value; repeatable.")
 ]
 
 
@@ -148,9 +157,7 @@ def _output_option(formats: Iterable[str]) -> Any:
     """The option --output with the formats that one command writes."""
     *others, last = formats
     text = f"Also write as {', '.join(others)}{' or ' if others else ''}{last}; repeatable."
-    return Annotated[
-        list[Path] | None, typer.Option("--output", "-o", metavar="FILE", help=text, rich_help_panel=OUTPUT)
-    ]
+    return Annotated[list[Path] | None, option("--output -o FILE", text, OUTPUT)]
 
 
 def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
@@ -160,19 +167,13 @@ def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
 
 def _shared(
     *,
-    json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON document on standard output.", rich_help_panel=OUTPUT)
-    ] = False,
+    json: Annotated[bool, option("--json", "Print one JSON document on standard output.", OUTPUT)] = False,
     output: list[Path] | None = None,
     figure: list[str] | None = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=OUTPUT)] = False,
-    quiet: Annotated[
-        bool, typer.Option("--quiet", "-q", help="Print no report; use the exit status.", rich_help_panel=OUTPUT)
-    ] = False,
-    no_color: Annotated[
-        bool, typer.Option("--no-color", help="Print without colours, as NO_COLOR does.", rich_help_panel=OUTPUT)
-    ] = False,
-    full: Annotated[bool, typer.Option("--full", help="Print the whole report.", rich_help_panel=OUTPUT)] = False,
+    force: Annotated[bool, option("--force", "Overwrite existing files.", OUTPUT)] = False,
+    quiet: Annotated[bool, option("--quiet -q", "Print no report; use the exit status.", OUTPUT)] = False,
+    no_color: Annotated[bool, option("--no-color", "Print without colours, as NO_COLOR does.", OUTPUT)] = False,
+    full: Annotated[bool, option("--full", "Print the whole report.", OUTPUT)] = False,
 ) -> Delivery:
     return Delivery(json, tuple(output or ()), force, quiet, not no_color, full, asked_figures(figure or ()))
 
@@ -180,12 +181,7 @@ def _shared(
 def _walled(
     *,
     patience: Annotated[
-        float | None,
-        typer.Option(
-            "--patience",
-            metavar="S",
-            help="Longest simulation; open checks are NOT EVALUATED.",
-        ),
+        float | None, option("--patience S", "Longest simulation; open checks are NOT EVALUATED.")
     ] = None,
 ) -> None:
     """The option of all commands that simulate."""

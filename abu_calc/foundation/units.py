@@ -13,64 +13,62 @@ REFERENCE_VELOCITY: Final = 5e-8
 GRAVITY: Final = 9.80665
 """Standard acceleration of free fall [m/s²] (ISO 80000-3)."""
 
-SI_PER_UNIT: Final[dict[str, float]] = {
-    "mm": 1e-3,
-    "um": 1e-6,
-    "m": 1.0,
-    "mil": 25.4e-6,
-    "g": 1e-3,
-    "kg": 1.0,
-    "g_mm": 1e-6,
-    "rpm": math.pi / 30,
-    "hz": 2 * math.pi,
-    "deg": math.pi / 180,
-    "mrad": 1e-3,
-    "rad": 1.0,
-    "s": 1.0,
-    "min": 60.0,
-    "h": 3600.0,
-    "per_s": 1.0,
-    "N": 1.0,
-    "kN": 1e3,
-    "kN_per_m": 1e3,
-    "N_m": 1.0,
-    "N_per_m": 1.0,
-    "N_s_per_m": 1.0,
-    "W": 1.0,
-    "MPa": 1e6,
-    "GPa": 1e9,
-    "mm_per_s": 1e-3,
-    "m_per_s": 1.0,
-    "m_per_s2": 1.0,
-    "ips": 25.4e-3,
-    "g_n": GRAVITY,
-    "kg_m2": 1.0,
-    "K": 1.0,
-    "mm2_per_s": 1e-6,
-    "percent": 0.01,
+UNIT_BY_SUFFIX: Final[dict[str, tuple[float | None, str, str]]] = {
+    "m": (1.0, "length", "m"),
+    "mm": (1e-3, "length", "mm"),
+    "um": (1e-6, "length", "µm"),
+    "mil": (25.4e-6, "length", "mil"),
+    "kg": (1.0, "mass", "kg"),
+    "g": (1e-3, "mass", "g"),
+    "g_mm": (1e-6, "imbalance", "g·mm"),
+    "rpm": (math.pi / 30, "rotational speed", "rpm"),
+    "hz": (2 * math.pi, "frequency", "Hz"),
+    "deg": (math.pi / 180, "angle", "°"),
+    "rad": (1.0, "angle", "rad"),
+    "mrad": (1e-3, "angle", "mrad"),
+    "s": (1.0, "time", "s"),
+    "min": (60.0, "time", "min"),
+    "h": (3600.0, "time", "h"),
+    "per_s": (1.0, "rate", "1/s"),
+    "N": (1.0, "force", "N"),
+    "kN": (1e3, "force", "kN"),
+    "N_m": (1.0, "torque", "N·m"),
+    "N_per_m": (1.0, "stiffness", "N/m"),
+    "kN_per_m": (1e3, "stiffness", "kN/m"),
+    "N_s_per_m": (1.0, "damping", "N·s/m"),
+    "W": (1.0, "power", "W"),
+    "MPa": (1e6, "pressure", "MPa"),
+    "GPa": (1e9, "pressure", "GPa"),
+    "mm_per_s": (1e-3, "velocity", "mm/s"),
+    "m_per_s": (1.0, "velocity", "m/s"),
+    "ips": (25.4e-3, "velocity", "in/s"),
+    "m_per_s2": (1.0, "acceleration", "m/s²"),
+    "g_n": (GRAVITY, "acceleration", "g"),
+    "kg_m2": (1.0, "moment of inertia", "kg·m²"),
+    "mm2_per_s": (1e-6, "kinematic viscosity", "mm²/s"),
+    "kg_per_m3": (None, "density", "kg/m³"),
+    "ml": (None, "volume", "ml"),
+    "mV": (None, "voltage", "mV"),
+    "percent": (0.01, "share", "%"),
+    "K": (1.0, "temperature difference", "K"),
+    "C": (None, "temperature", "°C"),
+    "db": (None, "level", "dB"),
+    "HRC": (None, "hardness", "HRC"),
 }
+"""SI value of one unit, its quantity and its sign, by the suffix that keys carry; None: results have no such unit.
+
+Frequencies and speeds become rad/s.
+"""
+
+SI_PER_UNIT: Final = {suffix: size for suffix, (size, _, _) in UNIT_BY_SUFFIX.items() if size is not None}
 """SI value of one unit, by the suffix that keys carry (frequencies and speeds become rad/s)."""
 
-SYMBOLS: Final[dict[str, str]] = {
-    "um": "µm",
-    "g_mm": "g·mm",
-    "hz": "Hz",
-    "deg": "°",
-    "per_s": "1/s",
-    "kN_per_m": "kN/m",
-    "N_m": "N·m",
-    "N_per_m": "N/m",
-    "N_s_per_m": "N·s/m",
-    "mm_per_s": "mm/s",
-    "m_per_s": "m/s",
-    "m_per_s2": "m/s²",
-    "g_n": "g",
-    "kg_m2": "kg·m²",
-    "mm2_per_s": "mm²/s",
-    "percent": "%",
-    "db": "dB",
+SYMBOLS: Final = {
+    suffix: sign
+    for suffix, (size, _, sign) in UNIT_BY_SUFFIX.items()
+    if suffix == "db" or (size is not None and suffix not in (sign, "ips"))
 }
-"""Form in which a unit is shown, if that differs from its suffix."""
+"""Form in which a unit is shown, if that differs from its suffix; in/s is shown as in the trade, ips."""
 
 SI_UNITS: Final = ("rad_per_s", "kg_m", "per_s2", "Pa", "per_K")
 """Suffixes of numbers that results give in SI, beside those of `SI_PER_UNIT`."""

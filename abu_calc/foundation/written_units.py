@@ -12,49 +12,9 @@ from functools import cache
 from typing import Final
 
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import UNIT_BY_SUFFIX
 
-SUFFIXES: Final[Mapping[str, tuple[str, str]]] = {
-    "m": ("length", "m"),
-    "mm": ("length", "mm"),
-    "um": ("length", "µm"),
-    "mil": ("length", "mil"),
-    "kg": ("mass", "kg"),
-    "g": ("mass", "g"),
-    "g_mm": ("imbalance", "g·mm"),
-    "rpm": ("rotational speed", "rpm"),
-    "hz": ("frequency", "Hz"),
-    "deg": ("angle", "°"),
-    "rad": ("angle", "rad"),
-    "mrad": ("angle", "mrad"),
-    "s": ("time", "s"),
-    "min": ("time", "min"),
-    "h": ("time", "h"),
-    "per_s": ("rate", "1/s"),
-    "N": ("force", "N"),
-    "kN": ("force", "kN"),
-    "N_m": ("torque", "N·m"),
-    "N_per_m": ("stiffness", "N/m"),
-    "kN_per_m": ("stiffness", "kN/m"),
-    "N_s_per_m": ("damping", "N·s/m"),
-    "W": ("power", "W"),
-    "MPa": ("pressure", "MPa"),
-    "GPa": ("pressure", "GPa"),
-    "mm_per_s": ("velocity", "mm/s"),
-    "m_per_s": ("velocity", "m/s"),
-    "ips": ("velocity", "in/s"),
-    "m_per_s2": ("acceleration", "m/s²"),
-    "g_n": ("acceleration", "g"),
-    "kg_m2": ("moment of inertia", "kg·m²"),
-    "mm2_per_s": ("kinematic viscosity", "mm²/s"),
-    "kg_per_m3": ("density", "kg/m³"),
-    "ml": ("volume", "ml"),
-    "mV": ("voltage", "mV"),
-    "percent": ("share", "%"),
-    "K": ("temperature difference", "K"),
-    "C": ("temperature", "°C"),
-    "db": ("level", "dB"),
-    "HRC": ("hardness", "HRC"),
-}
+SUFFIXES: Final = {suffix: (quantity, sign) for suffix, (_, quantity, sign) in UNIT_BY_SUFFIX.items()}
 """Quantity and unit that the suffix of a key stands for."""
 
 _RADIAN: Final = str(Fraction(180 / math.pi))

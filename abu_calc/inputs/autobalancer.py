@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from abu_calc.inputs.reading.table import Table, problem, usual
+from abu_calc.inputs.reading.table import Table, entry, problem
 
 Temperature = Annotated[float, Field(ge=-60, le=250)]
 """A temperature of the housing [°C]."""
@@ -13,174 +13,94 @@ Temperature = Annotated[float, Field(ge=-60, le=250)]
 class Autobalancer(Table):
     """The autobalancer: the room there is for it and how it is made."""
 
-    max_outer_diameter_mm: float = Field(
-        description="Largest permitted outer diameter [mm]; {range}, hand grinders 40 … 120.",
-        examples=[68.0],
-        ge=1,
-        le=5000,
-        json_schema_extra=usual(20, 600),
+    max_outer_diameter_mm: float = entry(ge=1, le=5000, usual=(20, 600), example=68.0).means(
+        "Largest permitted outer diameter [mm]; {range}, hand grinders 40 … 120."
     )
-    max_width_mm: float = Field(
-        description="Largest permitted width along the spindle [mm]; {range}, hand grinders 10 … 40.",
-        examples=[32.0],
-        ge=1,
-        le=1000,
-        json_schema_extra=usual(4, 200),
+    max_width_mm: float = entry(ge=1, le=1000, usual=(4, 200), example=32.0).means(
+        "Largest permitted width along the spindle [mm]; {range}, hand grinders 10 … 40."
     )
-    max_mass_fraction: float = Field(
-        default=0.05,
-        description="Largest permitted mass with balls, as a fraction of machine.mass_kg; {range}. Default: "
-        "{default} (the autobalancers of Kladiev 1996 weigh 4 … 7.5 % of the machine).",
-        gt=0,
-        le=1,
-        json_schema_extra=usual(0.01, 0.25),
+    max_mass_fraction: float = entry(0.05, gt=0, le=1, usual=(0.01, 0.25)).means(
+        "Largest permitted mass with balls, as a fraction of machine.mass_kg; {range}. Default: {default} (the "
+        "autobalancers of Kladiev 1996 weigh 4 … 7.5 % of the machine)."
     )
-    bore_diameter_mm: float = Field(
-        default=20.0,
-        description="Bore that sits on the spindle [mm]; {range}, smaller than max_outer_diameter_mm. Default: "
-        "{default}, assumed.",
-        gt=0,
-        le=2000,
-        json_schema_extra=usual(3, 500),
+    bore_diameter_mm: float = entry(20.0, gt=0, le=2000, usual=(3, 500)).means(
+        "Bore that sits on the spindle [mm]; {range}, smaller than max_outer_diameter_mm. Default: {default}, assumed."
     )
-    design: Literal["one-piece", "bearing-ring", "light"] = Field(
-        default="one-piece",
-        description="Construction: one-piece (race ground into steel), bearing-ring (race of a spherical bearing) "
-        "or light (hard ring in aluminium). Default: {default}.",
+    design: Literal["one-piece", "bearing-ring", "light"] = entry("one-piece").means(
+        "Construction: one-piece (race ground into steel), bearing-ring (race of a spherical bearing) or light (hard "
+        "ring in aluminium). Default: {default}."
     )
-    ball_sizes: Literal["metric", "all"] = Field(
-        default="all",
-        description="Stock balls to choose from: metric (whole and half millimetres) or all (inch sizes, too, "
-        "which are stocked as widely). Default: {default}.",
+    ball_sizes: Literal["metric", "all"] = entry("all").means(
+        "Stock balls to choose from: metric (whole and half millimetres) or all (inch sizes, too, which are stocked as "
+        "widely). Default: {default}."
     )
-    ball_material: Literal["steel"] = Field(
-        default="steel", description="Material of the balls: steel, 7.8e-3 g/mm³. Default: {default}."
+    ball_material: Literal["steel"] = entry("steel").means(
+        "Material of the balls: steel, 7.8e-3 g/mm³. Default: {default}."
     )
-    corrector: Literal["ball", "roller"] = Field(
-        default="ball",
-        description="Rolling body in the race: ball (solid, rolling inertia factor 7/5) or roller (3/2). Default: "
-        "{default}.",
+    corrector: Literal["ball", "roller"] = entry("ball").means(
+        "Rolling body in the race: ball (solid, rolling inertia factor 7/5) or roller (3/2). Default: {default}."
     )
-    capacity_margin: float = Field(
-        default=1.2,
-        description="Required ratio of capacity to need; {range}, by practice 1.1 … 1.5. Default: {default}, assumed.",
-        ge=1,
-        le=100,
-        json_schema_extra=usual(1, 3),
+    capacity_margin: float = entry(1.2, ge=1, le=100, usual=(1, 3)).means(
+        "Required ratio of capacity to need; {range}, by practice 1.1 … 1.5. Default: {default}, assumed."
     )
-    rolling_drag_per_s: float = Field(
-        default=15.0,
-        description="Viscous drag of a ball in the race, divided by its inertia m·R_p² [1/s]; {range}, thin oil 3 … "
-        "50, grease 10 … 100. Default: {default}, assumed; it settles hand grinders within a second.",
-        ge=0,
-        le=1e5,
-        json_schema_extra=usual(0.5, 300),
+    rolling_drag_per_s: float = entry(15.0, ge=0, le=1e5, usual=(0.5, 300)).means(
+        "Viscous drag of a ball in the race, divided by its inertia m·R_p² [1/s]; {range}, thin oil 3 … 50, grease 10 "
+        "… 100. Default: {default}, assumed; it settles hand grinders within a second."
     )
-    rolling_friction_mm: float = Field(
-        default=0.002,
-        description="Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005, soft "
-        "race 0.01 … 0.05. Default: {default}, assumed for a hard race.",
-        ge=0,
-        le=1,
-        json_schema_extra=usual(0.0001, 0.1),
+    rolling_friction_mm: float = entry(0.002, ge=0, le=1, usual=(0.0001, 0.1)).means(
+        "Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005, soft race 0.01 … "
+        "0.05. Default: {default}, assumed for a hard race."
     )
-    race_eccentricity_mm: float = Field(
-        default=0.010,
-        description="Everything between the race and the axis of rotation: race to bore, half the clearance in the "
-        "bore, half the spindle's indicated runout [mm]; {range}, by careful work 0.005 … 0.020. Default: "
-        "{default}, assumed.",
-        ge=0,
-        le=10,
-        json_schema_extra=usual(0.0005, 0.2),
+    race_eccentricity_mm: float = entry(0.010, ge=0, le=10, usual=(0.0005, 0.2)).means(
+        "Everything between the race and the axis of rotation: race to bore, half the clearance in the bore, half the "
+        "spindle's indicated runout [mm]; {range}, by careful work 0.005 … 0.020. Default: {default}, assumed."
     )
-    eccentricity_sum: Literal["worst-case", "rss"] = Field(
-        default="worst-case",
-        description="Rule by which the drawing's parts of the eccentricity add up to race_eccentricity_mm: worst-case "
-        "or rss (root of the sum of squares). The parts are race run-out, fit, spindle run-out, housing imbalance. "
-        "Default: {default}.",
+    eccentricity_sum: Literal["worst-case", "rss"] = entry("worst-case").means(
+        "Rule by which the drawing's parts of the eccentricity add up to race_eccentricity_mm: worst-case or rss (root "
+        "of the sum of squares). The parts are race run-out, fit, spindle run-out, housing imbalance. Default: "
+        "{default}."
     )
-    closure: Literal["pressed", "screwed"] = Field(
-        default="pressed",
-        description="Cover that closes the housing: pressed (interference fit) or screwed (a fine thread on its rim). "
-        "Default: {default}.",
+    closure: Literal["pressed", "screwed"] = entry("pressed").means(
+        "Cover that closes the housing: pressed (interference fit) or screwed (a fine thread on its rim). Default: "
+        "{default}."
     )
-    fastening: Literal["clamped", "shrunk", "flange"] = Field(
-        default="clamped",
-        description="Fastening on the spindle: clamped (by a nut), shrunk (interference fit alone) or flange (part of "
-        "the flange that drives the wheel). Default: {default}.",
+    fastening: Literal["clamped", "shrunk", "flange"] = entry("clamped").means(
+        "Fastening on the spindle: clamped (by a nut), shrunk (interference fit alone) or flange (part of the flange "
+        "that drives the wheel). Default: {default}."
     )
-    clamp_force_N: float | None = Field(
-        default=None,
-        description="Axial force of the nut that clamps the housing or the flange [N]; {range}. Without it the slip "
-        "torque is not evaluated.",
-        examples=[8000.0],
-        gt=0,
-        le=1e7,
-        json_schema_extra=usual(500, 200000),
+    clamp_force_N: float | None = entry(None, gt=0, le=1e7, usual=(500, 200000), example=8000.0).means(
+        "Axial force of the nut that clamps the housing or the flange [N]; {range}. Without it the slip torque is not "
+        "evaluated."
     )
-    guard_thickness_mm: float | None = Field(
-        default=None,
-        description="Thickness of the guard round the autobalancer, mild steel [mm]; {range}. Without it containment "
-        "of a ball is not evaluated.",
-        examples=[2.0],
-        gt=0,
-        le=200,
-        json_schema_extra=usual(0.5, 20),
+    guard_thickness_mm: float | None = entry(None, gt=0, le=200, usual=(0.5, 20), example=2.0).means(
+        "Thickness of the guard round the autobalancer, mild steel [mm]; {range}. Without it containment of a ball is "
+        "not evaluated."
     )
-    temperature_range_C: Annotated[tuple[Temperature, ...], Field(strict=False, min_length=2, max_length=2)] = Field(
-        default=(0.0, 60.0),
-        description="Lowest and highest temperature of the housing [°C]; each {range}. Interferences are judged at "
-        "both, from 20 °C at assembly. Default: 0 and 60, assumed.",
-        examples=[(0.0, 80.0)],
-        json_schema_extra=usual(10, 120),
+    temperature_range_C: Annotated[tuple[Temperature, ...], Field(strict=False, min_length=2, max_length=2)] = entry(
+        (0.0, 60.0), usual=(10, 120), example=(0.0, 80.0)
+    ).means(
+        "Lowest and highest temperature of the housing [°C]; each {range}. Interferences are judged at both, from 20 "
+        "°C at assembly. Default: 0 and 60, assumed."
     )
-    race_hardness_HRC: float = Field(
-        default=60.0,
-        description="Hardness of the race [HRC]; {range}, at least 58 for balls not to dent it. Default: {default}, "
-        "assumed.",
-        ge=20,
-        le=68,
-        json_schema_extra=usual(55, 66),
+    race_hardness_HRC: float = entry(60.0, ge=20, le=68, usual=(55, 66)).means(
+        "Hardness of the race [HRC]; {range}, at least 58 for balls not to dent it. Default: {default}, assumed."
     )
-    min_wall_mm: float = Field(
-        default=2.5,
-        description="Thinnest permitted wall outside the race [mm]; {range}. Default: {default}, assumed (a thinner "
-        "ring goes oval under the balls).",
-        gt=0,
-        le=100,
-        json_schema_extra=usual(1, 20),
+    min_wall_mm: float = entry(2.5, gt=0, le=100, usual=(1, 20)).means(
+        "Thinnest permitted wall outside the race [mm]; {range}. Default: {default}, assumed (a thinner ring goes oval "
+        "under the balls)."
     )
-    plane_offset_mm: float = Field(
-        default=0.0,
-        description="Race plane from wheel plane along the spindle, positive away from the machine [mm]; {range}. "
-        "Default: {default}, in the wheel plane.",
-        ge=-1000,
-        le=1000,
-        json_schema_extra=usual(1, 200),
+    plane_offset_mm: float = entry(0.0, ge=-1000, le=1000, usual=(1, 200)).means(
+        "Race plane from wheel plane along the spindle, positive away from the machine [mm]; {range}. Default: "
+        "{default}, in the wheel plane."
     )
-    ball_count: int | None = Field(
-        default=None,
-        description="Pins the number of balls; {range}. Without it the number is chosen.",
-        examples=[4],
-        ge=2,
-        le=100,
-        json_schema_extra=usual(2, 24),
+    ball_count: int | None = entry(None, ge=2, le=100, usual=(2, 24), example=4).means(
+        "Pins the number of balls; {range}. Without it the number is chosen."
     )
-    ball_diameter_mm: float | None = Field(
-        default=None,
-        description="Pins the diameter of the balls [mm]; {range}. Without it the diameter is chosen.",
-        examples=[16.0],
-        gt=0,
-        le=200,
-        json_schema_extra=usual(2, 40),
+    ball_diameter_mm: float | None = entry(None, gt=0, le=200, usual=(2, 40), example=16.0).means(
+        "Pins the diameter of the balls [mm]; {range}. Without it the diameter is chosen."
     )
-    race_radius_mm: float | None = Field(
-        default=None,
-        description="Pins the radius of the race the balls roll on [mm]; {range}. Without it the radius is chosen.",
-        examples=[30.0],
-        gt=0,
-        le=2500,
-        json_schema_extra=usual(8, 300),
+    race_radius_mm: float | None = entry(None, gt=0, le=2500, usual=(8, 300), example=30.0).means(
+        "Pins the radius of the race the balls roll on [mm]; {range}. Without it the radius is chosen."
     )
 
     _drag_by_oil: bool = PrivateAttr(default=False)

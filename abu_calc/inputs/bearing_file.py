@@ -5,7 +5,7 @@ from typing import Annotated, Final, Protocol, Self
 
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
-from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, entry, problem
 from abu_calc.inputs.reading.text import BARE_KEY, is_number, shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 
@@ -114,47 +114,24 @@ class MachineName(Table):
 class Limits(Table):
     """Limits of the finished machine."""
 
-    vibration_level_db: float = Field(
-        default=109.0,
-        description="Highest permitted velocity level [dB re 5e-8 m/s]; {range}. Default: {default}, the limit of "
-        "GOST 17770-86 above 16 Hz.",
-        ge=0,
-        le=200,
-        json_schema_extra=usual(85, 130),
+    vibration_level_db: float = entry(109.0, ge=0, le=200, usual=(85, 130)).means(
+        "Highest permitted velocity level [dB re 5e-8 m/s]; {range}. Default: {default}, the limit of GOST 17770-86 "
+        "above 16 Hz."
     )
-    a_hv_m_per_s2: float | None = Field(
-        default=None,
-        description="Highest permitted vector total a_hv of the weighted accelerations, at the highest handle, with "
-        "the autobalancer, idle [m/s²]; {range}. When given, it is checked.",
-        examples=[2.5],
-        gt=0,
-        le=1000,
-        json_schema_extra=usual(0.5, 30),
+    a_hv_m_per_s2: float | None = entry(None, gt=0, le=1000, usual=(0.5, 30), example=2.5).means(
+        "Highest permitted vector total a_hv of the weighted accelerations, at the highest handle, with the "
+        "autobalancer, idle [m/s²]; {range}. When given, it is checked."
     )
-    quiet_time_s: float = Field(
-        default=1.0,
-        description="Longest permitted quiet time [s]: from full speed until the machine stays as quiet as it must be; "
-        "{range}. Default: {default}, as measured on hand grinders (Kladiev 1996: under 1 s).",
-        gt=0,
-        le=3600,
-        json_schema_extra=usual(0.05, 30),
+    quiet_time_s: float = entry(1.0, gt=0, le=3600, usual=(0.05, 30)).means(
+        "Longest permitted quiet time [s]: from full speed until the machine stays as quiet as it must be; {range}. "
+        "Default: {default}, as measured on hand grinders (Kladiev 1996: under 1 s)."
     )
-    settling_time_s: float | None = Field(
-        default=None,
-        description="Another name of quiet_time_s [s]; {range}.",
-        examples=[1.0],
-        gt=0,
-        le=3600,
-        json_schema_extra=usual(0.05, 30),
+    settling_time_s: float | None = entry(None, gt=0, le=3600, usual=(0.05, 30), example=1.0).means(
+        "Another name of quiet_time_s [s]; {range}."
     )
-    rest_time_s: float | None = Field(
-        default=None,
-        description="Longest permitted rest time [s]: from full speed until the balls keep their places; {range}. When "
-        "given, it is checked.",
-        examples=[2.0],
-        gt=0,
-        le=3600,
-        json_schema_extra=usual(0.05, 30),
+    rest_time_s: float | None = entry(None, gt=0, le=3600, usual=(0.05, 30), example=2.0).means(
+        "Longest permitted rest time [s]: from full speed until the balls keep their places; {range}. When given, it "
+        "is checked."
     )
 
     @property
@@ -191,8 +168,8 @@ class BearingFile(Table):
     """Bearings alone, for `abu check-fit`."""
 
     machine: MachineName
-    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, min_length=1, max_length=MOST_BEARINGS)] = Field(
-        description="Bearings and their seats: [[bearing]], one or more, up to 100."
+    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, min_length=1, max_length=MOST_BEARINGS)] = (
+        entry().means("Bearings and their seats: [[bearing]], one or more, up to 100.")
     )
     limits: Limits = Field(default_factory=Limits)
     expected: Expected = Field(default_factory=dict, description=EXPECTED)

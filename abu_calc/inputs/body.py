@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.inputs.bearing_file import NAME
-from abu_calc.inputs.reading.table import Name, Table, boxed, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, boxed, entry, problem
 
 MOST_HANDLES: Final = 100
 Speed = Annotated[float, Field(ge=1, le=300_000)]
@@ -34,22 +34,14 @@ class Handle(Table):
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"from_center_of_mass_mm"})
 
     name: Name = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
-    from_center_of_mass_mm: float | None = Field(
-        default=None,
-        description="Place along the spindle axis, from the centre of mass, positive toward the wheel "
-        "[mm]; {range}, at a grinder -300 … 200. Or position_mm.",
-        examples=[100.0],
-        ge=-2000,
-        le=2000,
-        json_schema_extra=usual(5, 1000),
+    from_center_of_mass_mm: float | None = entry(None, ge=-2000, le=2000, usual=(5, 1000), example=100.0).means(
+        "Place along the spindle axis, from the centre of mass, positive toward the wheel [mm]; {range}, at a grinder "
+        "-300 … 200. Or position_mm."
     )
 
-    position_mm: Position | None = Field(
-        default=None,
-        description="Place [x, y, z] from the centre of mass [mm]; {range}. x runs from the body toward the spindle, "
-        "z along the spindle toward the wheel. Takes the place of from_center_of_mass_mm.",
-        examples=[[62.0, 120.0, -8.0]],
-        json_schema_extra=usual(1, 1000),
+    position_mm: Position | None = entry(None, usual=(1, 1000), example=[62.0, 120.0, -8.0]).means(
+        "Place [x, y, z] from the centre of mass [mm]; {range}. x runs from the body toward the spindle, z along the "
+        "spindle toward the wheel. Takes the place of from_center_of_mass_mm."
     )
 
     @property
@@ -80,127 +72,72 @@ class MachineTable(Table):
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"length_mm", "handle"})
 
     name: Name = Field(description=NAME, examples=["straight grinder"], min_length=1)
-    layout: Literal["straight", "face", "angle"] = Field(
-        description="Kind of machine: straight (the wheel's rim works, spindle along the body), face (the wheel's "
-        "face works) or angle (spindle across the body).",
-        examples=["straight"],
+    layout: Literal["straight", "face", "angle"] = entry(example="straight").means(
+        "Kind of machine: straight (the wheel's rim works, spindle along the body), face (the wheel's face works) or "
+        "angle (spindle across the body)."
     )
-    mass_kg: float = Field(
-        description="Mass with guard and handles, without wheel, autobalancer, cable or hose [kg]; {range}, hand "
-        "grinders 1 … 8.",
-        examples=[5.6],
-        ge=0.001,
-        le=20_000,
-        json_schema_extra=usual(0.3, 150),
+    mass_kg: float = entry(ge=0.001, le=20_000, usual=(0.3, 150), example=5.6).means(
+        "Mass with guard and handles, without wheel, autobalancer, cable or hose [kg]; {range}, hand grinders 1 … 8."
     )
-    speed_rpm: Speed = Field(
-        description="Rated speed of the spindle [rpm]; {range}, hand grinders 1500 … 12000.",
-        examples=[5800.0],
-        json_schema_extra=usual(700, 60_000),
+    speed_rpm: Speed = entry(usual=(700, 60_000), example=5800.0).means(
+        "Rated speed of the spindle [rpm]; {range}, hand grinders 1500 … 12000."
     )
-    speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
-        default=None,
-        description="Lowest and highest working speed, ascending, with the rated speed between them [rpm]; "
-        "{range}. Frequency "
-        "regions are checked over all of it, stresses at the top. Without it: the rated speed alone.",
-        examples=[[5800.0, 5800.0]],
-        json_schema_extra=usual(200, 60_000),
+    speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = entry(
+        None, usual=(200, 60_000), example=[5800.0, 5800.0]
+    ).means(
+        "Lowest and highest working speed, ascending, with the rated speed between them [rpm]; {range}. Frequency "
+        "regions are checked over all of it, stresses at the top. Without it: the rated speed alone."
     )
-    spindle_axis: Literal["horizontal", "vertical"] = Field(
-        description="Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical.",
-        examples=["horizontal"],
+    spindle_axis: Literal["horizontal", "vertical"] = entry(example="horizontal").means(
+        "Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical."
     )
     held: Held = None
-    transverse_inertia_kg_m2: float | None = Field(
-        default=None,
-        description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, "
-        "grinders 0.02 … 0.3. With center_of_mass_to_wheel_mm the machine is a rigid body whose centre of mass lies on "
-        "the spindle axis. Elsewhere: inertia_kg_m2, or length_mm for an estimate. Without any of them the machine is "
-        "a point mass: an imbalance found from a level is uncertain by a factor of 2 to 3.",
-        examples=[0.10],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(0.0005, 20),
+    transverse_inertia_kg_m2: float | None = entry(None, gt=0, le=1e6, usual=(0.0005, 20), example=0.10).means(
+        "Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, grinders "
+        "0.02 … 0.3. With center_of_mass_to_wheel_mm the machine is a rigid body whose centre of mass lies on the "
+        "spindle axis. Elsewhere: inertia_kg_m2, or length_mm for an estimate. Without any of them the machine is a "
+        "point mass: an imbalance found from a level is uncertain by a factor of 2 to 3."
     )
-    center_of_mass_to_wheel_mm: float | None = Field(
-        default=None,
-        description="Distance from the centre of mass to the wheel plane along the spindle [mm]; {range}, grinders "
-        "100 … 300. Goes with transverse_inertia_kg_m2.",
-        examples=[200.0],
-        ge=0,
-        le=10_000,
-        json_schema_extra=usual(25, 1000),
+    center_of_mass_to_wheel_mm: float | None = entry(None, ge=0, le=10_000, usual=(25, 1000), example=200.0).means(
+        "Distance from the centre of mass to the wheel plane along the spindle [mm]; {range}, grinders 100 … 300. Goes "
+        "with transverse_inertia_kg_m2."
     )
-    center_of_mass_from_wheel_mm: Position | None = Field(
-        default=None,
-        description="From the wheel's centre to the centre of mass, [x, y, z] [mm]; {range}. x runs from the body "
-        "toward the spindle, z along the spindle toward the wheel: an angle grinder has negative x and z. Wheel and "
-        "autobalancer are on. Goes with inertia_kg_m2, or with length_mm for an estimate.",
-        examples=[[-95.0, 0.0, -48.0]],
-        json_schema_extra=usual(1, 1000),
+    center_of_mass_from_wheel_mm: Position | None = entry(None, usual=(1, 1000), example=[-95.0, 0.0, -48.0]).means(
+        "From the wheel's centre to the centre of mass, [x, y, z] [mm]; {range}. x runs from the body toward the "
+        "spindle, z along the spindle toward the wheel: an angle grinder has negative x and z. Wheel and autobalancer "
+        "are on. Goes with inertia_kg_m2, or with length_mm for an estimate."
     )
-    inertia_kg_m2: Annotated[tuple[Moment, ...], Field(strict=False, min_length=3, max_length=3)] | None = Field(
-        default=None,
-        description="Moments of inertia about x, y, z through the centre of mass, of the machine as used [kg·m²]; "
-        "{range}, grinders 0.004 … 0.3. The third holds the mass of what spins, not its spin. Goes with "
-        "center_of_mass_from_wheel_mm. Without inertia, length_mm and height_mm give an estimate.",
-        examples=[[0.004, 0.02, 0.019]],
-        json_schema_extra=usual(0.0001, 20),
+    inertia_kg_m2: Annotated[tuple[Moment, ...], Field(strict=False, min_length=3, max_length=3)] | None = entry(
+        None, usual=(0.0001, 20), example=[0.004, 0.02, 0.019]
+    ).means(
+        "Moments of inertia about x, y, z through the centre of mass, of the machine as used [kg·m²]; {range}, "
+        "grinders 0.004 … 0.3. The third holds the mass of what spins, not its spin. Goes with "
+        "center_of_mass_from_wheel_mm. Without inertia, length_mm and height_mm give an estimate."
     )
-    inertia_xz_kg_m2: float | None = Field(
-        default=None,
-        description="Product of inertia J_xz = −∫xz dm [kg·m²]; {range}. Goes with inertia_kg_m2; default: 0.",
-        examples=[-0.0015],
-        ge=-1e6,
-        le=1e6,
-        json_schema_extra=usual(1e-5, 20),
+    inertia_xz_kg_m2: float | None = entry(None, ge=-1e6, le=1e6, usual=(1e-5, 20), example=-0.0015).means(
+        "Product of inertia J_xz = −∫xz dm [kg·m²]; {range}. Goes with inertia_kg_m2; default: 0."
     )
-    rotor_polar_inertia_kg_m2: float | None = Field(
-        default=None,
-        description="Polar moment of inertia of what spins with the spindle: wheel, flange, spindle [kg·m²]; {range}. "
-        "Default: 0 with inertia_kg_m2, that of the wheel as a disk in an estimate.",
-        examples=[0.0004],
-        ge=0,
-        le=1e5,
-        json_schema_extra=usual(1e-6, 1),
+    rotor_polar_inertia_kg_m2: float | None = entry(None, ge=0, le=1e5, usual=(1e-6, 1), example=0.0004).means(
+        "Polar moment of inertia of what spins with the spindle: wheel, flange, spindle [kg·m²]; {range}. Default: 0 "
+        "with inertia_kg_m2, that of the wheel as a disk in an estimate."
     )
-    length_mm: float | None = Field(
-        default=None,
-        description="Length for an estimate of the inertia [mm]; {range}. Layout straight: from the wheel plane to the "
-        "rear end. Layout angle: from the spindle axis to the rear end.",
-        examples=[450.0],
-        gt=0,
-        le=10_000,
-        json_schema_extra=usual(100, 1500),
+    length_mm: float | None = entry(None, gt=0, le=10_000, usual=(100, 1500), example=450.0).means(
+        "Length for an estimate of the inertia [mm]; {range}. Layout straight: from the wheel plane to the rear end. "
+        "Layout angle: from the spindle axis to the rear end."
     )
-    height_mm: float | None = Field(
-        default=None,
-        description="Height for an estimate of the inertia [mm]; {range}. Layout face: from the wheel plane to the "
-        "top. Layout angle: from the body's axis to the wheel plane; without it 0.22 of the length is assumed.",
-        examples=[60.0],
-        gt=0,
-        le=10_000,
-        json_schema_extra=usual(20, 1000),
+    height_mm: float | None = entry(None, gt=0, le=10_000, usual=(20, 1000), example=60.0).means(
+        "Height for an estimate of the inertia [mm]; {range}. Layout face: from the wheel plane to the top. Layout "
+        "angle: from the body's axis to the wheel plane; without it 0.22 of the length is assumed."
     )
-    power_W: float | None = Field(
-        default=None,
-        description="Power of the motor [W]; {range}. When given, the cutting power f·N·v is checked against it.",
-        examples=[1000.0],
-        gt=0,
-        le=1e7,
-        json_schema_extra=usual(30, 30_000),
+    power_W: float | None = entry(None, gt=0, le=1e7, usual=(30, 30_000), example=1000.0).means(
+        "Power of the motor [W]; {range}. When given, the cutting power f·N·v is checked against it."
     )
-    background_level_db: float | None = Field(
-        default=None,
-        description="Velocity level with a balanced wheel [dB re 5e-8 m/s]; {range}. When given, it is added as "
-        "energy to every level.",
-        examples=[98.0],
-        ge=0,
-        le=200,
-        json_schema_extra=usual(60, 130),
+    background_level_db: float | None = entry(None, ge=0, le=200, usual=(60, 130), example=98.0).means(
+        "Velocity level with a balanced wheel [dB re 5e-8 m/s]; {range}. When given, it is added as energy to every "
+        "level."
     )
-    handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=MOST_HANDLES)] = Field(
-        default=(), description="Places where levels are wanted: [[machine.handle]], up to 100."
+    handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=MOST_HANDLES)] = entry(()).means(
+        "Places where levels are wanted: [[machine.handle]], up to 100."
     )
 
     @property
@@ -319,11 +256,9 @@ class Suspension(Table):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"natural_frequencies_hz", "damping_ratios"})
 
-    model: Literal["springs", "hands"] = Field(
-        description="springs (natural frequencies and damping ratios) or hands (two hands by ISO 10068; no numbers). "
-        "At 5800 rpm springs "
-        "of 2.5 Hz with damping ratio 0.5 stand for hands; at 1750 rpm the hands themselves matter.",
-        examples=["springs"],
+    model: Literal["springs", "hands"] = entry(example="springs").means(
+        "springs (natural frequencies and damping ratios) or hands (two hands by ISO 10068; no numbers). At 5800 rpm "
+        "springs of 2.5 Hz with damping ratio 0.5 stand for hands; at 1750 rpm the hands themselves matter."
     )
     natural_frequencies_hz: (
         Annotated[
@@ -335,12 +270,9 @@ class Suspension(Table):
             ),
         ]
         | None
-    ) = Field(
-        default=None,
-        description="For springs: natural frequency, one number, or two along x (along the work) and y (normal to "
-        "it) [Hz], {range}; of the machine as used, wheel on, idle, without autobalancer.",
-        examples=[[2.5, 2.5]],
-        json_schema_extra=usual(0.2, 300),
+    ) = entry(None, usual=(0.2, 300), example=[2.5, 2.5]).means(
+        "For springs: natural frequency, one number, or two along x (along the work) and y (normal to it) [Hz], "
+        "{range}; of the machine as used, wheel on, idle, without autobalancer."
     )
     damping_ratios: (
         Annotated[
@@ -353,11 +285,8 @@ class Suspension(Table):
             ),
         ]
         | None
-    ) = Field(
-        default=None,
-        description="For springs: damping ratio, one number, or two along x and y; {range}, hands 0.25 … 0.9.",
-        examples=[[0.5, 0.5]],
-        json_schema_extra=usual(0.001, 2),
+    ) = entry(None, usual=(0.001, 2), example=[0.5, 0.5]).means(
+        "For springs: damping ratio, one number, or two along x and y; {range}, hands 0.25 … 0.9."
     )
 
     @property

@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from abu_calc.inputs.reading.table import Table, problem, usual, whole
+from abu_calc.inputs.reading.table import Table, entry, problem, whole
 
 STIFFNESS: Final = "contact_stiffness_N_per_m"
 JOINT: Final = ("arm_length_mm", "moment_of_inertia_kg_m2", "joint_stiffness_N_per_m", "joint_damping_N_s_per_m")
@@ -18,40 +18,23 @@ class Grinding(Table):
 
     example_defaults: ClassVar[frozenset[str]] = frozenset({STIFFNESS})
 
-    press_force_N: float = Field(
-        default=45.0,
-        description="Normal force between wheel and work, weight included [N]; {range}, by hand 30 … 60. Default: "
-        "{default}, the upper feed force of ISO 28927-4.",
-        gt=0,
-        le=1e5,
-        json_schema_extra=usual(5, 500),
+    press_force_N: float = entry(45.0, gt=0, le=1e5, usual=(5, 500)).means(
+        "Normal force between wheel and work, weight included [N]; {range}, by hand 30 … 60. Default: {default}, the "
+        "upper feed force of ISO 28927-4."
     )
-    cutting_coefficient: float = Field(
-        default=0.35,
-        description="Cutting force over normal force, f = T/N; {range}, by practice 0.3 … 0.5. Default: {default}, "
-        "assumed.",
-        ge=0,
-        le=1.5,
-        json_schema_extra=usual(0.1, 1),
+    cutting_coefficient: float = entry(0.35, ge=0, le=1.5, usual=(0.1, 1)).means(
+        "Cutting force over normal force, f = T/N; {range}, by practice 0.3 … 0.5. Default: {default}, assumed."
     )
-    contact: Literal["compliant", "rigid", "face"] = Field(
-        default="compliant",
-        description="Contact of wheel and work: compliant (a spring), rigid (never parts) or face (runout does not "
-        "press). Default: {default}.",
+    contact: Literal["compliant", "rigid", "face"] = entry("compliant").means(
+        "Contact of wheel and work: compliant (a spring), rigid (never parts) or face (runout does not press). "
+        "Default: {default}."
     )
-    contact_stiffness_N_per_m: float = Field(
-        default=2e5,
-        description="Normal stiffness of a compliant contact [N/m]; {range}: cotton wheel or body panel 2e4 … 1e5, "
-        "resinoid disk edge 1e5 … 5e5, vitrified wheel on solid steel 1e6 … 1e7. Default: {default}, assumed, with a "
-        "warning.",
-        gt=0,
-        le=1e12,
-        json_schema_extra=usual(5e3, 5e7),
+    contact_stiffness_N_per_m: float = entry(2e5, gt=0, le=1e12, usual=(5e3, 5e7)).means(
+        "Normal stiffness of a compliant contact [N/m]; {range}: cotton wheel or body panel 2e4 … 1e5, resinoid disk "
+        "edge 1e5 … 5e5, vitrified wheel on solid steel 1e6 … 1e7. Default: {default}, assumed, with a warning."
     )
-    rotation_sense: Annotated[Literal[-1, 1], BeforeValidator(whole)] = Field(
-        default=-1,
-        description="-1: friction on the wheel opposes rotation, the work on the -y side; 1: the mirror case. "
-        "Default: {default}.",
+    rotation_sense: Annotated[Literal[-1, 1], BeforeValidator(whole)] = entry(-1).means(
+        "-1: friction on the wheel opposes rotation, the work on the -y side; 1: the mirror case. Default: {default}."
     )
 
     @classmethod
@@ -67,20 +50,17 @@ class Grinding(Table):
 class Start(Table):
     """Start of the balls: their places in the race when the machine is switched on."""
 
-    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-360, le=360)], ...], Field(strict=False)] = Field(
-        description="Angle of each ball from the wheel's imbalance [degrees]; as many as the design has balls, each "
-        "-360 … 360. Balls that would overlap are moved apart.",
-        examples=[[-30.0, 0.0, 30.0, 60.0]],
-        min_length=1,
-        max_length=200,
+    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-360, le=360)], ...], Field(strict=False)] = entry(
+        example=[-30.0, 0.0, 30.0, 60.0], min_length=1, max_length=200
+    ).means(
+        "Angle of each ball from the wheel's imbalance [degrees]; as many as the design has balls, each -360 … 360. "
+        "Balls that would overlap are moved apart."
     )
-    speeds_rpm: Annotated[tuple[Annotated[float, Field(ge=-1e6, le=1e6)], ...], Field(strict=False)] | None = Field(
-        default=None,
-        description="Speed of each ball at the start, against the race, at full speed [rpm]; as many as angles_deg, "
-        "each -1000000 … 1000000. Without it: at rest in the race.",
-        examples=[[0.0, 0.0, 0.0, 0.0]],
-        min_length=1,
-        max_length=200,
+    speeds_rpm: Annotated[tuple[Annotated[float, Field(ge=-1e6, le=1e6)], ...], Field(strict=False)] | None = entry(
+        None, example=[0.0, 0.0, 0.0, 0.0], min_length=1, max_length=200
+    ).means(
+        "Speed of each ball at the start, against the race, at full speed [rpm]; as many as angles_deg, each -1000000 "
+        "… 1000000. Without it: at rest in the race."
     )
 
     @model_validator(mode="after")
@@ -96,43 +76,21 @@ class Start(Table):
 class RunUp(Table):
     """Starting and stopping at a given pace."""
 
-    time_s: float = Field(
-        default=1.0,
-        description="Time from standstill to the rated speed [s]; {range}. A motor takes its own time. Default: "
-        "{default}, assumed.",
-        gt=0,
-        le=3600,
-        json_schema_extra=usual(0.05, 30),
+    time_s: float = entry(1.0, gt=0, le=3600, usual=(0.05, 30)).means(
+        "Time from standstill to the rated speed [s]; {range}. A motor takes its own time. Default: {default}, assumed."
     )
-    run_down_s: float = Field(
-        default=3.0,
-        description="Time from the rated speed to standstill [s]; {range}. Default: {default}, assumed.",
-        gt=0,
-        le=3600,
-        json_schema_extra=usual(0.1, 120),
+    run_down_s: float = entry(3.0, gt=0, le=3600, usual=(0.1, 120)).means(
+        "Time from the rated speed to standstill [s]; {range}. Default: {default}, assumed."
     )
-    pause_speed_rpm: float | None = Field(
-        default=None,
-        description="Speed at which the rotor pauses after its run-up, so that balls that hang come to rest [rpm]; "
-        "{range}, below machine.speed_range_rpm. It slows to it as in run_down_s. Default: no pause.",
-        examples=[1100.0],
-        ge=1,
-        le=300_000,
-        json_schema_extra=usual(100, 20_000),
+    pause_speed_rpm: float | None = entry(None, ge=1, le=300_000, usual=(100, 20_000), example=1100.0).means(
+        "Speed at which the rotor pauses after its run-up, so that balls that hang come to rest [rpm]; {range}, below "
+        "machine.speed_range_rpm. It slows to it as in run_down_s. Default: no pause."
     )
-    pause_s: float = Field(
-        default=2.0,
-        description="Length of the temporary speed reduction [s]; {range}. Default: {default}, assumed.",
-        gt=0,
-        le=3600,
-        json_schema_extra=usual(0.1, 60),
+    pause_s: float = entry(2.0, gt=0, le=3600, usual=(0.1, 60)).means(
+        "Length of the temporary speed reduction [s]; {range}. Default: {default}, assumed."
     )
-    pause_rise_s: float = Field(
-        default=0.5,
-        description="Time in which it then rises to the rated speed [s]; {range}. Default: {default}, assumed.",
-        gt=0,
-        le=3600,
-        json_schema_extra=usual(0.05, 30),
+    pause_rise_s: float = entry(0.5, gt=0, le=3600, usual=(0.05, 30)).means(
+        "Time in which it then rises to the rated speed [s]; {range}. Default: {default}, assumed."
     )
 
     def unused(self) -> frozenset[str]:
@@ -149,29 +107,15 @@ class Motor(Table):
         {"stall_torque_N_m", "no_load_speed_rpm", "rotor_inertia_kg_m2"}
     )
 
-    stall_torque_N_m: float = Field(
-        default=3.0,
-        description="Torque at standstill, at the spindle [N·m]; {range}. Default: {default}, an example.",
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(0.05, 100),
+    stall_torque_N_m: float = entry(3.0, gt=0, le=1e6, usual=(0.05, 100)).means(
+        "Torque at standstill, at the spindle [N·m]; {range}. Default: {default}, an example."
     )
-    no_load_speed_rpm: float = Field(
-        default=6000.0,
-        description="Speed of the spindle at which the torque is zero [rpm]; {range}, not below machine.speed_rpm. "
-        "Levels, stresses and stability are judged at the idle speed that follows from it, too. Default: {default}, "
-        "an example.",
-        ge=1,
-        le=300_000,
-        json_schema_extra=usual(700, 80_000),
+    no_load_speed_rpm: float = entry(6000.0, ge=1, le=300_000, usual=(700, 80_000)).means(
+        "Speed of the spindle at which the torque is zero [rpm]; {range}, not below machine.speed_rpm. Levels, "
+        "stresses and stability are judged at the idle speed that follows from it, too. Default: {default}, an example."
     )
-    rotor_inertia_kg_m2: float = Field(
-        default=2e-3,
-        description="Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. Default: "
-        "{default}, an example.",
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(1e-06, 2),
+    rotor_inertia_kg_m2: float = entry(2e-3, gt=0, le=1e6, usual=(1e-06, 2)).means(
+        "Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. Default: {default}, an example."
     )
 
 
@@ -180,68 +124,31 @@ class SwingArm(Table):
 
     example_defaults: ClassVar[frozenset[str]] = frozenset({*JOINT, *GRIP})
 
-    arm_length_mm: float = Field(
-        default=350.0,
-        description="From the arm's axis to the wheel's axis [mm]; {range}. Default: {default}, an example.",
-        ge=1,
-        le=1e5,
-        json_schema_extra=usual(50, 3000),
+    arm_length_mm: float = entry(350.0, ge=1, le=1e5, usual=(50, 3000)).means(
+        "From the arm's axis to the wheel's axis [mm]; {range}. Default: {default}, an example."
     )
-    moment_of_inertia_kg_m2: float = Field(
-        default=0.62,
-        description="Moment of inertia of arm and machine about the arm's axis, without autobalancer [kg·m²]; "
-        "{range}. Default: {default}, an example.",
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(0.001, 200),
+    moment_of_inertia_kg_m2: float = entry(0.62, gt=0, le=1e6, usual=(0.001, 200)).means(
+        "Moment of inertia of arm and machine about the arm's axis, without autobalancer [kg·m²]; {range}. Default: "
+        "{default}, an example."
     )
-    joint_stiffness_N_per_m: float = Field(
-        default=2000.0,
-        description="Stiffness of the joint reduced to the arm length [N/m]; {range}. Default: {default}, an example.",
-        ge=0,
-        le=1e12,
-        json_schema_extra=usual(5, 1000000.0),
+    joint_stiffness_N_per_m: float = entry(2000.0, ge=0, le=1e12, usual=(5, 1000000.0)).means(
+        "Stiffness of the joint reduced to the arm length [N/m]; {range}. Default: {default}, an example."
     )
-    joint_damping_N_s_per_m: float = Field(
-        default=40.0,
-        description="Damping of the joint reduced to the arm length [N·s/m]; {range}. Default: {default}, an example.",
-        ge=0,
-        le=1e9,
-        json_schema_extra=usual(0.01, 10000.0),
+    joint_damping_N_s_per_m: float = entry(40.0, ge=0, le=1e9, usual=(0.01, 10000.0)).means(
+        "Damping of the joint reduced to the arm length [N·s/m]; {range}. Default: {default}, an example."
     )
-    contact_stiffness_N_per_m: float = Field(
-        default=1e6,
-        description="Normal stiffness of the work [N/m]; {range}. Default: {default}, an example.",
-        ge=0,
-        le=1e12,
-        json_schema_extra=usual(5e3, 5e7),
+    contact_stiffness_N_per_m: float = entry(1e6, ge=0, le=1e12, usual=(5e3, 5e7)).means(
+        "Normal stiffness of the work [N/m]; {range}. Default: {default}, an example."
     )
-    cutting_coefficient: float = Field(
-        default=0.45,
-        description="Cutting force over normal force, f = T/N; {range}. Default: {default}, an example.",
-        ge=0,
-        le=1.5,
-        json_schema_extra=usual(0.1, 1),
+    cutting_coefficient: float = entry(0.45, ge=0, le=1.5, usual=(0.1, 1)).means(
+        "Cutting force over normal force, f = T/N; {range}. Default: {default}, an example."
     )
-    contact_angle_deg: float = Field(
-        default=90.0,
-        description="Angle between the arm and the contact radius [degrees]; {range}. Default: {default}, an example.",
-        ge=0,
-        le=180,
-        json_schema_extra=usual(10, 180),
+    contact_angle_deg: float = entry(90.0, ge=0, le=180, usual=(10, 180)).means(
+        "Angle between the arm and the contact radius [degrees]; {range}. Default: {default}, an example."
     )
-    touch_angle_deg: float = Field(
-        default=2.0,
-        description="Angle of the arm at which the disk touches the work [degrees]; {range}. Default: {default}, an "
-        "example.",
-        ge=-90,
-        le=90,
-        json_schema_extra=usual(0.1, 60),
+    touch_angle_deg: float = entry(2.0, ge=-90, le=90, usual=(0.1, 60)).means(
+        "Angle of the arm at which the disk touches the work [degrees]; {range}. Default: {default}, an example."
     )
-    pressing_moment_N_m: float = Field(
-        default=20.0,
-        description="Torque that presses the disk to the work [N·m]; {range}. Default: {default}, an example.",
-        ge=0,
-        le=1e6,
-        json_schema_extra=usual(0.2, 1000),
+    pressing_moment_N_m: float = entry(20.0, ge=0, le=1e6, usual=(0.2, 1000)).means(
+        "Torque that presses the disk to the work [N·m]; {range}. Default: {default}, an example."
     )

@@ -5,7 +5,7 @@ from typing import Annotated, Final, Self
 
 from pydantic import Field, model_validator
 
-from abu_calc.inputs.reading.table import Table, problem, usual
+from abu_calc.inputs.reading.table import Table, entry, problem
 
 Interval = Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)]
 
@@ -20,28 +20,17 @@ NAMES: Final = {
 class Identified(Table):
     """Intervals of 95 % of entries of [autobalancer], as `abu identify` writes them."""
 
-    starts: int | None = Field(
-        default=None,
-        description="Recorded starts behind the values; {range}.",
-        examples=[10],
-        ge=1,
-        le=10_000,
-        json_schema_extra=usual(8, 1000),
+    starts: int | None = entry(None, ge=1, le=10_000, usual=(8, 1000), example=10).means(
+        "Recorded starts behind the values; {range}."
     )
-    rolling_drag_per_s: Interval | None = Field(
-        default=None,
-        description="Interval of autobalancer.rolling_drag_per_s [1/s]: [low, high].",
-        examples=[[11.0, 14.0]],
+    rolling_drag_per_s: Interval | None = entry(None, example=[11.0, 14.0]).means(
+        "Interval of autobalancer.rolling_drag_per_s [1/s]: [low, high]."
     )
-    rolling_friction_mm: Interval | None = Field(
-        default=None,
-        description="Interval of autobalancer.rolling_friction_mm [mm]: [low, high].",
-        examples=[[0.001, 0.003]],
+    rolling_friction_mm: Interval | None = entry(None, example=[0.001, 0.003]).means(
+        "Interval of autobalancer.rolling_friction_mm [mm]: [low, high]."
     )
-    race_eccentricity_mm: Interval | None = Field(
-        default=None,
-        description="Interval of autobalancer.race_eccentricity_mm [mm]: [low, high].",
-        examples=[[0.008, 0.012]],
+    race_eccentricity_mm: Interval | None = entry(None, example=[0.008, 0.012]).means(
+        "Interval of autobalancer.race_eccentricity_mm [mm]: [low, high]."
     )
 
     def intervals(self) -> dict[str, tuple[float, float]]:

@@ -26,7 +26,7 @@ from abu_calc.inputs.identified import Identified
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.optimisation import COSTS, Costs, Optimise, own_cost
-from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
+from abu_calc.inputs.reading.table import Table, Usual, entry, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 from abu_calc.inputs.type_test import TypeTest
@@ -114,11 +114,11 @@ class MachineFile(Table):
     start: Start | None = None
     motor: Motor | None = None
     swing_arm: SwingArm | None = None
-    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
-        default=(), description="Bearings and their seats: [[bearing]], up to 100."
+    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = entry(()).means(
+        "Bearings and their seats: [[bearing]], up to 100."
     )
-    measured: Annotated[tuple[MeasuredOctave, ...], Field(strict=False, max_length=MOST_MEASURED)] = Field(
-        default=(), description="Levels measured by octaves, for `abu factory`: [[measured]], up to 200."
+    measured: Annotated[tuple[MeasuredOctave, ...], Field(strict=False, max_length=MOST_MEASURED)] = entry(()).means(
+        "Levels measured by octaves, for `abu factory`: [[measured]], up to 200."
     )
     limits: Limits = Field(default_factory=Limits)
     type_test: TypeTest | None = None

@@ -5,7 +5,7 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, entry, problem
 from abu_calc.standards.vibration import octaves
 
 MOST_MEASURED: Final = 200
@@ -21,53 +21,32 @@ _Changes = Annotated[tuple[_Change, ...], _PAIR] | None
 class MeasuredOctave(Table):
     """A level measured in one octave at one place along one axis. `abu factory` compares it with the prediction."""
 
-    place: Name = Field(
-        description="Place of the sensor: the name of a [[machine.handle]], or the place in words.",
-        examples=["handle"],
-        min_length=1,
+    place: Name = entry(example="handle", min_length=1).means(
+        "Place of the sensor: the name of a [[machine.handle]], or the place in words."
     )
-    axis: Literal["x", "y", "z"] = Field(
-        description="Axis of the sensor: x along the work, y normal to it, z along the spindle.", examples=["y"]
+    axis: Literal["x", "y", "z"] = entry(example="y").means(
+        "Axis of the sensor: x along the work, y normal to it, z along the spindle."
     )
-    state: Literal["idle", "loaded", "not said"] = Field(
-        description='State of the machine: idle, loaded, or "not said" if the source does not give it.',
-        examples=["idle"],
+    state: Literal["idle", "loaded", "not said"] = entry(example="idle").means(
+        'State of the machine: idle, loaded, or "not said" if the source does not give it.'
     )
-    octave_hz: float = Field(
-        description="Nominal centre of the octave [Hz]: 8, 16, 31.5, 63, 125, 250, 500 or 1000, {usual}.",
-        examples=[125.0],
-        gt=0,
-        le=1000,
-        json_schema_extra=usual(16, 500),
+    octave_hz: float = entry(gt=0, le=1000, usual=(16, 500), example=125.0).means(
+        "Nominal centre of the octave [Hz]: 8, 16, 31.5, 63, 125, 250, 500 or 1000, {usual}."
     )
-    level_db: _Levels = Field(
-        default=None,
-        description="Lowest and highest velocity level with the autobalancer [dB re 5e-8 m/s]; {range}.",
-        examples=[[102.0, 103.0]],
-        json_schema_extra=usual(60, 140),
+    level_db: _Levels = entry(None, usual=(60, 140), example=[102.0, 103.0]).means(
+        "Lowest and highest velocity level with the autobalancer [dB re 5e-8 m/s]; {range}."
     )
-    level_without_db: _Levels = Field(
-        default=None,
-        description="Lowest and highest velocity level without the autobalancer [dB re 5e-8 m/s]; {range}.",
-        examples=[[108.0, 111.0]],
-        json_schema_extra=usual(60, 140),
+    level_without_db: _Levels = entry(None, usual=(60, 140), example=[108.0, 111.0]).means(
+        "Lowest and highest velocity level without the autobalancer [dB re 5e-8 m/s]; {range}."
     )
-    lowered_db: _Changes = Field(
-        default=None,
-        description="Least and most by which the autobalancer lowers the level [dB]; {range}; below zero: it rises.",
-        examples=[[6.0, 10.0]],
-        json_schema_extra=usual(0.5, 40),
+    lowered_db: _Changes = entry(None, usual=(0.5, 40), example=[6.0, 10.0]).means(
+        "Least and most by which the autobalancer lowers the level [dB]; {range}; below zero: it rises."
     )
-    source: Name = Field(
-        description="Source of the measurement: author and year, standard, or own measurement with its date.",
-        examples=["own measurement"],
-        min_length=1,
+    source: Name = entry(example="own measurement", min_length=1).means(
+        "Source of the measurement: author and year, standard, or own measurement with its date."
     )
-    remark: Name | None = Field(
-        default=None,
-        description="Remark on the measurement, printed below the table.",
-        examples=["The operator changed."],
-        min_length=1,
+    remark: Name | None = entry(None, example="The operator changed.", min_length=1).means(
+        "Remark on the measurement, printed below the table."
     )
 
     @property

@@ -2,9 +2,9 @@
 
 from typing import Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from abu_calc.inputs.reading.table import Table, problem, usual
+from abu_calc.inputs.reading.table import Table, entry, problem
 
 Grade = Literal[
     "VG 10", "VG 15", "VG 22", "VG 32", "VG 46", "VG 68", "VG 100", "VG 150", "VG 220", "VG 320", "VG 460", "VG 680"
@@ -14,79 +14,38 @@ Grade = Literal[
 class Oil(Table):
     """Oil in the race. It gives the viscous drag rate, unless rolling_drag_per_s is given."""
 
-    grade: Grade | None = Field(
-        default=None,
-        description="ISO viscosity grade (ISO 3448), the kinematic viscosity at 40 °C: VG 10 … VG 680. Or give "
-        "viscosity_mm2_per_s.",
-        examples=["VG 46"],
+    grade: Grade | None = entry(None, example="VG 46").means(
+        "ISO viscosity grade (ISO 3448), the kinematic viscosity at 40 °C: VG 10 … VG 680. Or give viscosity_mm2_per_s."
     )
-    viscosity_mm2_per_s: float | None = Field(
-        default=None,
-        description="Kinematic viscosity at 40 °C of the data sheet [mm²/s]; {range}. Or give grade.",
-        examples=[46.0],
-        ge=5,
-        le=2000,
-        json_schema_extra=usual(5, 1000),
+    viscosity_mm2_per_s: float | None = entry(None, ge=5, le=2000, usual=(5, 1000), example=46.0).means(
+        "Kinematic viscosity at 40 °C of the data sheet [mm²/s]; {range}. Or give grade."
     )
-    viscosity_100C_mm2_per_s: float | None = Field(
-        default=None,
-        description="Kinematic viscosity at 100 °C of the data sheet [mm²/s]; {range}. Without it: by viscosity_index.",
-        examples=[6.7],
-        ge=2,
-        le=500,
-        json_schema_extra=usual(2, 100),
+    viscosity_100C_mm2_per_s: float | None = entry(None, ge=2, le=500, usual=(2, 100), example=6.7).means(
+        "Kinematic viscosity at 100 °C of the data sheet [mm²/s]; {range}. Without it: by viscosity_index."
     )
-    viscosity_index: float = Field(
-        default=95.0,
-        description="Viscosity index (ISO 2909); {range}, mineral oils 90 … 105, synthetic ones up to 160. Default: "
-        "{default}, assumed.",
-        ge=0,
-        le=250,
-        json_schema_extra=usual(50, 200),
+    viscosity_index: float = entry(95.0, ge=0, le=250, usual=(50, 200)).means(
+        "Viscosity index (ISO 2909); {range}, mineral oils 90 … 105, synthetic ones up to 160. Default: {default}, "
+        "assumed."
     )
-    density_g_per_cm3: float = Field(
-        default=0.87,
-        description="Density [g/cm³]; {range}. Default: {default}, assumed.",
-        ge=0.6,
-        le=1.5,
-        json_schema_extra=usual(0.8, 1.1),
+    density_g_per_cm3: float = entry(0.87, ge=0.6, le=1.5, usual=(0.8, 1.1)).means(
+        "Density [g/cm³]; {range}. Default: {default}, assumed."
     )
-    temperature_C: float = Field(
-        default=40.0,
-        description="Temperature of the oil at work [°C]; {range}. Default: {default}, assumed.",
-        ge=-20,
-        le=120,
-        json_schema_extra=usual(15, 90),
+    temperature_C: float = entry(40.0, ge=-20, le=120, usual=(15, 90)).means(
+        "Temperature of the oil at work [°C]; {range}. Default: {default}, assumed."
     )
-    cold_temperature_C: float = Field(
-        default=5.0,
-        description="Temperature of cold oil, at the first start of a day [°C]; {range}, not above temperature_C. "
-        "Default: {default}, assumed.",
-        ge=-20,
-        le=120,
+    cold_temperature_C: float = entry(5.0, ge=-20, le=120).means(
+        "Temperature of cold oil, at the first start of a day [°C]; {range}, not above temperature_C. Default: "
+        "{default}, assumed."
     )
-    hot_temperature_C: float = Field(
-        default=80.0,
-        description="Temperature of hot oil, after long work [°C]; {range}, not below temperature_C. Default: "
-        "{default}, assumed.",
-        ge=-20,
-        le=120,
-        json_schema_extra=usual(40, 110),
+    hot_temperature_C: float = entry(80.0, ge=-20, le=120, usual=(40, 110)).means(
+        "Temperature of hot oil, after long work [°C]; {range}, not below temperature_C. Default: {default}, assumed."
     )
-    fill_ml: float = Field(
-        description="Oil in the race [ml]; {range}, hand grinders 0.5 … 5.",
-        examples=[2.0],
-        gt=0,
-        le=1e5,
-        json_schema_extra=usual(0.1, 200),
+    fill_ml: float = entry(gt=0, le=1e5, usual=(0.1, 200), example=2.0).means(
+        "Oil in the race [ml]; {range}, hand grinders 0.5 … 5."
     )
-    slip_m_per_s: float = Field(
-        default=0.5,
-        description="Speed of a ball along the race for which the drag rate is taken [m/s]; {range}. The drag grows "
-        "faster than the speed. Default: {default}, assumed: between 0.02 at rest and 14 for balls at standstill.",
-        ge=0.001,
-        le=50,
-        json_schema_extra=usual(0.01, 20),
+    slip_m_per_s: float = entry(0.5, ge=0.001, le=50, usual=(0.01, 20)).means(
+        "Speed of a ball along the race for which the drag rate is taken [m/s]; {range}. The drag grows faster than "
+        "the speed. Default: {default}, assumed: between 0.02 at rest and 14 for balls at standstill."
     )
 
     def unused(self) -> frozenset[str]:

@@ -8,7 +8,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.inputs.reading.plain import found_as, plain_number
 from abu_calc.inputs.reading.suggestions import nearest
-from abu_calc.inputs.reading.table import Table, all_tables, problem
+from abu_calc.inputs.reading.table import Table, all_tables, entry, problem
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.values_with_units import canonical_path, convert_entry
 from abu_calc.inputs.variation import Vary, path_of
@@ -23,26 +23,17 @@ MOST_COST: Final = 1e9
 class Optimise(Table):
     """The cheapest design of a series, for `abu optimise`: values to choose from, and the wanted share."""
 
-    choose: Vary | None = Field(
-        default=None,
-        description="Values to choose from. Each is KEY=choice(A, B, …); KEY is one of this file. Or a table by key. "
-        "Without it `abu optimise` takes balls, race, eccentricity, friction and viscous drag rate.",
-        examples=[["autobalancer.race_eccentricity_mm=choice(0.005, 0.010, 0.020)"]],
+    choose: Vary | None = entry(None, example=["autobalancer.race_eccentricity_mm=choice(0.005, 0.010, 0.020)"]).means(
+        "Values to choose from. Each is KEY=choice(A, B, …); KEY is one of this file. Or a table by key. Without it "
+        "`abu optimise` takes balls, race, eccentricity, friction and viscous drag rate."
     )
-    share: float = Field(
-        default=0.95,
-        description="Share of machines built that must meet the limits; {range}. Default: {default}.",
-        ge=0.5,
-        le=0.9999,
+    share: float = entry(0.95, ge=0.5, le=0.9999).means(
+        "Share of machines built that must meet the limits; {range}. Default: {default}."
     )
-    share_parts: Annotated[tuple[Part, ...], Field(strict=False)] | None = Field(
-        default=None,
-        description="Parts that several machines share: balls, race, housing, oil. Default: balls and race.",
-        examples=[["balls", "race"]],
+    share_parts: Annotated[tuple[Part, ...], Field(strict=False)] | None = entry(None, example=["balls", "race"]).means(
+        "Parts that several machines share: balls, race, housing, oil. Default: balls and race."
     )
-    seed: int = Field(
-        default=0, description="Seed of the random numbers; {range}. Default: {default}.", ge=0, le=2**31 - 2
-    )
+    seed: int = entry(0, ge=0, le=2**31 - 2).means("Seed of the random numbers; {range}. Default: {default}.")
 
 
 def _flat(costs: object) -> object:

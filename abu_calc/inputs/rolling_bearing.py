@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, entry, problem
 from abu_calc.standards.tolerance_classes import RingLoad
 
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
@@ -23,128 +23,67 @@ def _class_as_iso_has_it(value: object) -> object:
 class RollingBearing(Table):
     """A rolling bearing by its designation or its sizes, with its load."""
 
-    name: Name = Field(
-        default="bearing",
-        description="Name of the bearing, as reports print it. Default: {default}.",
-        examples=["spindle, drive end"],
-        min_length=1,
+    name: Name = entry("bearing", example="spindle, drive end", min_length=1).means(
+        "Name of the bearing, as reports print it. Default: {default}."
     )
-    designation: Name | None = Field(
-        default=None,
-        description="Designation whose sizes, type, series and load ratings are looked up, in quotes; seals and the "
-        "like may follow (6203-2RS), C3 and P5 count. GOST's class may stand before it (6-205). Or give bore_mm, "
-        "outer_mm and width_mm.",
-        examples=["6203"],
-        min_length=1,
+    designation: Name | None = entry(None, example="6203", min_length=1).means(
+        "Designation whose sizes, type, series and load ratings are looked up, in quotes; seals and the like may "
+        "follow (6203-2RS), C3 and P5 count. GOST's class may stand before it (6-205). Or give bore_mm, outer_mm and "
+        "width_mm."
     )
-    bearing_type: BearingKind | None = Field(
-        default=None,
-        description="Type of a bearing given by its sizes: ball (deep groove), angular-contact, cylindrical, tapered, "
-        "spherical, needle (machined rings) or drawn-cup. Decides the makers' fits, the tables of its rings and "
-        "clearance, and the catalogue's bearing of these sizes.",
-        examples=["ball"],
+    bearing_type: BearingKind | None = entry(None, example="ball").means(
+        "Type of a bearing given by its sizes: ball (deep groove), angular-contact, cylindrical, tapered, spherical, "
+        "needle (machined rings) or drawn-cup. Decides the makers' fits, the tables of its rings and clearance, and "
+        "the catalogue's bearing of these sizes."
     )
-    bore_mm: float | None = Field(
-        default=None,
-        description="Bore of the bearing [mm]; {range}.",
-        examples=[17.0],
-        gt=0,
-        le=5000,
-        json_schema_extra=usual(3, 500),
+    bore_mm: float | None = entry(None, gt=0, le=5000, usual=(3, 500), example=17.0).means(
+        "Bore of the bearing [mm]; {range}."
     )
-    outer_mm: float | None = Field(
-        default=None,
-        description="Outer diameter of the bearing [mm]; above bore_mm, up to {most}, {usual}.",
-        examples=[40.0],
-        gt=0,
-        le=8000,
-        json_schema_extra=usual(8, 800),
+    outer_mm: float | None = entry(None, gt=0, le=8000, usual=(8, 800), example=40.0).means(
+        "Outer diameter of the bearing [mm]; above bore_mm, up to {most}, {usual}."
     )
-    width_mm: float | None = Field(
-        default=None,
-        description="Width of the ring [mm]; {range}.",
-        examples=[12.0],
-        gt=0,
-        le=2000,
-        json_schema_extra=usual(2, 300),
+    width_mm: float | None = entry(None, gt=0, le=2000, usual=(2, 300), example=12.0).means(
+        "Width of the ring [mm]; {range}."
     )
-    chamfer_mm: float | None = Field(
-        default=None,
-        description="Chamfer of one edge; the seat is as long as the width less two of them [mm]; {range}.",
-        examples=[0.6],
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.1, 10),
+    chamfer_mm: float | None = entry(None, ge=0, le=100, usual=(0.1, 10), example=0.6).means(
+        "Chamfer of one edge; the seat is as long as the width less two of them [mm]; {range}."
     )
-    radial_load_kN: float | None = Field(
-        default=None,
-        description="Radial load [kN]; {range}. Without it whether a ring creeps is not known.",
-        examples=[0.8],
-        ge=0,
-        le=1e5,
-        json_schema_extra=usual(0.01, 300),
+    radial_load_kN: float | None = entry(None, ge=0, le=1e5, usual=(0.01, 300), example=0.8).means(
+        "Radial load [kN]; {range}. Without it whether a ring creeps is not known."
     )
-    axial_load_kN: float | None = Field(
-        default=None,
-        description="Axial load [kN]; {range}. With the radial load it gives the equivalent loads. Without it they are "
-        "those of the radial load alone, and the check of the axial load is not evaluated.",
-        examples=[0.2],
-        ge=0,
-        le=1e5,
-        json_schema_extra=usual(0.01, 300),
+    axial_load_kN: float | None = entry(None, ge=0, le=1e5, usual=(0.01, 300), example=0.2).means(
+        "Axial load [kN]; {range}. With the radial load it gives the equivalent loads. Without it they are those of "
+        "the radial load alone, and the check of the axial load is not evaluated."
     )
-    load_kind: Literal["moderate", "shock"] | None = Field(
-        default=None,
-        description="Kind of the load for the load intensity (GOST 3325): moderate (overload to 150 %) or shock "
-        "(shocks and vibration, to 300 %). Default: shock.",
-        examples=["moderate"],
+    load_kind: Literal["moderate", "shock"] | None = entry(None, example="moderate").means(
+        "Kind of the load for the load intensity (GOST 3325): moderate (overload to 150 %) or shock (shocks and "
+        "vibration, to 300 %). Default: shock."
     )
-    dynamic_load_rating_kN: float | None = Field(
-        default=None,
-        description="Basic dynamic load rating C [kN]; {range}. Default: that of the designation.",
-        examples=[9.95],
-        gt=0,
-        le=1e5,
-        json_schema_extra=usual(0.1, 3000),
+    dynamic_load_rating_kN: float | None = entry(None, gt=0, le=1e5, usual=(0.1, 3000), example=9.95).means(
+        "Basic dynamic load rating C [kN]; {range}. Default: that of the designation."
     )
-    static_load_rating_kN: float | None = Field(
-        default=None,
-        description="Basic static load rating C0 [kN]; {range}. Default: that of the designation.",
-        examples=[4.75],
-        gt=0,
-        le=1e5,
-        json_schema_extra=usual(0.05, 5000),
+    static_load_rating_kN: float | None = entry(None, gt=0, le=1e5, usual=(0.05, 5000), example=4.75).means(
+        "Basic static load rating C0 [kN]; {range}. Default: that of the designation."
     )
-    series: Literal["light", "medium", "heavy"] | None = Field(
-        default=None,
-        description="Series of the bearing: light, medium or heavy. Default: by the designation; light where the sizes "
-        "are given.",
-        examples=["light"],
+    series: Literal["light", "medium", "heavy"] | None = entry(None, example="light").means(
+        "Series of the bearing: light, medium or heavy. Default: by the designation; light where the sizes are given."
     )
-    inner_ring_load: RingLoad = Field(
-        default="rotating",
-        description="Load on the inner ring: rotating, stationary or indeterminate. Default: {default}, "
-        "as of a turning shaft.",
+    inner_ring_load: RingLoad = entry("rotating").means(
+        "Load on the inner ring: rotating, stationary or indeterminate. Default: {default}, as of a turning shaft."
     )
-    outer_ring_load: RingLoad = Field(
-        default="stationary",
-        description="Load on the outer ring: rotating, stationary or indeterminate. Default: {default}.",
+    outer_ring_load: RingLoad = entry("stationary").means(
+        "Load on the outer ring: rotating, stationary or indeterminate. Default: {default}."
     )
     bearing_class: Annotated[Literal["0", "6", "6X", "5", "4", "2"], BeforeValidator(_class_as_iso_has_it)] | None = (
-        Field(
-            default=None,
-            description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, '
-            'P4, P2, which may be written so, too); "6X" of tapered ones. Default: by the designation\'s suffix, else '
-            '"0".',
-            examples=["0"],
+        entry(None, example="0").means(
+            'Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, P4, '
+            'P2, which may be written so, too); "6X" of tapered ones. Default: by the designation\'s suffix, else "0".'
         )
     )
-    internal_clearance: ClearanceGroup | None = Field(
-        default=None,
-        description="Group of internal clearance: C2, CN, C3, C4 or C5 (ISO 5753-1), also of tapered pairs. Pairs of "
-        "angular contact bearings of 40° have CA, CB, CC, or with preload GA, GB, GC. When given, by this key or the "
-        "designation's suffix, the clearance left after mounting is checked.",
-        examples=["C3"],
+    internal_clearance: ClearanceGroup | None = entry(None, example="C3").means(
+        "Group of internal clearance: C2, CN, C3, C4 or C5 (ISO 5753-1), also of tapered pairs. Pairs of angular "
+        "contact bearings of 40° have CA, CB, CC, or with preload GA, GB, GC. When given, by this key or the "
+        "designation's suffix, the clearance left after mounting is checked."
     )
 
     def own_defaults(self) -> dict[str, object]:
@@ -197,225 +136,107 @@ class Bearing(RollingBearing):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"designation"})
 
-    position_mm: float | None = Field(
-        default=None,
-        description="Place of the bearing along the spindle from the wheel's centre, positive toward the machine [mm]; "
-        "{range}. With the places of two bearings, `abu size` computes their life with and without the "
-        "autobalancer.",
-        examples=[40.0],
-        ge=-10_000,
-        le=10_000,
-        json_schema_extra=usual(1, 1000),
+    position_mm: float | None = entry(None, ge=-10_000, le=10_000, usual=(1, 1000), example=40.0).means(
+        "Place of the bearing along the spindle from the wheel's centre, positive toward the machine [mm]; {range}. "
+        "With the places of two bearings, `abu size` computes their life with and without the autobalancer."
     )
-    lubricant_viscosity_mm2_per_s: float | None = Field(
-        default=None,
-        description="Kinematic viscosity of the oil, or of the grease's base oil, at the bearing's temperature "
-        "[mm²/s]; {range}. With the speed it gives the modified rating life (a_ISO); without it that is not evaluated.",
-        examples=[20.0],
-        gt=0,
-        le=1e5,
-        json_schema_extra=usual(2, 1000),
+    lubricant_viscosity_mm2_per_s: float | None = entry(None, gt=0, le=1e5, usual=(2, 1000), example=20.0).means(
+        "Kinematic viscosity of the oil, or of the grease's base oil, at the bearing's temperature [mm²/s]; {range}. "
+        "With the speed it gives the modified rating life (a_ISO); without it that is not evaluated."
     )
-    contamination_factor: float = Field(
-        default=0.5,
-        description="Contamination factor e_C of ISO 281: 1 (extreme cleanliness), 0.8 (high), 0.5 (normal), 0.3 "
-        "(slight), 0.1 (typical contamination), down to 0; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=1,
-        json_schema_extra=usual(0.1, 1),
+    contamination_factor: float = entry(0.5, ge=0, le=1, usual=(0.1, 1)).means(
+        "Contamination factor e_C of ISO 281: 1 (extreme cleanliness), 0.8 (high), 0.5 (normal), 0.3 (slight), 0.1 "
+        "(typical contamination), down to 0; {range}. Default: {default}, assumed."
     )
-    required_life_h: float | None = Field(
-        default=None,
-        description="Rating life that the bearing must reach [h]; {range}. Without it a life below 3000 h, the makers' "
-        "guide for hand-held tools, is a warning.",
-        examples=[5000.0],
-        gt=0,
-        le=1e9,
-        json_schema_extra=usual(300, 100_000),
+    required_life_h: float | None = entry(None, gt=0, le=1e9, usual=(300, 100_000), example=5000.0).means(
+        "Rating life that the bearing must reach [h]; {range}. Without it a life below 3000 h, the makers' guide for "
+        "hand-held tools, is a warning."
     )
-    short_pairs_warn_percent: float = Field(
-        default=1.0,
-        description="Share of pairs with too little interference above which ABU605 and ABU615 warn [%]; {range}. "
-        "Default: {default}.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.1, 10),
+    short_pairs_warn_percent: float = entry(1.0, ge=0, le=100, usual=(0.1, 10)).means(
+        "Share of pairs with too little interference above which ABU605 and ABU615 warn [%]; {range}. Default: "
+        "{default}."
     )
-    short_pairs_fail_percent: float = Field(
-        default=5.0,
-        description="Share of pairs with too little interference above which ABU605 and ABU615 fail [%]; {range}, not "
-        "below short_pairs_warn_percent. Default: {default}.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.5, 50),
+    short_pairs_fail_percent: float = entry(5.0, ge=0, le=100, usual=(0.5, 50)).means(
+        "Share of pairs with too little interference above which ABU605 and ABU615 fail [%]; {range}, not below "
+        "short_pairs_warn_percent. Default: {default}."
     )
-    shaft_fit: str | None = Field(
-        default=None,
-        description="Tolerance class of the shaft by ISO 286, small letters. Without it the answer is which to write.",
-        examples=["k6"],
-        pattern=r"^[a-z]{1,2}[0-9]{1,2}$",
+    shaft_fit: str | None = entry(None, example="k6", pattern=r"^[a-z]{1,2}[0-9]{1,2}$").means(
+        "Tolerance class of the shaft by ISO 286, small letters. Without it the answer is which to write."
     )
-    housing_fit: str | None = Field(
-        default=None,
-        description="Tolerance class of the housing by ISO 286, capital letters. Without it the answer is which to "
-        "write.",
-        examples=["H7"],
-        pattern=r"^[A-Z]{1,2}[0-9]{1,2}$",
+    housing_fit: str | None = entry(None, example="H7", pattern=r"^[A-Z]{1,2}[0-9]{1,2}$").means(
+        "Tolerance class of the housing by ISO 286, capital letters. Without it the answer is which to write."
     )
-    shaft_limits_um: Pair | None = Field(
-        default=None,
-        description="Least and largest deviation of the shaft from its nominal size as measured [µm], {usual} either "
-        "way. In place of shaft_fit, which may stand beside it as what the drawing asks for.",
-        examples=[[2.0, 21.0]],
-        json_schema_extra=usual(0.1, 500),
+    shaft_limits_um: Pair | None = entry(None, usual=(0.1, 500), example=[2.0, 21.0]).means(
+        "Least and largest deviation of the shaft from its nominal size as measured [µm], {usual} either way. In place "
+        "of shaft_fit, which may stand beside it as what the drawing asks for."
     )
-    housing_limits_um: Pair | None = Field(
-        default=None,
-        description="Least and largest deviation of the housing from its nominal size as measured [µm], {usual} either "
-        "way. In place of housing_fit, which may stand beside it as what the drawing asks for.",
-        examples=[[0.0, 25.0]],
-        json_schema_extra=usual(0.1, 500),
+    housing_limits_um: Pair | None = entry(None, usual=(0.1, 500), example=[0.0, 25.0]).means(
+        "Least and largest deviation of the housing from its nominal size as measured [µm], {usual} either way. In "
+        "place of housing_fit, which may stand beside it as what the drawing asks for."
     )
-    shaft_rz_um: float | None = Field(
-        default=None,
-        description="Roughness Rz of the shaft [µm]; {range}. When given, its smoothing is taken off the interference.",
-        examples=[4.0],
-        ge=0,
-        le=1000,
-        json_schema_extra=usual(0.1, 50),
+    shaft_rz_um: float | None = entry(None, ge=0, le=1000, usual=(0.1, 50), example=4.0).means(
+        "Roughness Rz of the shaft [µm]; {range}. When given, its smoothing is taken off the interference."
     )
-    housing_rz_um: float | None = Field(
-        default=None,
-        description="Roughness Rz of the housing [µm]; {range}. When given, its smoothing is taken off the "
-        "interference.",
-        examples=[6.3],
-        ge=0,
-        le=1000,
-        json_schema_extra=usual(0.1, 50),
+    housing_rz_um: float | None = entry(None, ge=0, le=1000, usual=(0.1, 50), example=6.3).means(
+        "Roughness Rz of the housing [µm]; {range}. When given, its smoothing is taken off the interference."
     )
-    ring_temperature_difference_K: float | None = Field(
-        default=None,
-        description="By how much the inner ring is warmer than its shaft, negative when colder [K]; {range}. When "
-        "given, the loss of interference α·d·ΔT is counted.",
-        examples=[10.0],
-        ge=-500,
-        le=500,
-        json_schema_extra=usual(0.1, 100),
+    ring_temperature_difference_K: float | None = entry(None, ge=-500, le=500, usual=(0.1, 100), example=10.0).means(
+        "By how much the inner ring is warmer than its shaft, negative when colder [K]; {range}. When given, the loss "
+        "of interference α·d·ΔT is counted."
     )
-    housing_temperature_difference_K: float | None = Field(
-        default=None,
-        description="By how much the housing is warmer than the outer ring, negative when colder [K]; {range}. When "
-        "given, the loss of interference α·D·ΔT is counted.",
-        examples=[-5.0],
-        ge=-500,
-        le=500,
-        json_schema_extra=usual(0.1, 100),
+    housing_temperature_difference_K: float | None = entry(None, ge=-500, le=500, usual=(0.1, 100), example=-5.0).means(
+        "By how much the housing is warmer than the outer ring, negative when colder [K]; {range}. When given, the "
+        "loss of interference α·D·ΔT is counted."
     )
-    temperature_rise_K: float | None = Field(
-        default=None,
-        description="By how much the bearing is warmer in service than at mounting (20 °C), negative when colder [K]; "
-        "{range}. When given, shafts and housings that expand otherwise than steel lose or gain interference by it.",
-        examples=[40.0],
-        ge=-300,
-        le=500,
-        json_schema_extra=usual(0.1, 150),
+    temperature_rise_K: float | None = entry(None, ge=-300, le=500, usual=(0.1, 150), example=40.0).means(
+        "By how much the bearing is warmer in service than at mounting (20 °C), negative when colder [K]; {range}. "
+        "When given, shafts and housings that expand otherwise than steel lose or gain interference by it."
     )
-    temperature_range_K: Pair | None = Field(
-        default=None,
-        description="Lowest and highest temperature of all parts above that of mounting (20 °C) [K], ascending, "
-        "{usual} either way. When given, the fits are shown and advised for both ends, too.",
-        examples=[[-40.0, 60.0]],
-        json_schema_extra=usual(1, 150),
+    temperature_range_K: Pair | None = entry(None, usual=(1, 150), example=[-40.0, 60.0]).means(
+        "Lowest and highest temperature of all parts above that of mounting (20 °C) [K], ascending, {usual} either "
+        "way. When given, the fits are shown and advised for both ends, too."
     )
-    speed_rpm: float | None = Field(
-        default=None,
-        description="Speed of the shaft with the inner ring [rpm]; {range}. When given, the loss of interference by "
-        "centrifugal growth is counted, and the rating life and the limiting speed are checked.",
-        examples=[5800.0],
-        ge=0,
-        le=300_000,
-        json_schema_extra=usual(10, 60_000),
+    speed_rpm: float | None = entry(None, ge=0, le=300_000, usual=(10, 60_000), example=5800.0).means(
+        "Speed of the shaft with the inner ring [rpm]; {range}. When given, the loss of interference by centrifugal "
+        "growth is counted, and the rating life and the limiting speed are checked."
     )
-    shaft_bore_mm: float | None = Field(
-        default=None,
-        description="Bore of a hollow shaft, for stresses [mm]; 0 (solid) up to the bearing's bore, {usual}.",
-        examples=[0.0],
-        ge=0,
-        le=5000,
-        json_schema_extra=usual(1, 500),
+    shaft_bore_mm: float | None = entry(None, ge=0, le=5000, usual=(1, 500), example=0.0).means(
+        "Bore of a hollow shaft, for stresses [mm]; 0 (solid) up to the bearing's bore, {usual}."
     )
-    housing_outer_mm: float | None = Field(
-        default=None,
-        description="Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to {most}, "
-        "{usual}.",
-        examples=[60.0],
-        gt=0,
-        le=20_000,
-        json_schema_extra=usual(10, 2000),
+    housing_outer_mm: float | None = entry(None, gt=0, le=20_000, usual=(10, 2000), example=60.0).means(
+        "Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to {most}, {usual}."
     )
-    shaft_material: SeatMaterial = Field(
-        default="steel",
-        description="Material of the shaft, for stresses and thermal effects: steel, stainless-steel, cast-iron, "
-        "aluminium or magnesium. Default: {default}.",
+    shaft_material: SeatMaterial = entry("steel").means(
+        "Material of the shaft, for stresses and thermal effects: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}."
     )
-    housing_material: SeatMaterial = Field(
-        default="steel",
-        description="Material of the housing, for stresses and thermal effects: steel, stainless-steel, cast-iron, "
-        "aluminium or magnesium. Default: {default}.",
+    housing_material: SeatMaterial = entry("steel").means(
+        "Material of the housing, for stresses and thermal effects: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}."
     )
-    shaft_strength_MPa: float | None = Field(
-        default=None,
-        description="Hoop stress that the shaft bears [MPa]; {range}. Default: a low one of its material, assumed.",
-        examples=[300.0],
-        gt=0,
-        le=10_000,
-        json_schema_extra=usual(30, 2000),
+    shaft_strength_MPa: float | None = entry(None, gt=0, le=10_000, usual=(30, 2000), example=300.0).means(
+        "Hoop stress that the shaft bears [MPa]; {range}. Default: a low one of its material, assumed."
     )
-    housing_strength_MPa: float | None = Field(
-        default=None,
-        description="Hoop stress that the housing bears [MPa]; {range}. Default: a low one of its material, assumed.",
-        examples=[200.0],
-        gt=0,
-        le=10_000,
-        json_schema_extra=usual(30, 2000),
+    housing_strength_MPa: float | None = entry(None, gt=0, le=10_000, usual=(30, 2000), example=200.0).means(
+        "Hoop stress that the housing bears [MPa]; {range}. Default: a low one of its material, assumed."
     )
-    housing_split: bool = Field(
-        default=False,
-        description="Whether the housing is split: its halves pinch a ring tighter than J7. Default: {default}.",
+    housing_split: bool = entry(False).means(
+        "Whether the housing is split: its halves pinch a ring tighter than J7. Default: {default}."
     )
-    raceway_temperature_difference_K: float | None = Field(
-        default=None,
-        description="By how much the inner ring is warmer than the outer one, negative when colder [K]; {range}. When "
-        "given, it is taken off the clearance left.",
-        examples=[5.0],
-        ge=-500,
-        le=500,
-        json_schema_extra=usual(0.1, 60),
+    raceway_temperature_difference_K: float | None = entry(None, ge=-500, le=500, usual=(0.1, 60), example=5.0).means(
+        "By how much the inner ring is warmer than the outer one, negative when colder [K]; {range}. When given, it is "
+        "taken off the clearance left."
     )
-    starting_torque_N_m: float | None = Field(
-        default=None,
-        description="Torque that a ring under a rotating load must pass on by friction when the machine starts "
-        "[N·m]; {range}. When given, the seat's friction torque is checked against it.",
-        examples=[2.0],
-        ge=0,
-        le=1e7,
-        json_schema_extra=usual(0.01, 5000),
+    starting_torque_N_m: float | None = entry(None, ge=0, le=1e7, usual=(0.01, 5000), example=2.0).means(
+        "Torque that a ring under a rotating load must pass on by friction when the machine starts [N·m]; {range}. "
+        "When given, the seat's friction torque is checked against it."
     )
-    seat_friction: float = Field(
-        default=0.12,
-        description="Coefficient of friction between ring and seat; {range}. Default: {default}, assumed (steel on "
-        "steel).",
-        ge=0,
-        le=1,
-        json_schema_extra=usual(0.05, 0.3),
+    seat_friction: float = entry(0.12, ge=0, le=1, usual=(0.05, 0.3)).means(
+        "Coefficient of friction between ring and seat; {range}. Default: {default}, assumed (steel on steel)."
     )
-    asked_interference_um: Pair | None = Field(
-        default=None,
-        description="Least and largest interference asked of the pairs, ascending, tight positive [µm], {usual} either "
-        "way. When given, "
-        "the groups for selective assembly are given.",
-        examples=[[10.0, 28.0]],
-        json_schema_extra=usual(1, 300),
+    asked_interference_um: Pair | None = entry(None, usual=(1, 300), example=[10.0, 28.0]).means(
+        "Least and largest interference asked of the pairs, ascending, tight positive [µm], {usual} either way. When "
+        "given, the groups for selective assembly are given."
     )
 
     @classmethod

@@ -20,7 +20,7 @@ from abu_calc.inputs.reading.document import (
     validate,
 )
 from abu_calc.inputs.reading.kinds import kind_of, refuse_others
-from abu_calc.inputs.reading.table import Table, problem
+from abu_calc.inputs.reading.table import Table, entry, problem
 from abu_calc.inputs.reading.text import Part
 from abu_calc.inputs.scene_effects import Effects
 from abu_calc.inputs.scene_parts import (
@@ -76,52 +76,36 @@ class SceneTable(Table):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"mass_kg", *SPRINGS, "rolling_inertia"})
 
-    support: Literal["planar", "tilting", "swing-arm"] = Field(
-        default="planar",
-        description="Support of the rotor: planar (springs along x and y), tilting (a rigid rotor on bearings, "
-        "[scene.tilting]) or swing-arm ([scene.swing_arm]). Default: {default}.",
+    support: Literal["planar", "tilting", "swing-arm"] = entry("planar").means(
+        "Support of the rotor: planar (springs along x and y), tilting (a rigid rotor on bearings, [scene.tilting]) or "
+        "swing-arm ([scene.swing_arm]). Default: {default}."
     )
-    mass_kg: float | None = Field(
-        default=None,
-        description="Mass of the rotor and what moves with it, WITHOUT balls [kg]; {range}. Planar and tilting "
-        "supports need it; a swing arm holds it in its moment of inertia.",
-        examples=[6.37],
-        gt=0,
-        le=1e9,
+    mass_kg: float | None = entry(None, gt=0, le=1e9, example=6.37).means(
+        "Mass of the rotor and what moves with it, WITHOUT balls [kg]; {range}. Planar and tilting supports need it; a "
+        "swing arm holds it in its moment of inertia."
     )
-    stiffness_N_per_m: StiffnessPair | None = Field(
-        default=None,
-        description="Stiffness of a planar support along x and y [N/m]; {range}.",
-        examples=[[1530.0, 1530.0]],
+    stiffness_N_per_m: StiffnessPair | None = entry(None, example=[1530.0, 1530.0]).means(
+        "Stiffness of a planar support along x and y [N/m]; {range}."
     )
-    damping_N_s_per_m: DampingPair | None = Field(
-        default=None,
-        description="Damping of a planar support along x and y [N·s/m]; {range}.",
-        examples=[[97.4, 97.4]],
+    damping_N_s_per_m: DampingPair | None = entry(None, example=[97.4, 97.4]).means(
+        "Damping of a planar support along x and y [N·s/m]; {range}."
     )
-    speed_rpm: float = Field(
-        description="Speed of rotation, from +x to +y [rpm]; {range}.", examples=[5800.0], gt=0, le=1e6
+    speed_rpm: float = entry(gt=0, le=1e6, example=5800.0).means("Speed of rotation, from +x to +y [rpm]; {range}.")
+    imbalance_g_mm: float = entry(ge=0, le=1e15, example=256.0).means(
+        "Imbalance of the rotor without balls [g·mm]; {range}."
     )
-    imbalance_g_mm: float = Field(
-        description="Imbalance of the rotor without balls [g·mm]; {range}.", examples=[256.0], ge=0, le=1e15
+    imbalance_angle_deg: float = entry(0.0, ge=-1e6, le=1e6).means(
+        "Angle of the imbalance from the zero mark [degrees]; {range}. Default: {default}."
     )
-    imbalance_angle_deg: float = Field(
-        default=0.0,
-        description="Angle of the imbalance from the zero mark [degrees]; {range}. Default: {default}.",
-        ge=-1e6,
-        le=1e6,
+    duration_s: float = entry(gt=0, le=1e9, example=5.0).means(
+        "Time to simulate [s]; at least one revolution, up to {most}."
     )
-    duration_s: float = Field(
-        description="Time to simulate [s]; at least one revolution, up to {most}.", examples=[5.0], gt=0, le=1e9
-    )
-    rolling_inertia: bool = Field(
-        default=False,
-        examples=[True],
-        description="true: solid balls that roll, inertia factor 7/5 (rollers 3/2); false: points. Default: {default}.",
+    rolling_inertia: bool = entry(False, example=True).means(
+        "true: solid balls that roll, inertia factor 7/5 (rollers 3/2); false: points. Default: {default}."
     )
     initial: Initial = Field(default_factory=Initial)
-    race: Annotated[tuple[SceneRace, ...], Field(strict=False, min_length=1, max_length=10)] = Field(
-        description="Races and their balls: [[scene.race]], one or more."
+    race: Annotated[tuple[SceneRace, ...], Field(strict=False, min_length=1, max_length=10)] = entry().means(
+        "Races and their balls: [[scene.race]], one or more."
     )
     body: Body | None = None
     tilting: Tilting | None = None

@@ -5,7 +5,7 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from abu_calc.inputs.duty import Grinding, Motor
-from abu_calc.inputs.reading.table import Table, problem
+from abu_calc.inputs.reading.table import Table, entry, problem
 
 BALL_RADIUS = "Radius of a ball [mm]; {range}, the same in all effects."
 
@@ -17,11 +17,8 @@ class Gravity(Table):
 class DryRollingFriction(Table):
     """Dry rolling friction: a ball sticks until it is pulled harder than its normal force times k_r/r."""
 
-    lever_arm_mm: float = Field(
-        description="Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005.",
-        examples=[0.002],
-        ge=0,
-        le=1,
+    lever_arm_mm: float = entry(ge=0, le=1, example=0.002).means(
+        "Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005."
     )
     ball_radius_mm: float = Field(description=BALL_RADIUS, examples=[8.0], gt=0, le=1000)
 
@@ -30,87 +27,52 @@ class BallContact(Table):
     """Balls have a size: neighbours meet, press and part. Without it they pass through each other."""
 
     ball_radius_mm: float = Field(description=BALL_RADIUS, examples=[8.0], gt=0, le=1000)
-    restitution: float = Field(
-        default=0.5,
-        description="Speed after an impact over the speed before it; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=1,
+    restitution: float = entry(0.5, ge=0, le=1).means(
+        "Speed after an impact over the speed before it; {range}. Default: {default}, assumed."
     )
 
 
 class RaceEccentricity(Table):
     """The race's centre stands off the axis of rotation."""
 
-    magnitude_mm: float = Field(
-        description="Distance of the race's centre from the axis of rotation [mm]; {range}, usually 0.005 … 0.020.",
-        examples=[0.01],
-        ge=0,
-        le=100,
+    magnitude_mm: float = entry(ge=0, le=100, example=0.01).means(
+        "Distance of the race's centre from the axis of rotation [mm]; {range}, usually 0.005 … 0.020."
     )
-    angle_deg: float = Field(
-        default=0.0,
-        description="Angle of the centre of the race from the zero mark [degrees]; {range}. Default: {default}.",
-        ge=-360,
-        le=360,
+    angle_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Angle of the centre of the race from the zero mark [degrees]; {range}. Default: {default}."
     )
 
 
 class GrindingContact(Grinding):
     """Wheel and work under load."""
 
-    runout_mm: float = Field(
-        default=0.0,
-        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}. "
-        "Default: {default}, a true wheel.",
-        ge=0,
-        le=10,
+    runout_mm: float = entry(0.0, ge=0, le=10).means(
+        "Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}. Default: {default}, "
+        "a true wheel."
     )
-    runout_angle_deg: float = Field(
-        default=0.0,
-        description="Angle of the high spot from the zero mark [degrees]; {range}. Default: {default}.",
-        ge=-360,
-        le=360,
+    runout_angle_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Angle of the high spot from the zero mark [degrees]; {range}. Default: {default}."
     )
-    wheel_radius_mm: float | None = Field(
-        default=None,
-        description="Radius of the wheel [mm]; {range}. With it cutting brakes a rotor that a motor drives.",
-        examples=[75.0],
-        gt=0,
-        le=1e4,
+    wheel_radius_mm: float | None = entry(None, gt=0, le=1e4, example=75.0).means(
+        "Radius of the wheel [mm]; {range}. With it cutting brakes a rotor that a motor drives."
     )
-    plane_offset_mm: float = Field(
-        default=0.0,
-        description="Tilting support: place of the wheel along +z from the centre of mass [mm]; {range}. Default: "
-        "{default}.",
-        ge=-1e5,
-        le=1e5,
+    plane_offset_mm: float = entry(0.0, ge=-1e5, le=1e5).means(
+        "Tilting support: place of the wheel along +z from the centre of mass [mm]; {range}. Default: {default}."
     )
 
 
 class SceneRunUp(Table):
     """A speed that rises from 0 to speed_rpm, or falls from it to 0, at an even pace."""
 
-    time_s: float | None = Field(
-        default=None,
-        description="Time from standstill to speed_rpm [s]; {range}.",
-        examples=[1.0],
-        gt=0,
-        le=3600,
+    time_s: float | None = entry(None, gt=0, le=3600, example=1.0).means(
+        "Time from standstill to speed_rpm [s]; {range}."
     )
-    run_down_s: float | None = Field(
-        default=None,
-        description="Time from speed_rpm to standstill, at the end of the run [s]; {range}.",
-        examples=[3.0],
-        gt=0,
-        le=3600,
+    run_down_s: float | None = entry(None, gt=0, le=3600, example=3.0).means(
+        "Time from speed_rpm to standstill, at the end of the run [s]; {range}."
     )
-    rotor_inertia_kg_m2: float | None = Field(
-        default=None,
-        description="Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. With it a swing arm "
-        "feels what the change of speed takes; a motor has its own.",
-        examples=[2e-3],
-        gt=0,
-        le=1e6,
+    rotor_inertia_kg_m2: float | None = entry(None, gt=0, le=1e6, example=2e-3).means(
+        "Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. With it a swing arm feels what "
+        "the change of speed takes; a motor has its own."
     )
 
     @model_validator(mode="after")
@@ -125,19 +87,15 @@ class SceneRunUp(Table):
 class TransverseMotion(Table):
     """Balls also move across the race, in its toroidal groove (Kladiev 1996, eq. (12))."""
 
-    groove_radius_mm: float = Field(
-        description="Radius of the groove across the race [mm]; above ball_radius_mm, up to {most}.",
-        examples=[24.4],
-        gt=0,
-        le=1e4,
+    groove_radius_mm: float = entry(gt=0, le=1e4, example=24.4).means(
+        "Radius of the groove across the race [mm]; above ball_radius_mm, up to {most}."
     )
     ball_radius_mm: float = Field(description=BALL_RADIUS, examples=[8.0], gt=0, le=1000)
-    axial_runout_mm: float = Field(
-        default=0.0, description="Axial runout of the race, 0-peak [mm]; {range}. Default: {default}.", ge=0, le=10
+    axial_runout_mm: float = entry(0.0, ge=0, le=10).means(
+        "Axial runout of the race, 0-peak [mm]; {range}. Default: {default}."
     )
-    free_spin: bool = Field(
-        default=False,
-        description="Whether balls spin freely about the contact's normal: true or false. Default: {default}.",
+    free_spin: bool = entry(False).means(
+        "Whether balls spin freely about the contact's normal: true or false. Default: {default}."
     )
 
     @model_validator(mode="after")

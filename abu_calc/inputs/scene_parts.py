@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from abu_calc.inputs.duty import GRIP, SwingArm
-from abu_calc.inputs.reading.table import Table, problem, usual
+from abu_calc.inputs.reading.table import Table, entry, problem
 
 Mass = Annotated[float, Field(gt=0, le=1e12)]
 Angle = Annotated[float, Field(ge=-1e6, le=1e6)]
@@ -20,53 +20,34 @@ TOUCHING: Final = 1e-6
 class SceneRace(Table):
     """A race and its balls; all angles are measured in the rotor, from its zero mark in the sense of rotation."""
 
-    pitch_radius_mm: float = Field(
-        description="Radius of the circle on which the balls' centres run [mm]; {range}.",
-        examples=[23.0],
-        gt=0,
-        le=1e6,
+    pitch_radius_mm: float = entry(gt=0, le=1e6, example=23.0).means(
+        "Radius of the circle on which the balls' centres run [mm]; {range}."
     )
-    plane_offset_mm: float = Field(
-        default=0.0,
-        description="Tilting support: place of the race along +z from the centre of mass [mm]; {range}. Default: "
-        "{default}.",
-        ge=-1e5,
-        le=1e5,
+    plane_offset_mm: float = entry(0.0, ge=-1e5, le=1e5).means(
+        "Tilting support: place of the race along +z from the centre of mass [mm]; {range}. Default: {default}."
     )
-    ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
-        description="Mass of each ball [g]; {range}, up to 100 balls, none for the rotor alone.",
-        examples=[[16.7, 16.7, 16.7, 16.7]],
+    ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = entry(
+        example=[16.7, 16.7, 16.7, 16.7]
+    ).means("Mass of each ball [g]; {range}, up to 100 balls, none for the rotor alone.")
+    ball_radius_mm: float | None = entry(None, gt=0, le=1000, example=8.0).means(
+        "Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. Required for "
+        "rolling balls of a rotor that changes its speed. Default: the radius of the effects. Without any radius, "
+        "balls count as small, with a warning."
     )
-    ball_radius_mm: float | None = Field(
-        default=None,
-        description="Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. "
-        "Required for rolling balls of a rotor that changes its speed. Default: the radius of the effects. Without "
-        "any radius, balls count as small, with a warning.",
-        examples=[8.0],
-        gt=0,
-        le=1000,
+    corrector: Literal["ball", "roller"] = entry("ball").means(
+        "Rolling body in the race, with scene.rolling_inertia = true: ball (solid, inertia factor 7/5) or roller "
+        "(3/2). Default: {default}."
     )
-    corrector: Literal["ball", "roller"] = Field(
-        default="ball",
-        description="Rolling body in the race, with scene.rolling_inertia = true: ball (solid, inertia factor 7/5) or "
-        "roller (3/2). Default: {default}.",
+    rolling_drag_per_s: float = entry(ge=0, le=1e7, example=15.0).means(
+        "Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; {range}, 0 switches "
+        "it off."
     )
-    rolling_drag_per_s: float = Field(
-        description="Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; "
-        "{range}, 0 switches it off.",
-        examples=[15.0],
-        ge=0,
-        le=1e7,
-    )
-    start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
-        description="Angle of each ball at the start [degrees]; {range}.", examples=[[-41.5, -0.5, 40.5, 81.5]]
-    )
-    start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = Field(
-        default=None,
-        description="Speed of each ball at the start, relative to the race [rpm]; {range}. Without it: at rest in "
-        "the race.",
-        examples=[[0.0, 0.0, 0.0, 0.0]],
-    )
+    start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = entry(
+        example=[-41.5, -0.5, 40.5, 81.5]
+    ).means("Angle of each ball at the start [degrees]; {range}.")
+    start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = entry(
+        None, example=[0.0, 0.0, 0.0, 0.0]
+    ).means("Speed of each ball at the start, relative to the race [rpm]; {range}. Without it: at rest in the race.")
 
     @property
     def start_speeds(self) -> tuple[float, ...]:
@@ -142,66 +123,48 @@ class Body(Table):
     """
 
     mass_kg: float = Field(description="Mass of the body [kg]; {range}.", examples=[0.5], gt=0, le=1e9)
-    stiffness_N_per_m: StiffnessPair = Field(
-        description="Stiffness between rotor and body along x and y [N/m]; {range}.", examples=[[20000.0, 20000.0]]
+    stiffness_N_per_m: StiffnessPair = entry(example=[20000.0, 20000.0]).means(
+        "Stiffness between rotor and body along x and y [N/m]; {range}."
     )
-    damping_N_s_per_m: DampingPair = Field(
-        description="Damping between rotor and body along x and y [N·s/m]; {range}.", examples=[[5.0, 5.0]]
+    damping_N_s_per_m: DampingPair = entry(example=[5.0, 5.0]).means(
+        "Damping between rotor and body along x and y [N·s/m]; {range}."
     )
 
 
 class CoupleImbalance(Table):
     """Couple imbalance: the polar principal axis of inertia leans against the axis of rotation."""
 
-    magnitude_rad: float = Field(
-        description="Angle between the polar principal axis and the axis of rotation [rad]; {range}.",
-        examples=[6.8e-5],
-        ge=0,
-        le=0.1,
-        json_schema_extra=usual(1e-7, 5e-3),
+    magnitude_rad: float = entry(ge=0, le=0.1, usual=(1e-7, 5e-3), example=6.8e-5).means(
+        "Angle between the polar principal axis and the axis of rotation [rad]; {range}."
     )
-    angle_deg: float = Field(
-        default=0.0,
-        description="Angle to which the +z end of the principal axis leans, from the zero mark [degrees]; {range}. "
-        "Default: {default}.",
-        ge=-360,
-        le=360,
+    angle_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Angle to which the +z end of the principal axis leans, from the zero mark [degrees]; {range}. Default: "
+        "{default}."
     )
 
 
 class Tilting(Table):
     """A rigid rotor on bearings, which moves in its plane and tilts: support = "tilting"."""
 
-    transverse_inertia_kg_m2: float = Field(
-        description="Moment of inertia about an axis across the spindle through the centre of mass, without balls "
-        "[kg·m²]; {range}.",
-        examples=[0.0138],
-        gt=0,
-        le=1e9,
+    transverse_inertia_kg_m2: float = entry(gt=0, le=1e9, example=0.0138).means(
+        "Moment of inertia about an axis across the spindle through the centre of mass, without balls [kg·m²]; {range}."
     )
-    polar_inertia_kg_m2: float = Field(
-        description="Moment of inertia of what rotates about the spindle, without balls [kg·m²]; {range}, at most "
-        "twice the transverse one.",
-        examples=[0.00124],
-        ge=0,
-        le=1e9,
+    polar_inertia_kg_m2: float = entry(ge=0, le=1e9, example=0.00124).means(
+        "Moment of inertia of what rotates about the spindle, without balls [kg·m²]; {range}, at most twice the "
+        "transverse one."
     )
-    bearing_positions_mm: Annotated[tuple[Position, ...], Field(strict=False, min_length=1, max_length=20)] = Field(
-        description="Places of the bearings along +z, from the centre of mass [mm]; {range}, one or more.",
-        examples=[[110.0, -150.0]],
-    )
-    bearing_stiffness_N_per_m: Annotated[tuple[StiffnessPair, ...], Field(strict=False, max_length=20)] = Field(
-        description="Stiffness of each bearing along x and y [N/m]; {range}.",
-        examples=[[[21500.0, 15800.0], [21500.0, 15800.0]]],
-    )
-    bearing_damping_N_s_per_m: Annotated[tuple[DampingPair, ...], Field(strict=False, max_length=20)] = Field(
-        description="Damping of each bearing along x and y [N·s/m]; {range}.",
-        examples=[[[5.375, 3.95], [5.375, 3.95]]],
-    )
+    bearing_positions_mm: Annotated[tuple[Position, ...], Field(strict=False, min_length=1, max_length=20)] = entry(
+        example=[110.0, -150.0]
+    ).means("Places of the bearings along +z, from the centre of mass [mm]; {range}, one or more.")
+    bearing_stiffness_N_per_m: Annotated[tuple[StiffnessPair, ...], Field(strict=False, max_length=20)] = entry(
+        example=[[21500.0, 15800.0], [21500.0, 15800.0]]
+    ).means("Stiffness of each bearing along x and y [N/m]; {range}.")
+    bearing_damping_N_s_per_m: Annotated[tuple[DampingPair, ...], Field(strict=False, max_length=20)] = entry(
+        example=[[5.375, 3.95], [5.375, 3.95]]
+    ).means("Damping of each bearing along x and y [N·s/m]; {range}.")
     couple_imbalance_angle: CoupleImbalance | None = None
-    ball_tilt_inertia: bool = Field(
-        default=True,
-        description="Whether balls move axially with the race as it tilts: true or false. Default: {default}.",
+    ball_tilt_inertia: bool = entry(True).means(
+        "Whether balls move axially with the race as it tilts: true or false. Default: {default}."
     )
 
     @model_validator(mode="after")
@@ -235,16 +198,11 @@ class SceneSwingArm(SwingArm):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"wheel_radius_mm"})
 
-    wheel_radius_mm: float | None = Field(
-        default=None,
-        description="Radius of the wheel that cuts [mm]; {range}. With cutting = true.",
-        examples=[115.0],
-        gt=0,
-        le=1e4,
+    wheel_radius_mm: float | None = entry(None, gt=0, le=1e4, example=115.0).means(
+        "Radius of the wheel that cuts [mm]; {range}. With cutting = true."
     )
-    cutting: bool = Field(
-        default=False,
-        description="Whether the wheel is pressed to the work: true or false. Default: {default}, idle.",
+    cutting: bool = entry(False).means(
+        "Whether the wheel is pressed to the work: true or false. Default: {default}, idle."
     )
 
     def unused(self) -> frozenset[str]:

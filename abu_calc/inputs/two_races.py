@@ -12,7 +12,7 @@ from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.bearing_file import EXPECTED, NAME, Expected, Limits
 from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Held, Speed
 from abu_calc.inputs.duty import Grinding, RunUp
-from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, entry, problem
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 from abu_calc.inputs.variation import Sweep
 from abu_calc.inputs.wheel import QUANTITIES, Wheel
@@ -31,17 +31,11 @@ Place = Annotated[float, Field(ge=-10_000, le=10_000)]
 class PlacedWheel(Wheel):
     """A wheel, or any part with an imbalance of its own, at its place along the spindle."""
 
-    plane_mm: float = Field(
-        description=PLANE, examples=[260.0], ge=-10_000, le=10_000, json_schema_extra=usual(1, 3000)
-    )
+    plane_mm: float = entry(ge=-10_000, le=10_000, usual=(1, 3000), example=260.0).means(PLANE)
     name: Name | None = Field(default=None, description="Name of the wheel.", examples=["left wheel"], min_length=1)
-    imbalance_angle_deg: float | None = Field(
-        default=None,
-        description="Angle of the imbalance from the zero mark of the spindle [degrees]; {range}. Without it the phase "
-        "is unknown, and the worst one is taken.",
-        examples=[0.0],
-        ge=-360,
-        le=360,
+    imbalance_angle_deg: float | None = entry(None, ge=-360, le=360, example=0.0).means(
+        "Angle of the imbalance from the zero mark of the spindle [degrees]; {range}. Without it the phase is unknown, "
+        "and the worst one is taken."
     )
 
     @model_validator(mode="after")
@@ -60,15 +54,13 @@ class PlacedWheel(Wheel):
 class PlacedAutobalancer(Autobalancer):
     """An autobalancer at its place along the spindle."""
 
-    plane_mm: float = Field(
-        description=PLANE, examples=[300.0], ge=-10_000, le=10_000, json_schema_extra=usual(1, 3000)
-    )
+    plane_mm: float = entry(ge=-10_000, le=10_000, usual=(1, 3000), example=300.0).means(PLANE)
 
-    plane_range_mm: Annotated[tuple[Place, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
-        default=None,
-        description="Stretch of the spindle on which the race may stand, with plane_mm in it [mm]; {range}. The place "
-        "is searched there that leaves the loudest place least, and needs the smallest capacity. Without it: plane_mm.",
-        examples=[[280.0, 320.0]],
+    plane_range_mm: Annotated[tuple[Place, ...], Field(strict=False, min_length=2, max_length=2)] | None = entry(
+        None, example=[280.0, 320.0]
+    ).means(
+        "Stretch of the spindle on which the race may stand, with plane_mm in it [mm]; {range}. The place is searched "
+        "there that leaves the loudest place least, and needs the smallest capacity. Without it: plane_mm."
     )
 
     @model_validator(mode="after")
@@ -98,46 +90,30 @@ class TwoRaceMachineTable(Table):
     """The machine: its mass, inertia and speed."""
 
     name: Name = Field(description=NAME, examples=["pedestal grinder"], min_length=1)
-    layout: Literal["straight", "face", "angle"] = Field(
-        default="straight", description="Kind of machine, as for one race: straight, face or angle. Default: {default}."
+    layout: Literal["straight", "face", "angle"] = entry("straight").means(
+        "Kind of machine, as for one race: straight, face or angle. Default: {default}."
     )
-    mass_kg: float = Field(
-        description="Mass of all that moves with the spindle on its springs, with wheels, without autobalancers [kg]; "
-        "{range}.",
-        examples=[62.0],
-        ge=0.001,
-        le=1e6,
+    mass_kg: float = entry(ge=0.001, le=1e6, example=62.0).means(
+        "Mass of all that moves with the spindle on its springs, with wheels, without autobalancers [kg]; {range}."
     )
     speed_rpm: Speed = Field(description="Rated speed of the spindle [rpm]; {range}.", examples=[2850.0])
-    speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
-        default=None,
-        description="Lowest and highest working speed [rpm]; {range}. Without it: the rated speed alone.",
-        examples=[[2850.0, 2850.0]],
-    )
-    spindle_axis: Literal["horizontal", "vertical"] = Field(
-        description="Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical.",
-        examples=["horizontal"],
+    speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = entry(
+        None, example=[2850.0, 2850.0]
+    ).means("Lowest and highest working speed [rpm]; {range}. Without it: the rated speed alone.")
+    spindle_axis: Literal["horizontal", "vertical"] = entry(example="horizontal").means(
+        "Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical."
     )
     held: Held = None
-    transverse_inertia_kg_m2: float = Field(
-        description="Moment of inertia across the spindle about the centre of mass, of all that mass_kg counts "
-        "[kg·m²]; {range}.",
-        examples=[3.1],
-        gt=0,
-        le=1e6,
+    transverse_inertia_kg_m2: float = entry(gt=0, le=1e6, example=3.1).means(
+        "Moment of inertia across the spindle about the centre of mass, of all that mass_kg counts [kg·m²]; {range}."
     )
-    rotor_polar_inertia_kg_m2: float = Field(
-        default=0.0,
-        description="Polar moment of inertia of what spins [kg·m²]; {range}, at most twice the transverse one. "
-        "Default: {default}, which leaves gyroscopic moments out.",
-        examples=[0.09],
-        ge=0,
-        le=1e6,
+    rotor_polar_inertia_kg_m2: float = entry(0.0, ge=0, le=1e6, example=0.09).means(
+        "Polar moment of inertia of what spins [kg·m²]; {range}, at most twice the transverse one. Default: {default}, "
+        "which leaves gyroscopic moments out."
     )
-    handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=100)] = Field(
-        default=(),
-        description="Places on the spindle axis where levels are wanted: [[machine.handle]]. Without any: the "
-        "bearings, or the races of a machine whose bearings are not given.",
+    handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=100)] = entry(()).means(
+        "Places on the spindle axis where levels are wanted: [[machine.handle]]. Without any: the bearings, or the "
+        "races of a machine whose bearings are not given."
     )
 
     @property
@@ -174,33 +150,24 @@ class TwoRaceMachineTable(Table):
 class TwoRaceSuspension(Table):
     """Support of a machine with two races: bearings at their places, or springs for all freedoms alike."""
 
-    model: Literal["bearings", "springs"] = Field(
-        description="bearings (places, stiffness and damping of each, alike along x and y) or springs (one natural "
-        "frequency and damping ratio of translation and tilt).",
-        examples=["bearings"],
+    model: Literal["bearings", "springs"] = entry(example="bearings").means(
+        "bearings (places, stiffness and damping of each, alike along x and y) or springs (one natural frequency and "
+        "damping ratio of translation and tilt)."
     )
-    bearing_positions_mm: Annotated[tuple[Place, ...], Field(strict=False, min_length=1, max_length=20)] | None = Field(
-        default=None,
-        description="For bearings: places along the spindle, from the centre of mass [mm]; {range}.",
-        examples=[[200.0, -200.0]],
+    bearing_positions_mm: Annotated[tuple[Place, ...], Field(strict=False, min_length=1, max_length=20)] | None = entry(
+        None, example=[200.0, -200.0]
+    ).means("For bearings: places along the spindle, from the centre of mass [mm]; {range}.")
+    bearing_stiffness_N_per_m: Annotated[tuple[Positive, ...], Field(strict=False, max_length=20)] | None = entry(
+        None, example=[2.2e5, 2.2e5]
+    ).means("For bearings: stiffness of each with what carries it [N/m]; {range}.")
+    bearing_damping_N_s_per_m: Annotated[tuple[NotNegative, ...], Field(strict=False, max_length=20)] | None = entry(
+        None, example=[300.0, 300.0]
+    ).means("For bearings: damping of each [N·s/m]; {range}.")
+    natural_frequencies_hz: Frequency | None = entry(None, example=5.0).means(
+        "For springs: natural frequency of translation and tilt [Hz]; {range}."
     )
-    bearing_stiffness_N_per_m: Annotated[tuple[Positive, ...], Field(strict=False, max_length=20)] | None = Field(
-        default=None,
-        description="For bearings: stiffness of each with what carries it [N/m]; {range}.",
-        examples=[[2.2e5, 2.2e5]],
-    )
-    bearing_damping_N_s_per_m: Annotated[tuple[NotNegative, ...], Field(strict=False, max_length=20)] | None = Field(
-        default=None,
-        description="For bearings: damping of each [N·s/m]; {range}.",
-        examples=[[300.0, 300.0]],
-    )
-    natural_frequencies_hz: Frequency | None = Field(
-        default=None,
-        description="For springs: natural frequency of translation and tilt [Hz]; {range}.",
-        examples=[5.0],
-    )
-    damping_ratios: DampingRatio | None = Field(
-        default=None, description="For springs: damping ratio of translation and tilt; {range}.", examples=[0.1]
+    damping_ratios: DampingRatio | None = entry(None, example=0.1).means(
+        "For springs: damping ratio of translation and tilt; {range}."
     )
 
     KEYS: ClassVar = {
@@ -234,16 +201,16 @@ class TwoRaceFile(Table):
 
     machine: TwoRaceMachineTable
     suspension: TwoRaceSuspension
-    wheel: Annotated[tuple[PlacedWheel, ...], Field(strict=False, min_length=1, max_length=MOST_WHEELS)] = Field(
-        description="Wheels with their places: [[wheel]], one or more."
+    wheel: Annotated[tuple[PlacedWheel, ...], Field(strict=False, min_length=1, max_length=MOST_WHEELS)] = (
+        entry().means("Wheels with their places: [[wheel]], one or more.")
     )
     autobalancer: Annotated[tuple[PlacedAutobalancer, ...], Field(strict=False, min_length=RACES, max_length=RACES)] = (
         Field(description="Autobalancers with their places: [[autobalancer]], two.")
     )
     grinding: Grinding | None = None
     run_up: RunUp | None = None
-    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
-        default=(), description="Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
+    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = entry(()).means(
+        "Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
     )
     limits: Limits = Field(default_factory=Limits)
     sweep: Sweep | None = None

@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field
 
-from abu_calc.inputs.reading.table import Table, usual
+from abu_calc.inputs.reading.table import Table, entry
 
 Angle = Annotated[float, Field(ge=-360, le=360)]
 
@@ -21,22 +21,12 @@ class TypeTest(Table):
 
     __test__: ClassVar[bool] = False  # not a test of pytest
 
-    test_wheel_diameter_mm: float | None = Field(
-        default=None,
-        description="Diameter of the test wheel [mm]; {range}. The imbalance is built in for 25, 50, 80, 100, 125, 150 "
-        "and 200 mm, and by a rule for 115, 180 and 230 mm. Without it: the diameter of the wheel.",
-        examples=[150.0],
-        gt=0,
-        le=1000,
-        json_schema_extra=usual(20, 300),
+    test_wheel_diameter_mm: float | None = entry(None, gt=0, le=1000, usual=(20, 300), example=150.0).means(
+        "Diameter of the test wheel [mm]; {range}. The imbalance is built in for 25, 50, 80, 100, 125, 150 and 200 mm, "
+        "and by a rule for 115, 180 and 230 mm. Without it: the diameter of the wheel."
     )
-    test_wheel_imbalance_g_mm: float | None = Field(
-        default=None,
-        description="Imbalance of the test wheel [g·mm]; {range}. Without it: that of the test wheel of this diameter.",
-        examples=[65.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(2, 1000),
+    test_wheel_imbalance_g_mm: float | None = entry(None, gt=0, le=1e6, usual=(2, 1000), example=65.0).means(
+        "Imbalance of the test wheel [g·mm]; {range}. Without it: that of the test wheel of this diameter."
     )
     orientations: (
         Annotated[
@@ -49,24 +39,15 @@ class TypeTest(Table):
             ),
         ]
         | None
-    ) = Field(
-        default=None,
-        description="Orientations of the test wheel on the spindle: their number, evenly spaced, or a list of angles "
-        "[degrees]. Without it: 5.",
-        examples=[5],
+    ) = entry(None, example=5).means(
+        "Orientations of the test wheel on the spindle: their number, evenly spaced, or a list of angles [degrees]. "
+        "Without it: 5."
     )
-    runs: Annotated[int, Field(ge=1, le=1000)] = Field(
-        default=1, description="Starts at each orientation by each operator; 1 … 1000. Default: {default}."
+    runs: Annotated[int, Field(ge=1, le=1000)] = entry(1).means(
+        "Starts at each orientation by each operator; 1 … 1000. Default: {default}."
     )
-    operators: Annotated[int, Field(ge=1, le=100)] = Field(
-        default=3, description="Operators; 1 … 100. Default: {default}."
-    )
-    background_a_hv_m_per_s2: float | None = Field(
-        default=None,
-        description="Weighted acceleration a_hv with a balanced wheel, of motor and gear [m/s²]; {range}. It is added "
-        "to every value as energy. Without it: 0.",
-        examples=[1.0],
-        ge=0,
-        le=1000,
-        json_schema_extra=usual(0.05, 20),
+    operators: Annotated[int, Field(ge=1, le=100)] = entry(3).means("Operators; 1 … 100. Default: {default}.")
+    background_a_hv_m_per_s2: float | None = entry(None, ge=0, le=1000, usual=(0.05, 20), example=1.0).means(
+        "Weighted acceleration a_hv with a balanced wheel, of motor and gear [m/s²]; {range}. It is added to every "
+        "value as energy. Without it: 0."
     )

@@ -20,7 +20,7 @@ from abu_calc.inputs.reading.document import Document, FileReading, Model
 from abu_calc.inputs.reading.errors import Origin, input_error
 from abu_calc.inputs.reading.overrides import Override, apply, parse_override
 from abu_calc.inputs.reading.plain import found_as, plain_number
-from abu_calc.inputs.reading.table import Table, problem
+from abu_calc.inputs.reading.table import Table, entry, problem
 from abu_calc.inputs.reading.text import Part, key_path
 from abu_calc.inputs.reading.values_with_units import canonical_path, convert, convert_entry
 
@@ -266,57 +266,36 @@ Vary = Annotated[
 class Sweep(Table):
     """Many machines like this one, for `abu sweep`: what varies among them, and how many there are."""
 
-    vary: Vary | None = Field(
-        default=None,
-        description="Distributions. Each is KEY=HOW. HOW: LOW:HIGH:N, A,B,…, uniform(LOW, HIGH), normal(MEAN, SD), "
+    vary: Vary | None = entry(None, example=["autobalancer.race_eccentricity_mm=triangular(0, 0.005, 0.015)"]).means(
+        "Distributions. Each is KEY=HOW. HOW: LOW:HIGH:N, A,B,…, uniform(LOW, HIGH), normal(MEAN, SD), "
         "lognormal(MEDIAN, SIGMA), triangular(LOW, MODE, HIGH) or choice(A, B, …). KEY is one of this file, or "
-        "start.kind, start.angle_deg, start.eccentricity_deg, start.temperature_C. Or a table by key.",
-        examples=[["autobalancer.race_eccentricity_mm=triangular(0, 0.005, 0.015)"]],
+        "start.kind, start.angle_deg, start.eccentricity_deg, start.temperature_C. Or a table by key."
     )
-    runs: int | None = Field(
-        default=None,
-        description="Number of samples; {range}. Without it as many as there are combinations of listed values, or "
-        f"{RUNS}.",
-        examples=[1000],
-        ge=1,
-        le=MOST_RUNS,
+    runs: int | None = entry(None, ge=1, le=MOST_RUNS, example=1000).means(
+        f"Number of samples; {{range}}. Without it as many as there are combinations of listed values, or {RUNS}."
     )
-    what: Literal["build", "design"] = Field(
-        default="build",
-        description="build: the design is fixed, each member is one machine built and switched on once; design: it is "
-        "sized anew for each. Default: {default}.",
+    what: Literal["build", "design"] = entry("build").means(
+        "build: the design is fixed, each member is one machine built and switched on once; design: it is sized anew "
+        "for each. Default: {default}."
     )
-    tolerances: bool = Field(
-        default=False,
-        description="true: also the drawing's own tolerances and the usual scatter of use. Default: {default}.",
+    tolerances: bool = entry(False).means(
+        "true: also the drawing's own tolerances and the usual scatter of use. Default: {default}."
     )
-    grid: Annotated[tuple[str, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
-        default=None,
-        description="Two of the keys with listed values, for a chart over them: across and upward.",
-        examples=[["wheel.imbalance_g_mm", "machine.speed_rpm"]],
+    grid: Annotated[tuple[str, ...], Field(strict=False, min_length=2, max_length=2)] | None = entry(
+        None, example=["wheel.imbalance_g_mm", "machine.speed_rpm"]
+    ).means("Two of the keys with listed values, for a chart over them: across and upward.")
+    sensitivity: bool = entry(False).means(
+        "true: spend the runs that a Saltelli design needs on sensitivities. Default: {default}."
     )
-    sensitivity: bool = Field(
-        default=False,
-        description="true: spend the runs that a Saltelli design needs on sensitivities. Default: {default}.",
+    sampling: Literal["latin-hypercube", "sobol"] = entry("latin-hypercube").means(
+        "Sampling method: latin-hypercube or sobol. Default: {default}."
     )
-    sampling: Literal["latin-hypercube", "sobol"] = Field(
-        default="latin-hypercube", description="Sampling method: latin-hypercube or sobol. Default: {default}."
+    seed: int = entry(0, ge=0, le=2**31 - 1).means("Seed of the random numbers; {range}. Default: {default}.")
+    time_limit_s: float = entry(60.0, gt=0, le=1e6).means(
+        "Longest time for one member [s]; {range}. Default: {default}; the next one follows."
     )
-    seed: int = Field(
-        default=0, description="Seed of the random numbers; {range}. Default: {default}.", ge=0, le=2**31 - 1
-    )
-    time_limit_s: float = Field(
-        default=60.0,
-        description="Longest time for one member [s]; {range}. Default: {default}; the next one follows.",
-        gt=0,
-        le=1e6,
-    )
-    least_share: float | None = Field(
-        default=None,
-        description="Share of samples that must meet the limits; {range}. Without it nothing is asked.",
-        examples=[0.95],
-        ge=0,
-        le=1,
+    least_share: float | None = entry(None, ge=0, le=1, example=0.95).means(
+        "Share of samples that must meet the limits; {range}. Without it nothing is asked."
     )
 
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal, Self, get_args
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.reading.table import Name, Table, boxed, problem, usual, whole
+from abu_calc.inputs.reading.table import Name, Table, boxed, entry, problem, usual, whole
 from abu_calc.standards.vibration import grade_named
 
 Weighting = Literal["none", "Wh"]
@@ -147,11 +147,8 @@ class MeasuredAfter(Measured):
     )
     measured_weighting: Weighting | None = Field(default=None, description=WEIGHTING_WORDS, examples=["none"])
     measured_axes: Axes | None = Field(default=None, description=AXES_WORDS, examples=[1])
-    measured_at: Name | None = Field(
-        default=None,
-        description="Name of the handle where it was measured. Without it: the wheel plane.",
-        examples=["front"],
-        min_length=1,
+    measured_at: Name | None = entry(None, example="front", min_length=1).means(
+        "Name of the handle where it was measured. Without it: the wheel plane."
     )
 
     @classmethod
@@ -203,94 +200,48 @@ class Wheel(Measured):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"imbalance_g_mm"})
 
-    mass_kg: float = Field(
-        description="Mass of the wheel with its flanges [kg]; {range}, hand grinders 0.05 … 2.",
-        examples=[0.6],
-        ge=0.0001,
-        le=5000,
-        json_schema_extra=usual(0.005, 50),
+    mass_kg: float = entry(ge=0.0001, le=5000, usual=(0.005, 50), example=0.6).means(
+        "Mass of the wheel with its flanges [kg]; {range}, hand grinders 0.05 … 2."
     )
-    diameter_mm: float = Field(
-        description="Outer diameter of the wheel [mm]; {range}, hand grinders 50 … 230.",
-        examples=[150.0],
-        ge=1,
-        le=5000,
-        json_schema_extra=usual(20, 600),
+    diameter_mm: float = entry(ge=1, le=5000, usual=(20, 600), example=150.0).means(
+        "Outer diameter of the wheel [mm]; {range}, hand grinders 50 … 230."
     )
-    runout_mm: float = Field(
-        default=0.0,
-        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}, "
-        "mounted wheels 0.02 … 0.2. Default: {default}, a true wheel. Or give runout_tir_mm.",
-        ge=0,
-        le=10,
-        json_schema_extra=usual(0.001, 1),
+    runout_mm: float = entry(0.0, ge=0, le=10, usual=(0.001, 1)).means(
+        "Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}, mounted wheels 0.02 "
+        "… 0.2. Default: {default}, a true wheel. Or give runout_tir_mm."
     )
-    runout_tir_mm: float | None = Field(
-        default=None,
-        description="Total indicated runout of the outer surface, as the dial gauge shows it: twice runout_mm, and "
-        "instead of it [mm]; {range}.",
-        examples=[0.08],
-        ge=0,
-        le=20,
-        json_schema_extra=usual(0.002, 2),
+    runout_tir_mm: float | None = entry(None, ge=0, le=20, usual=(0.002, 2), example=0.08).means(
+        "Total indicated runout of the outer surface, as the dial gauge shows it: twice runout_mm, and instead of it "
+        "[mm]; {range}."
     )
-    runout_angle_deg: float = Field(
-        default=0.0,
-        description="Angle of the high spot from the imbalance in the sense of rotation [degrees]; {range}. "
-        "Sizing takes the worst angle whatever stands here. Default: {default}, at the imbalance.",
-        ge=-360,
-        le=360,
+    runout_angle_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Angle of the high spot from the imbalance in the sense of rotation [degrees]; {range}. Sizing takes the worst "
+        "angle whatever stands here. Default: {default}, at the imbalance."
     )
-    axial_runout_mm: float = Field(
-        default=0.0,
-        description="Axial runout of the wheel's face, half of what a dial gauge shows [mm]; {range}, mounted wheels "
-        "0.02 … 0.2. Under load a face wheel moves the machine by it along the spindle, once per turn, and the balls "
-        "across their race. Default: {default}.",
-        ge=0,
-        le=10,
-        json_schema_extra=usual(0.001, 1),
+    axial_runout_mm: float = entry(0.0, ge=0, le=10, usual=(0.001, 1)).means(
+        "Axial runout of the wheel's face, half of what a dial gauge shows [mm]; {range}, mounted wheels 0.02 … 0.2. "
+        "Under load a face wheel moves the machine by it along the spindle, once per turn, and the balls across their "
+        "race. Default: {default}."
     )
-    usable_wear_mm: float | None = Field(
-        default=None,
-        description="Wear of the wheel's radius that is allowed [mm]; {range}. No default: wear is then told in "
-        "depths, not in minutes.",
-        examples=[10.0],
-        gt=0,
-        le=2000,
-        json_schema_extra=usual(0.5, 200),
+    usable_wear_mm: float | None = entry(None, gt=0, le=2000, usual=(0.5, 200), example=10.0).means(
+        "Wear of the wheel's radius that is allowed [mm]; {range}. No default: wear is then told in depths, not in "
+        "minutes."
     )
-    life_min: float | None = Field(
-        default=None,
-        description="Grinding time in which usable_wear_mm is worn off [minutes]; {range}. No default.",
-        examples=[32.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(1, 10000),
+    life_min: float | None = entry(None, gt=0, le=1e6, usual=(1, 10000), example=32.0).means(
+        "Grinding time in which usable_wear_mm is worn off [minutes]; {range}. No default."
     )
-    life_with_autobalancer_min: float | None = Field(
-        default=None,
-        description="Life of the wheel that was measured with an autobalancer [minutes], beside life_min without one; "
-        "{range}. `abu grinding` compares it with the prediction. No default.",
-        examples=[48.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(1, 10000),
+    life_with_autobalancer_min: float | None = entry(None, gt=0, le=1e6, usual=(1, 10000), example=48.0).means(
+        "Life of the wheel that was measured with an autobalancer [minutes], beside life_min without one; {range}. "
+        "`abu grinding` compares it with the prediction. No default."
     )
-    imbalance_g_mm: float | None = Field(
-        default=None,
-        description="Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One source is needed: "
-        "this, balance_grade or a measured_ value.",
-        examples=[150.0],
-        ge=0,
-        le=1e9,
-        json_schema_extra=usual(2, 1.2e5),
+    imbalance_g_mm: float | None = entry(None, ge=0, le=1e9, usual=(2, 1.2e5), example=150.0).means(
+        "Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One source is needed: this, balance_grade or "
+        "a measured_ value."
     )
-    balance_grade: BalanceGrade | None = Field(
-        default=None,
-        description="Balance quality grade by ISO 21940-11, of the wheel's mass at the rated speed: G4000, G1600, "
-        "G630, G250, G100, G40, G16, G6.3, G2.5, G1 or G0.4. Instead of imbalance_g_mm. "
-        "It describes balanced rotors; abrasive wheels are far worse.",
-        examples=["G16"],
+    balance_grade: BalanceGrade | None = entry(None, example="G16").means(
+        "Balance quality grade by ISO 21940-11, of the wheel's mass at the rated speed: G4000, G1600, G630, G250, "
+        "G100, G40, G16, G6.3, G2.5, G1 or G0.4. Instead of imbalance_g_mm. It describes balanced rotors; abrasive "
+        "wheels are far worse."
     )
     measured_level_db: Levels = measured_field("measured_level_db", BARE)
     measured_velocity_mm_per_s: Velocities = measured_field("measured_velocity_mm_per_s", BARE)
@@ -298,11 +249,8 @@ class Wheel(Measured):
     measured_acceleration_m_per_s2: Accelerations = measured_field("measured_acceleration_m_per_s2", BARE)
     measured_weighting: Weighting | None = Field(default=None, description=WEIGHTING_WORDS, examples=["none"])
     measured_axes: Axes | None = Field(default=None, description=AXES_WORDS, examples=[1])
-    measured_at: Name | None = Field(
-        default=None,
-        description="With a measured_ value: name of the handle where it was measured. Without it: the wheel plane.",
-        examples=["front"],
-        min_length=1,
+    measured_at: Name | None = entry(None, example="front", min_length=1).means(
+        "With a measured_ value: name of the handle where it was measured. Without it: the wheel plane."
     )
 
     @property

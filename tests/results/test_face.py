@@ -136,7 +136,7 @@ def test_a_file_may_be_named_by_a_path(tmp_path: Path) -> None:
 
 def test_every_public_name_is_there() -> None:
     assert all(hasattr(abu_calc, name) for name in abu_calc.__all__)
-    named = {name for names in abu_calc._ROOMS.values() for name in names}
+    named = {name for names in abu_calc._ROOMS.values() for name in names.split()}
     assert {*named, "__version__", "units"} == set(abu_calc.__all__) and set(abu_calc.__all__) <= set(dir(abu_calc))
     with pytest.raises(AttributeError, match="no attribute 'sise'"):
         _ = abu_calc.sise  # type: ignore[attr-defined]

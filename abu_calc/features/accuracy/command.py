@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import Accuracy, Duration, File, Overrides, WhichScene, WhichStart, add_command
+from abu_calc.cli.command import Accuracy, Duration, File, Overrides, WhichScene, WhichStart, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
@@ -16,12 +16,9 @@ if TYPE_CHECKING:
 
 
 Quantity = Annotated[
-    str,
-    typer.Option(
-        "--quantity", metavar="NAME", help="Quantity to compare: amplitude, level, quiet, rest, settling, angles."
-    ),
+    str, option("--quantity NAME", "Quantity to compare: amplitude, level, quiet, rest, settling, angles.")
 ]
-Budget = Annotated[float, typer.Option("--time-budget", "--budget", metavar="S", help="Computing time to spend.")]
+Budget = Annotated[float, option("--time-budget --budget S", "Computing time to spend.")]
 
 
 def accuracy(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.command import Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
@@ -20,17 +20,13 @@ def balance(
     how: Delivery,
     readings: Annotated[str, typer.Argument(metavar="READINGS", help="File of readings or name of a preset.")],
     coefficients: Annotated[
-        str | None,
-        typer.Option("--coefficients", metavar="FILE", help="Use influence coefficients that were saved in this file."),
+        str | None, option("--coefficients FILE", "Use influence coefficients that were saved in this file.")
     ] = None,
     save_coefficients: Annotated[
-        Path | None,
-        typer.Option("--save-coefficients", metavar="FILE", help="Save the influence coefficients of the trial runs."),
+        Path | None, option("--save-coefficients FILE", "Save the influence coefficients of the trial runs.")
     ] = None,
     set_: Overrides = None,
-    explain: Annotated[
-        bool, typer.Option("--explain", help="Print the whole report and every formula with its numbers.")
-    ] = False,
+    explain: Annotated[bool, option("--explain", "Print the whole report and every formula with its numbers.")] = False,
 ) -> Outcome:
     """Balance a rotor in one plane or two from runs on a rig or in the field.
 

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, entry, problem, usual
 
 SupportMass = Annotated[float, Field(ge=0, le=1e6, json_schema_extra=usual(0.05, 20000))]
 SupportStiffness = Annotated[float, Field(gt=0, le=1e12, json_schema_extra=usual(1000, 1e9))]
@@ -32,25 +32,16 @@ class Rig(Table):
     trial run.
     """
 
-    left_support_mass_kg: SupportMass = Field(
-        description="M1, what moves of the left support [kg]; {range}.", examples=[18.0]
+    left_support_mass_kg: SupportMass = entry(example=18.0).means("M1, what moves of the left support [kg]; {range}.")
+    right_support_mass_kg: SupportMass = entry(example=21.0).means("M2, what moves of the right support [kg]; {range}.")
+    left_stiffness_N_per_m: SupportStiffness = entry(example=3e5).means(
+        "C1, stiffness of the left support [N/m]; {range}."
     )
-    right_support_mass_kg: SupportMass = Field(
-        description="M2, what moves of the right support [kg]; {range}.", examples=[21.0]
+    right_stiffness_N_per_m: SupportStiffness = entry(example=3.6e5).means(
+        "C2, stiffness of the right support [N/m]; {range}."
     )
-    left_stiffness_N_per_m: SupportStiffness = Field(
-        description="C1, stiffness of the left support [N/m]; {range}.", examples=[3e5]
-    )
-    right_stiffness_N_per_m: SupportStiffness = Field(
-        description="C2, stiffness of the right support [N/m]; {range}.", examples=[3.6e5]
-    )
-    damping_ratio: float = Field(
-        default=0.0,
-        description="Damping ratio of each support with the roll on it, the other support held; {range}. Default: "
-        "{default}.",
-        ge=0,
-        le=0.5,
-        json_schema_extra=usual(0.001, 0.3),
+    damping_ratio: float = entry(0.0, ge=0, le=0.5, usual=(0.001, 0.3)).means(
+        "Damping ratio of each support with the roll on it, the other support held; {range}. Default: {default}."
     )
 
 
@@ -64,96 +55,51 @@ class Rotor(Table):
     )
 
     name: Name = Field(default="roll", description="Name, as reports print it. Default: {default}.", min_length=1)
-    mass_kg: float | None = Field(
-        default=None,
-        description="M3, mass of the roll [kg]; {range}.",
-        examples=[64.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(0.1, 50000),
+    mass_kg: float | None = entry(None, gt=0, le=1e6, usual=(0.1, 50000), example=64.0).means(
+        "M3, mass of the roll [kg]; {range}."
     )
-    transverse_inertia_kg_m2: float | None = Field(
-        default=None,
-        description="J3, moment of inertia about a transverse axis through the centre of mass [kg·m²]; {range}.",
-        examples=[9.5],
-        gt=0,
-        le=1e9,
-        json_schema_extra=usual(1e-4, 1e6),
+    transverse_inertia_kg_m2: float | None = entry(None, gt=0, le=1e9, usual=(1e-4, 1e6), example=9.5).means(
+        "J3, moment of inertia about a transverse axis through the centre of mass [kg·m²]; {range}."
     )
-    left_end_to_left_plane_m: Length | None = Field(
-        default=None,
-        description="a, from the left bearing to the left plane [m]; {range}. Negative: the plane is outside.",
-        examples=[0.15],
-        json_schema_extra=usual(0.01, 20),
+    left_end_to_left_plane_m: Length | None = entry(None, usual=(0.01, 20), example=0.15).means(
+        "a, from the left bearing to the left plane [m]; {range}. Negative: the plane is outside."
     )
-    left_plane_to_centre_m: Length | None = Field(
-        default=None,
-        description="b, from the left plane to the centre of mass [m]; {range}. "
-        "Negative: the centre of mass is left of it.",
-        examples=[0.52],
-        json_schema_extra=usual(0.01, 20),
+    left_plane_to_centre_m: Length | None = entry(None, usual=(0.01, 20), example=0.52).means(
+        "b, from the left plane to the centre of mass [m]; {range}. Negative: the centre of mass is left of it."
     )
-    centre_to_right_plane_m: Length | None = Field(
-        default=None,
-        description="c, from the centre of mass to the right plane [m]; {range}. "
-        "Negative: the centre of mass is right of it.",
-        examples=[0.61],
-        json_schema_extra=usual(0.01, 20),
+    centre_to_right_plane_m: Length | None = entry(None, usual=(0.01, 20), example=0.61).means(
+        "c, from the centre of mass to the right plane [m]; {range}. Negative: the centre of mass is right of it."
     )
-    right_plane_to_right_end_m: Length | None = Field(
-        default=None,
-        description="d, from the right plane to the right bearing [m]; {range}. Negative: the plane is outside.",
-        examples=[0.2],
-        json_schema_extra=usual(0.01, 20),
+    right_plane_to_right_end_m: Length | None = entry(None, usual=(0.01, 20), example=0.2).means(
+        "d, from the right plane to the right bearing [m]; {range}. Negative: the plane is outside."
     )
-    left_correction_radius_mm: Radius | None = Field(
-        default=None,
-        description="R1, radius at which mass is removed or added in the left plane [mm]; {range}. Not with "
-        "[single_plane].",
-        examples=[120.0],
+    left_correction_radius_mm: Radius | None = entry(None, example=120.0).means(
+        "R1, radius at which mass is removed or added in the left plane [mm]; {range}. Not with [single_plane]."
     )
-    right_correction_radius_mm: Radius | None = Field(
-        default=None,
-        description="R2, likewise in the right plane [mm]; {range}. Not with [single_plane].",
-        examples=[150.0],
+    right_correction_radius_mm: Radius | None = entry(None, example=150.0).means(
+        "R2, likewise in the right plane [mm]; {range}. Not with [single_plane]."
     )
-    angle_marks: Literal["against", "with"] = Field(
-        default="against",
-        description="Direction in which the angle marks of the rotor count from its zero mark: against rotation or "
-        "with it. It holds for trial masses, places and the angles of the answer. Default: {default}.",
+    angle_marks: Literal["against", "with"] = entry("against").means(
+        "Direction in which the angle marks of the rotor count from its zero mark: against rotation or with it. It "
+        "holds for trial masses, places and the angles of the answer. Default: {default}."
     )
-    max_removable_g: float | None = Field(
-        default=None,
-        description="Largest mass that may be removed in a plane [g]; {range}. Beyond that, mass is added opposite.",
-        examples=[50.0],
-        ge=0,
-        le=1e6,
-        json_schema_extra=usual(0.1, 10000),
+    max_removable_g: float | None = entry(None, ge=0, le=1e6, usual=(0.1, 10000), example=50.0).means(
+        "Largest mass that may be removed in a plane [g]; {range}. Beyond that, mass is added opposite."
     )
-    left_places_deg: Places | None = Field(
-        default=None,
-        description="Left plane: the places where there is metal, such as screw flights or bolt holes, from the zero "
-        "mark by angle_marks [degrees]; two or more, each {range}. Without it: anywhere.",
-        examples=[[0.0, 120.0, 240.0]],
+    left_places_deg: Places | None = entry(None, example=[0.0, 120.0, 240.0]).means(
+        "Left plane: the places where there is metal, such as screw flights or bolt holes, from the zero mark by "
+        "angle_marks [degrees]; two or more, each {range}. Without it: anywhere."
     )
-    right_places_deg: Places | None = Field(
-        default=None,
-        description="Right plane, likewise [degrees]; each {range}. Without it: anywhere.",
-        examples=[[60.0, 180.0, 300.0]],
+    right_places_deg: Places | None = entry(None, example=[60.0, 180.0, 300.0]).means(
+        "Right plane, likewise [degrees]; each {range}. Without it: anywhere."
     )
-    turns_from_left: Literal["counterclockwise", "clockwise"] = Field(
-        default="counterclockwise",
-        description="How the roll turns, to one who stands at its left end: counterclockwise or clockwise. For the "
-        "drawing alone. Default: {default}.",
+    turns_from_left: Literal["counterclockwise", "clockwise"] = entry("counterclockwise").means(
+        "How the roll turns, to one who stands at its left end: counterclockwise or clockwise. For the drawing alone. "
+        "Default: {default}."
     )
-    first_bending_speed_rpm: float | None = Field(
-        default=None,
-        description="Lowest speed at which the roll itself bends [rpm]; {range}. Without it: that of a solid steel bar "
-        "of its mass and length.",
-        examples=[9000.0],
-        gt=0,
-        le=1e7,
-        json_schema_extra=usual(100, 1e6),
+    first_bending_speed_rpm: float | None = entry(None, gt=0, le=1e7, usual=(100, 1e6), example=9000.0).means(
+        "Lowest speed at which the roll itself bends [rpm]; {range}. Without it: that of a solid steel bar of its mass "
+        "and length."
     )
 
     def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -218,14 +164,10 @@ class SinglePlane(Table):
     [rotor].
     """
 
-    correction_radius_mm: Radius = Field(
-        description="Radius at which mass is removed or added [mm]; {range}.", examples=[120.0]
-    )
-    places_deg: Places | None = Field(
-        default=None,
-        description="Places where there is metal, such as blades, from the zero mark by rotor.angle_marks [degrees]; "
-        "two or more, each {range}. Without it: anywhere.",
-        examples=[[0.0, 120.0, 240.0]],
+    correction_radius_mm: Radius = entry(example=120.0).means("Radius at which mass is removed or added [mm]; {range}.")
+    places_deg: Places | None = entry(None, example=[0.0, 120.0, 240.0]).means(
+        "Places where there is metal, such as blades, from the zero mark by rotor.angle_marks [degrees]; two or more, "
+        "each {range}. Without it: anywhere."
     )
 
     @model_validator(mode="after")

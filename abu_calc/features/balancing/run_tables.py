@@ -8,98 +8,49 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.features.balancing.instrument import Instrument, Quantity, instrument_of, known_units, plain_instrument
-from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, entry, problem
 
 
 class Errors(Table):
     """How far readings, masses put on and data of the rig may be off: one standard deviation each."""
 
-    amplitude_percent: float = Field(
-        default=1.0,
-        description="Error of each amplitude [%]; {range}. A reading below a tenth of the largest at its speed has the "
-        "errors of that tenth. Default: {default}, assumed.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.01, 20),
+    amplitude_percent: float = entry(1.0, ge=0, le=100, usual=(0.01, 20)).means(
+        "Error of each amplitude [%]; {range}. A reading below a tenth of the largest at its speed has the errors of "
+        "that tenth. Default: {default}, assumed."
     )
-    phase_deg: float = Field(
-        default=1.0,
-        description="Error of each phase [degrees]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=90,
-        json_schema_extra=usual(0.01, 20),
+    phase_deg: float = entry(1.0, ge=0, le=90, usual=(0.01, 20)).means(
+        "Error of each phase [degrees]; {range}. Default: {default}, assumed."
     )
-    speed_percent: float = Field(
-        default=0.1,
-        description="Error of the speed [%]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=50,
-        json_schema_extra=usual(0.001, 10),
+    speed_percent: float = entry(0.1, ge=0, le=50, usual=(0.001, 10)).means(
+        "Error of the speed [%]; {range}. Default: {default}, assumed."
     )
-    support_mass_percent: float = Field(
-        default=2.0,
-        description="Error of the moving mass of each support [%]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.01, 50),
+    support_mass_percent: float = entry(2.0, ge=0, le=100, usual=(0.01, 50)).means(
+        "Error of the moving mass of each support [%]; {range}. Default: {default}, assumed."
     )
-    stiffness_percent: float = Field(
-        default=2.0,
-        description="Error of each stiffness [%]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.01, 50),
+    stiffness_percent: float = entry(2.0, ge=0, le=100, usual=(0.01, 50)).means(
+        "Error of each stiffness [%]; {range}. Default: {default}, assumed."
     )
-    damping_ratio: float = Field(
-        default=0.01,
-        description="Error of rig.damping_ratio; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=0.5,
-        json_schema_extra=usual(0.0001, 0.2),
+    damping_ratio: float = entry(0.01, ge=0, le=0.5, usual=(0.0001, 0.2)).means(
+        "Error of rig.damping_ratio; {range}. Default: {default}, assumed."
     )
-    rotor_mass_percent: float = Field(
-        default=0.5,
-        description="Error of the roll's mass [%]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.01, 50),
+    rotor_mass_percent: float = entry(0.5, ge=0, le=100, usual=(0.01, 50)).means(
+        "Error of the roll's mass [%]; {range}. Default: {default}, assumed."
     )
-    inertia_percent: float = Field(
-        default=2.0,
-        description="Error of the roll's inertia [%]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.01, 50),
+    inertia_percent: float = entry(2.0, ge=0, le=100, usual=(0.01, 50)).means(
+        "Error of the roll's inertia [%]; {range}. Default: {default}, assumed."
     )
-    length_mm: float = Field(
-        default=1.0,
-        description="Error of each of the four lengths [mm]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=1000,
-        json_schema_extra=usual(0.01, 100),
+    length_mm: float = entry(1.0, ge=0, le=1000, usual=(0.01, 100)).means(
+        "Error of each of the four lengths [mm]; {range}. Default: {default}, assumed."
     )
-    placed_mass_percent: float = Field(
-        default=1.0,
-        description="Error of each mass added or removed, trial or correction [%]; {range}. "
-        "Default: {default}, assumed.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.01, 50),
+    placed_mass_percent: float = entry(1.0, ge=0, le=100, usual=(0.01, 50)).means(
+        "Error of each mass added or removed, trial or correction [%]; {range}. Default: {default}, assumed."
     )
-    placed_angle_deg: float = Field(
-        default=1.0,
-        description="Error of the angle of each mass [degrees]; {range}. Default: {default}, assumed.",
-        ge=0,
-        le=90,
-        json_schema_extra=usual(0.01, 20),
+    placed_angle_deg: float = entry(1.0, ge=0, le=90, usual=(0.01, 20)).means(
+        "Error of the angle of each mass [degrees]; {range}. Default: {default}, assumed."
     )
-    coefficient_percent: float = Field(
-        default=2.0,
-        description="Difference of a rotor's influence coefficients from those that were stored of its kind [%]; "
-        "{range}. Default: {default}, assumed.",
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.01, 50),
+    coefficient_percent: float = entry(2.0, ge=0, le=100, usual=(0.01, 50)).means(
+        "Difference of a rotor's influence coefficients from those that were stored of its kind [%]; {range}. Default: "
+        "{default}, assumed."
     )
 
 
@@ -113,26 +64,15 @@ class Reading(Table):
 
     inline: ClassVar[bool] = True
 
-    name: Name | None = Field(
-        default=None,
-        description="Name of the sensor, in readings alone. Without it: its number, from 1.",
-        examples=["fan end, horizontal"],
-        min_length=1,
-        max_length=60,
+    name: Name | None = entry(None, example="fan end, horizontal", min_length=1, max_length=60).means(
+        "Name of the sensor, in readings alone. Without it: its number, from 1."
     )
-    amplitude: float = Field(
-        description="Amplitude at the speed of rotation, in the unit of the run; {range}.",
-        examples=[0.038109],
-        ge=0,
-        le=1e6,
+    amplitude: float = entry(ge=0, le=1e6, example=0.038109).means(
+        "Amplitude at the speed of rotation, in the unit of the run; {range}."
     )
-    phase_deg: float | None = Field(
-        default=None,
-        description="Phase [degrees], by the convention of the run, t from the passage of the zero mark; {range}. "
-        "Without it in all runs: balancing without phase.",
-        examples=[18.7489],
-        ge=-360,
-        le=360,
+    phase_deg: float | None = entry(None, ge=-360, le=360, example=18.7489).means(
+        "Phase [degrees], by the convention of the run, t from the passage of the zero mark; {range}. Without it in "
+        "all runs: balancing without phase."
     )
 
 
@@ -141,31 +81,17 @@ class Trial(Table):
 
     inline: ClassVar[bool] = True
 
-    plane: Plane | None = Field(
-        default=None,
-        description="The correction plane it was in: left or right. With [single_plane] it is left out.",
-        examples=["left"],
+    plane: Plane | None = entry(None, example="left").means(
+        "The correction plane it was in: left or right. With [single_plane] it is left out."
     )
-    mass_g: float = Field(
-        description="Its mass [g]; {range}, negative: metal that was taken off.",
-        examples=[10.0],
-        ge=-1e6,
-        le=1e6,
-        json_schema_extra=usual(0.01, 5000),
+    mass_g: float = entry(ge=-1e6, le=1e6, usual=(0.01, 5000), example=10.0).means(
+        "Its mass [g]; {range}, negative: metal that was taken off."
     )
-    angle_deg: float = Field(
-        description="Angle from the zero mark, counted by rotor.angle_marks [degrees]; {range}.",
-        examples=[0.0],
-        ge=-360,
-        le=360,
+    angle_deg: float = entry(ge=-360, le=360, example=0.0).means(
+        "Angle from the zero mark, counted by rotor.angle_marks [degrees]; {range}."
     )
-    radius_mm: float | None = Field(
-        default=None,
-        description="Radius it was at [mm]; {range}. Without it: the correction radius of its plane.",
-        examples=[120.0],
-        gt=0,
-        le=1e5,
-        json_schema_extra=usual(5, 5000),
+    radius_mm: float | None = entry(None, gt=0, le=1e5, usual=(5, 5000), example=120.0).means(
+        "Radius it was at [mm]; {range}. Without it: the correction radius of its plane."
     )
 
     @model_validator(mode="after")
@@ -185,81 +111,53 @@ class Run(Table):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"speed_rpm", "quantity", "phase", "left", "right"})
 
-    speed_rpm: float | None = Field(
-        default=None,
-        description="Speed of rotation [rpm]; {range}. With file it may be left out: the marks tell it.",
-        examples=[3000.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(60, 60000),
+    speed_rpm: float | None = entry(None, gt=0, le=1e6, usual=(60, 60000), example=3000.0).means(
+        "Speed of rotation [rpm]; {range}. With file it may be left out: the marks tell it."
     )
-    quantity: Quantity | None = Field(
-        default=None,
-        description="Quantity that the sensors read: displacement (mm), velocity (mm/s) or acceleration (m/s²), all "
-        "0–peak. The quantity decides the side: an acceleration points opposite to the displacement.",
-        examples=["displacement"],
+    quantity: Quantity | None = entry(None, example="displacement").means(
+        "Quantity that the sensors read: displacement (mm), velocity (mm/s) or acceleration (m/s²), all 0–peak. The "
+        "quantity decides the side: an acceleration points opposite to the displacement."
     )
-    unit: str | None = Field(
-        default=None,
-        description="In place of quantity, the unit as the instrument shows it: µm, mil, mm, mm/s, ips, m/s² or g, "
-        "then 0-peak, peak-peak or rms.",
-        examples=["µm peak-peak"],
-        max_length=40,
+    unit: str | None = entry(None, example="µm peak-peak", max_length=40).means(
+        "In place of quantity, the unit as the instrument shows it: µm, mil, mm, mm/s, ips, m/s² or g, then 0-peak, "
+        "peak-peak or rms."
     )
-    phase: Phase | None = Field(
-        default=None,
-        description="Convention of the phases. lag: A·cos(ωt − phase), lead: A·cos(ωt + phase). Without it: lag, with "
-        "a warning.",
-        examples=["lag"],
+    phase: Phase | None = entry(None, example="lag").means(
+        "Convention of the phases. lag: A·cos(ωt − phase), lead: A·cos(ωt + phase). Without it: lag, with a warning."
     )
-    left: Reading | None = Field(
-        default=None,
-        description="Sensor at the left support.",
-        examples=[{"amplitude": 0.038109, "phase_deg": 18.7489}],
+    left: Reading | None = entry(None, example={"amplitude": 0.038109, "phase_deg": 18.7489}).means(
+        "Sensor at the left support."
     )
-    right: Reading | None = Field(
-        default=None,
-        description="Sensor at the right support.",
-        examples=[{"amplitude": 0.031642, "phase_deg": 152.7485}],
+    right: Reading | None = entry(None, example={"amplitude": 0.031642, "phase_deg": 152.7485}).means(
+        "Sensor at the right support."
     )
     readings: Annotated[
         tuple[Reading, ...],
         Field(strict=False, max_length=40),
         BeforeValidator(listed, json_schema_input_type=Reading | Annotated[tuple[Reading, ...], Field(max_length=40)]),
-    ] = Field(
-        default=(),
-        description="In place of left and right: the readings of any number of sensors, one table or a list of them. "
-        "All runs list the same sensors.",
-        examples=[[{"amplitude": 0.038109, "phase_deg": 18.7489}]],
+    ] = entry((), example=[{"amplitude": 0.038109, "phase_deg": 18.7489}]).means(
+        "In place of left and right: the readings of any number of sensors, one table or a list of them. All runs list "
+        "the same sensors."
     )
-    file: str | None = Field(
-        default=None,
-        description="A recorded run in place of left and right: a CSV file beside this one. Its columns are "
-        "time (s), left, right (in the unit of quantity) and mark (pulses, either polarity).",
-        examples=["run1.csv"],
-        min_length=1,
+    file: str | None = entry(None, example="run1.csv", min_length=1).means(
+        "A recorded run in place of left and right: a CSV file beside this one. Its columns are time (s), left, right "
+        "(in the unit of quantity) and mark (pulses, either polarity)."
     )
-    mark_edge: MarkEdge | None = Field(
-        default=None,
-        description="With file: what of a pulse is the mark's passage: its leading edge, its middle or its trailing "
-        "edge. Without it: the leading edge of a square pulse, the middle of a rounded one.",
-        examples=["leading"],
+    mark_edge: MarkEdge | None = entry(None, example="leading").means(
+        "With file: what of a pulse is the mark's passage: its leading edge, its middle or its trailing edge. Without "
+        "it: the leading edge of a square pulse, the middle of a rounded one."
     )
-    sensor_to_mark_deg: float = Field(
-        default=0.0,
-        description="Place of the zero-mark sensor from the vibration sensors, in the sense of rotation [degrees]; "
-        "{range}. Default: {default}, in line with them.",
-        ge=-360,
-        le=360,
+    sensor_to_mark_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Place of the zero-mark sensor from the vibration sensors, in the sense of rotation [degrees]; {range}. "
+        "Default: {default}, in line with them."
     )
     trial: Annotated[
         tuple[Trial, ...],
         Field(strict=False, max_length=20),
         BeforeValidator(listed, json_schema_input_type=Trial | Annotated[tuple[Trial, ...], Field(max_length=20)]),
-    ] = Field(
-        default=(),
-        description="Known masses that were on in this run alone, one table or a list of them: plane, mass_g, "
-        "angle_deg. For influence coefficients.",
+    ] = entry(()).means(
+        "Known masses that were on in this run alone, one table or a list of them: plane, mass_g, angle_deg. For "
+        "influence coefficients."
     )
 
     @property

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from abu_calc.features.balancing.rotor_tables import OF_THE_RIG, Rig, Rotor, SinglePlane
 from abu_calc.features.balancing.run_tables import EXAMPLE, Errors, Reading, Run, Trial, listed
 from abu_calc.inputs.bearing_file import EXPECTED, Expected
-from abu_calc.inputs.reading.table import Table, problem, usual
+from abu_calc.inputs.reading.table import Table, entry, problem
 from abu_calc.inputs.wheel import BalanceGrade
 
 __all__ = ["Errors", "Reading", "ReadingsFile", "Rig", "Rotor", "Run", "SinglePlane", "Tolerance", "Trial"]
@@ -31,91 +31,49 @@ DENSITIES: Final = {
 class Correction(Table):
     """How the correction is made, and whether masses that are fitted already stay."""
 
-    answer: Literal["trim", "total"] = Field(
-        default="trim",
-        description="trim: the correction comes in addition to the fitted masses. total: it takes the place of the "
-        "fitted masses. Default: {default}.",
+    answer: Literal["trim", "total"] = entry("trim").means(
+        "trim: the correction comes in addition to the fitted masses. total: it takes the place of the fitted masses. "
+        "Default: {default}."
     )
     fitted: Annotated[
         tuple[Trial, ...],
         Field(strict=False, max_length=100),
         BeforeValidator(listed, json_schema_input_type=Trial | Annotated[tuple[Trial, ...], Field(max_length=100)]),
-    ] = Field(
-        default=(),
-        description="Correction masses that were fitted in all runs, as trial: plane, mass_g, angle_deg. A negative "
-        "mass is metal that was removed.",
+    ] = entry(()).means(
+        "Correction masses that were fitted in all runs, as trial: plane, mass_g, angle_deg. A negative mass is metal "
+        "that was removed."
     )
-    max_added_g: float | None = Field(
-        default=None,
-        description="Largest mass that may be added in a plane [g]; {range}.",
-        examples=[100.0],
-        ge=0,
-        le=1e6,
-        json_schema_extra=usual(0.1, 10000),
+    max_added_g: float | None = entry(None, ge=0, le=1e6, usual=(0.1, 10000), example=100.0).means(
+        "Largest mass that may be added in a plane [g]; {range}."
     )
-    max_per_place_g: float | None = Field(
-        default=None,
-        description="Largest mass that may be removed or added at one place [g]; {range}. More is split over several "
-        "places.",
-        examples=[20.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(0.1, 10000),
+    max_per_place_g: float | None = entry(None, gt=0, le=1e6, usual=(0.1, 10000), example=20.0).means(
+        "Largest mass that may be removed or added at one place [g]; {range}. More is split over several places."
     )
-    stock_weights_g: Annotated[tuple[Weight, ...], Field(strict=False, min_length=1, max_length=20)] | None = Field(
-        default=None,
-        description="Weights in stock, of which any number may be added [g]; one or more, each {range}.",
-        examples=[[5.0, 10.0, 20.0]],
+    stock_weights_g: Annotated[tuple[Weight, ...], Field(strict=False, min_length=1, max_length=20)] | None = entry(
+        None, example=[5.0, 10.0, 20.0]
+    ).means("Weights in stock, of which any number may be added [g]; one or more, each {range}.")
+    drill_diameter_mm: float | None = entry(None, gt=0, le=1000, usual=(1, 100), example=10.0).means(
+        "Diameter of the holes that remove mass [mm]; {range}. The report then gives their depth."
     )
-    drill_diameter_mm: float | None = Field(
-        default=None,
-        description="Diameter of the holes that remove mass [mm]; {range}. The report then gives their depth.",
-        examples=[10.0],
-        gt=0,
-        le=1000,
-        json_schema_extra=usual(1, 100),
+    drill_direction: Literal["axial", "radial"] | None = entry(None, example="axial").means(
+        "axial: the middle of a hole is at the correction radius. radial: a hole begins there and goes inward. Without "
+        "it: axial."
     )
-    drill_direction: Literal["axial", "radial"] | None = Field(
-        default=None,
-        description="axial: the middle of a hole is at the correction radius. radial: a hole begins there and goes "
-        "inward. Without it: axial.",
-        examples=["axial"],
+    drill_point_deg: float | None = entry(None, ge=60, le=180, example=118.0).means(
+        "Angle of the drill's point [degrees]; {range}. The depth counts to the tip. Without it: 180, a flat bottom."
     )
-    drill_point_deg: float | None = Field(
-        default=None,
-        description="Angle of the drill's point [degrees]; {range}. The depth counts to the tip. Without it: 180, a "
-        "flat bottom.",
-        examples=[118.0],
-        ge=60,
-        le=180,
+    max_hole_depth_mm: float | None = entry(None, gt=0, le=1000, usual=(1, 200), example=15.0).means(
+        "Largest depth of a hole [mm]; {range}. More mass is split over several holes."
     )
-    max_hole_depth_mm: float | None = Field(
-        default=None,
-        description="Largest depth of a hole [mm]; {range}. More mass is split over several holes.",
-        examples=[15.0],
-        gt=0,
-        le=1000,
-        json_schema_extra=usual(1, 200),
+    hole_spacing_mm: float | None = entry(None, gt=0, le=1e4, usual=(2, 500), example=15.0).means(
+        "Distance of neighbouring holes or weights along the circle, centre to centre [mm]; {range}. Without it: one "
+        "and a half diameters of the drill."
     )
-    hole_spacing_mm: float | None = Field(
-        default=None,
-        description="Distance of neighbouring holes or weights along the circle, centre to centre [mm]; {range}. "
-        "Without it: one and a half diameters of the drill.",
-        examples=[15.0],
-        gt=0,
-        le=1e4,
-        json_schema_extra=usual(2, 500),
-    )
-    material: Literal["steel", "cast iron", "aluminium", "brass", "bronze", "titanium"] | None = Field(
-        default=None, description="Material that is drilled. Without it: steel.", examples=["steel"]
-    )
-    density_kg_per_m3: float | None = Field(
-        default=None,
-        description="Density of the material that is drilled [kg/m³]; {range}. Without it: the usual one of material.",
-        examples=[7850.0],
-        gt=0,
-        le=30000,
-        json_schema_extra=usual(1000, 20000),
+    material: Literal["steel", "cast iron", "aluminium", "brass", "bronze", "titanium"] | None = entry(
+        None, example="steel"
+    ).means("Material that is drilled. Without it: steel.")
+    density_kg_per_m3: float | None = entry(None, gt=0, le=30000, usual=(1000, 20000), example=7850.0).means(
+        "Density of the material that is drilled [kg/m³]; {range}. Without it: the usual one of material."
     )
 
     def unused(self) -> frozenset[str]:
@@ -142,18 +100,11 @@ class Correction(Table):
 class Tolerance(Table):
     """Limits of the balanced roll."""
 
-    balance_grade: BalanceGrade | None = Field(
-        default=None,
-        description="Balance quality grade by ISO 21940-11, of rotor.mass_kg at service_speed_rpm: G4000 … G0.4.",
-        examples=["G6.3"],
+    balance_grade: BalanceGrade | None = entry(None, example="G6.3").means(
+        "Balance quality grade by ISO 21940-11, of rotor.mass_kg at service_speed_rpm: G4000 … G0.4."
     )
-    service_speed_rpm: float | None = Field(
-        default=None,
-        description="Highest speed in service [rpm]; {range}. Without it: the highest of the runs.",
-        examples=[3000.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(10, 60000),
+    service_speed_rpm: float | None = entry(None, gt=0, le=1e6, usual=(10, 60000), example=3000.0).means(
+        "Highest speed in service [rpm]; {range}. Without it: the highest of the runs."
     )
 
 
@@ -165,8 +116,8 @@ class ReadingsFile(Table):
     rig: Rig | None = None
     rotor: Rotor = Field(default_factory=Rotor)
     single_plane: SinglePlane | None = None
-    run: Annotated[tuple[Run, ...], Field(strict=False, min_length=1, max_length=1000)] = Field(
-        description="Runs: [[run]], one or more."
+    run: Annotated[tuple[Run, ...], Field(strict=False, min_length=1, max_length=1000)] = entry().means(
+        "Runs: [[run]], one or more."
     )
     correction: Correction = Field(default_factory=Correction)
     errors: Errors = Field(default_factory=Errors)

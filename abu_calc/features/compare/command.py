@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.command import Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, Place
@@ -25,20 +25,15 @@ def compare(
     ],
     variants: Annotated[
         list[str] | None,
-        typer.Option(
-            "--variant",
-            metavar="KEY=VALUE,KEY=VALUE",
-            help="Add a variant of the machine with these entries replaced; repeatable.",
+        option(
+            "--variant KEY=VALUE,KEY=VALUE", "Add a variant of the machine with these entries replaced; repeatable."
         ),
     ] = None,
     measured: Annotated[
-        list[str] | None,
-        typer.Option("--measured", metavar="FILE", help="Set a recorded start beside predicted ones; repeatable."),
+        list[str] | None, option("--measured FILE", "Set a recorded start beside predicted ones; repeatable.")
     ] = None,
     set_: Overrides = None,
-    accuracy: Annotated[
-        float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in simulations.")
-    ] = 0.01,
+    accuracy: Annotated[float, option("--accuracy RATIO", "Relative error allowed in simulations.")] = 0.01,
 ) -> Outcome:
     """Compare machines or variants of one machine side by side."""
     from abu_calc.features.compare.study import compare as study

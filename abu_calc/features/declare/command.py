@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.command import Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, Place
@@ -22,32 +22,23 @@ def declare(
     how: Delivery,
     machine: Annotated[str | None, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")] = None,
     set_: Overrides = None,
-    starts: Annotated[int, typer.Option("--starts", metavar="N", help="Starts of the balls to simulate.")] = 10_000,
+    starts: Annotated[int, option("--starts N", "Starts of the balls to simulate.")] = 10_000,
     recordings: Annotated[
         list[str] | None,
-        typer.Option(
-            "--recordings",
-            metavar="FILE",
-            help="Recorded run (CSV or WAV; repeatable), or a TOML file that lists the runs.",
-            rich_help_panel=MEASURED,
+        option(
+            "--recordings FILE", "Recorded run (CSV or WAV; repeatable), or a TOML file that lists the runs.", MEASURED
         ),
     ] = None,
     sensitivity: Annotated[
         list[str] | None,
-        typer.Option(
-            "--sensitivity",
-            metavar="[CHANNEL=]VALUE",
-            help="Sensitivity of sensors in V or mV, such as 100 mV/g; repeatable.",
-            rich_help_panel=MEASURED,
+        option(
+            "--sensitivity [CHANNEL=]VALUE",
+            "Sensitivity of sensors in V or mV, such as 100 mV/g; repeatable.",
+            MEASURED,
         ),
     ] = None,
     automatic_balancing: Annotated[
-        bool,
-        typer.Option(
-            "--automatic-balancing",
-            help="The machine has an autobalancer: multiply by 1.3.",
-            rich_help_panel=MEASURED,
-        ),
+        bool, option("--automatic-balancing", "The machine has an autobalancer: multiply by 1.3.", MEASURED)
     ] = False,
 ) -> Outcome:
     """Give the declared vibration value of a type test.

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.inputs.reading.table import Name, Table, entry, problem
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.sensitivity import ALLOWED, sensitivities
 
@@ -44,74 +44,48 @@ class RecordedTest(Table):
 
     __test__: ClassVar[bool] = False
 
-    name: Name = Field(
-        default="type test", description="Name of the machine, as reports print it.", examples=["grinder 7, prototype"],
-        min_length=1,
+    name: Name = entry("type test", example="grinder 7, prototype", min_length=1).means(
+        "Name of the machine, as reports print it."
     )  # fmt: skip
-    automatic_balancing: bool = Field(
-        default=False,
-        description="true: the machine balances itself, so that its declared value is 1.3 times the measured one. "
-        "Default: {default}.",
+    automatic_balancing: bool = entry(False).means(
+        "true: the machine balances itself, so that its declared value is 1.3 times the measured one. Default: "
+        "{default}."
     )
 
 
 class RecordedFile(Table):
     """A recorded file and how it is read."""
 
-    file: Name = Field(
-        description="CSV or WAV file: its whole path, or beside this file.",
-        examples=["operator1-run1.csv"],
-        min_length=1,
+    file: Name = entry(example="operator1-run1.csv", min_length=1).means(
+        "CSV or WAV file: its whole path, or beside this file."
     )
-    columns: Columns | None = Field(
-        default=None,
-        description="Columns or channels of this handle, by name or number from 1. Without it: all columns that hold a "
-        "motion.",
-        examples=[["ax_m_per_s2", "ay_m_per_s2", "az_m_per_s2"]],
+    columns: Columns | None = entry(None, example=["ax_m_per_s2", "ay_m_per_s2", "az_m_per_s2"]).means(
+        "Columns or channels of this handle, by name or number from 1. Without it: all columns that hold a motion."
     )
     sensitivity: Sensitivities | None = Field(default=None, description=SENSITIVITY, examples=["100 mV/g"])
-    quantity: Literal["acceleration", "velocity", "displacement"] | None = Field(
-        default=None,
-        description="Quantity, if the file does not name it: acceleration, velocity or displacement.",
-        examples=["acceleration"],
+    quantity: Literal["acceleration", "velocity", "displacement"] | None = entry(None, example="acceleration").means(
+        "Quantity, if the file does not name it: acceleration, velocity or displacement."
     )
-    scale: float | None = Field(
-        default=None,
-        description="SI value (m/s², m/s, m) of one unit of the file; for WAV, of full scale; {range}.",
-        examples=[9.80665],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(1e-6, 1e5),
+    scale: float | None = entry(None, gt=0, le=1e6, usual=(1e-6, 1e5), example=9.80665).means(
+        "SI value (m/s², m/s, m) of one unit of the file; for WAV, of full scale; {range}."
     )
-    full_scale_mV: float | None = Field(
-        default=None,
-        description="Voltage at full scale of a WAV file with sensitivities [mV]; {range}.",
-        examples=[1000.0],
-        gt=0,
-        le=1e6,
-        json_schema_extra=usual(1, 1e5),
+    full_scale_mV: float | None = entry(None, gt=0, le=1e6, usual=(1, 1e5), example=1000.0).means(
+        "Voltage at full scale of a WAV file with sensitivities [mV]; {range}."
     )
 
 
 class RecordedRun(RecordedFile):
     """One recorded run: one operator, one orientation of the test wheel; three axes of a handle."""
 
-    operator: Text | int = Field(
-        default="1", description="Operator, by name or number. Default: {default}.", examples=["A"]
+    operator: Text | int = entry("1", example="A").means("Operator, by name or number. Default: {default}.")
+    run: Annotated[int, Field(ge=1, le=100_000)] | None = entry(None, example=1).means(
+        "Number of the run. Without it: by the order in the file."
     )
-    run: Annotated[int, Field(ge=1, le=100_000)] | None = Field(
-        default=None, description="Number of the run. Without it: by the order in the file.", examples=[1]
+    handle: Name | None = entry(None, example="front", min_length=1).means(
+        "Handle. Without it: as the columns name it, such as front_ax_m_per_s2."
     )
-    handle: Name | None = Field(
-        default=None,
-        description="Handle. Without it: as the columns name it, such as front_ax_m_per_s2.",
-        examples=["front"],
-        min_length=1,
-    )
-    axis: Literal["x", "y", "z"] | None = Field(
-        default=None,
-        description="Axis of a file with a single one; the axes of a run then stand in several files.",
-        examples=["x"],
+    axis: Literal["x", "y", "z"] | None = entry(None, example="x").means(
+        "Axis of a file with a single one; the axes of a run then stand in several files."
     )
 
     @model_validator(mode="after")
@@ -129,12 +103,8 @@ class RecordedRun(RecordedFile):
 class Calibration(RecordedFile):
     """A recording of the calibrator, for the sensitivity of its channels."""
 
-    acceleration_m_per_s2: float = Field(
-        default=10.0,
-        description="Acceleration of the calibrator, rms [m/s²]; {range}. Default: {default}.",
-        gt=0,
-        le=1e4,
-        json_schema_extra=usual(1, 100),
+    acceleration_m_per_s2: float = entry(10.0, gt=0, le=1e4, usual=(1, 100)).means(
+        "Acceleration of the calibrator, rms [m/s²]; {range}. Default: {default}."
     )
 
 
@@ -144,9 +114,9 @@ class RecordingsFile(Table):
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"type_test"})
 
     type_test: RecordedTest = Field(default_factory=RecordedTest)
-    recording: Annotated[tuple[RecordedRun, ...], Field(strict=False, min_length=1, max_length=MOST_FILES)] = Field(
-        description="Runs: [[recording]], one or more, up to 2000."
+    recording: Annotated[tuple[RecordedRun, ...], Field(strict=False, min_length=1, max_length=MOST_FILES)] = (
+        entry().means("Runs: [[recording]], one or more, up to 2000.")
     )
-    calibration: Annotated[tuple[Calibration, ...], Field(strict=False, max_length=100)] = Field(
-        default=(), description="Runs on a calibrator: [[calibration]], up to 100."
+    calibration: Annotated[tuple[Calibration, ...], Field(strict=False, max_length=100)] = entry(()).means(
+        "Runs on a calibrator: [[calibration]], up to 100."
     )

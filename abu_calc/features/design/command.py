@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import Machine, Overrides, add_command
+from abu_calc.cli.command import Machine, Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.registry import imported
@@ -22,12 +22,8 @@ def size(
     how: Delivery,
     machine: Machine,
     set_: Overrides = None,
-    explain: Annotated[
-        bool, typer.Option("--explain", help="Print the whole report and every formula with its numbers.")
-    ] = False,
-    accuracy: Annotated[
-        float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in simulations.")
-    ] = 0.01,
+    explain: Annotated[bool, option("--explain", "Print the whole report and every formula with its numbers.")] = False,
+    accuracy: Annotated[float, option("--accuracy RATIO", "Relative error allowed in simulations.")] = 0.01,
 ) -> Outcome:
     """Size the autobalancer of a machine and simulate it."""
     from abu_calc.features.design.study import size as study

@@ -4,7 +4,7 @@ The section holds every length that its drawing shows, and the outlines.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
@@ -407,6 +407,8 @@ class DrawingLine(Record):
 class Eccentricity(Record):
     """Parts of the eccentricity that the drawing permits; the simulation uses `total_um`."""
 
+    decimals: ClassVar[Mapping[str, int]] = {"um": 6}
+
     rule: Annotated[str, Quantity("rule of the sum")]
     total_um: Annotated[float, Quantity("permitted in all", "Δ", 3)]
     sum_um: Annotated[float, Quantity("sum of the parts", "", 3)]
@@ -426,22 +428,14 @@ class Eccentricity(Record):
     def of(cls, split: EccentricitySplit) -> Self:
         """Record in user units."""
         fit = split.fit
-        return cls(
-            rule=split.rule,
-            total_um=_micrometres(split.total),
-            sum_um=_micrometres(split.sum),
-            race_um=_micrometres(split.race),
-            clearance_um=_micrometres(split.clearance),
-            spindle_um=_micrometres(split.spindle),
+        return cls.read(
+            split,
             race_tir_um=_micrometres(2 * split.race),
             spindle_tir_um=_micrometres(2 * split.spindle),
-            housing_um=_micrometres(split.housing),
-            least_um=_micrometres(split.least),
             bore_class=None if fit is None else fit.bore_class,
             spindle_class=None if fit is None else fit.spindle_class,
             spindle_limits_um=None if fit is None else
             (_micrometres(fit.spindle.lower), _micrometres(fit.spindle.upper)),
-            balance_grade=split.balance_grade,
         )  # fmt: skip
 
 

@@ -281,14 +281,10 @@ def _row(
         lowered = max(0.0, without[0] - fitted[1]), without[1] - fitted[0]
     there, reason = _there(row, forecast, design, handles, is_level=fitted is not None)
     compared = fitted if fitted is not None else lowered
-    return FactoryLevel(
+    return FactoryLevel.read(
+        row,
         machine=machine.name,
         short=machine.short,
-        place=row.place,
-        axis=row.axis,
-        state=row.state,
-        octave_hz=row.octave_hz,
-        source=row.source,
         without_measured_db=without,
         without_predicted_db=forecast.without,
         with_measured_db=fitted,

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from abu_calc.cli.command import add_command
+from abu_calc.cli.command import add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.blocks import Paragraph
@@ -15,20 +15,18 @@ from abu_calc.reporting.outcome import Outcome
 def init(
     how: Delivery,
     file: Annotated[Path, typer.Argument(metavar="FILE", help="New file, ending in .toml.")],
-    preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset.")] = None,
-    scene: Annotated[bool, typer.Option("--scene", help="Write a scene file for `abu simulate`.")] = False,
-    readings: Annotated[bool, typer.Option("--readings", help="Write a file of readings for `abu balance`.")] = False,
+    preset: Annotated[str | None, option("--preset NAME", "Copy this preset.")] = None,
+    scene: Annotated[bool, option("--scene", "Write a scene file for `abu simulate`.")] = False,
+    readings: Annotated[bool, option("--readings", "Write a file of readings for `abu balance`.")] = False,
     method: Annotated[
         str | None,
-        typer.Option(
-            "--method",
-            metavar="NAME",
-            help="With --readings, the method: rig-data, trials, single-plane, four-runs, least-squares or "
-            "coefficients.",
+        option(
+            "--method NAME",
+            "With --readings, the method: rig-data, trials, single-plane, four-runs, least-squares or coefficients.",
         ),
     ] = None,
     recordings: Annotated[
-        bool, typer.Option("--recordings", help="Write a list of recordings for `abu declare --recordings`.")
+        bool, option("--recordings", "Write a list of recordings for `abu declare --recordings`.")
     ] = False,
 ) -> Outcome:
     """Write a complete file with a comment at every key, to edit.

@@ -12,12 +12,13 @@ from typing import Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import add_command
+from abu_calc.cli.command import add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.foundation.errors import InputError, OutputError, Place
 from abu_calc.inputs.reading.document import Document, open_document, parsed
 from abu_calc.inputs.reading.format import CHANGES, FORMAT, KEY, KeyChange, since
-from abu_calc.inputs.reading.text import Part, key_path
+from abu_calc.inputs.reading.overrides import value_at
+from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.toml_text import Statement, statements
 from abu_calc.reporting.blocks import Block, Paragraph
 from abu_calc.reporting.outcome import Outcome
@@ -89,23 +90,11 @@ def _inside(content: object, entry: Statement, change: KeyChange) -> bool:
     names = tuple(part for part in entry.path if isinstance(part, str))
     if entry.header or names != change.path[: len(names)] or len(names) >= len(change.path):
         return False
-    held: list[object] = [_at(content, entry.path)]
+    held: list[object] = [value_at(content, entry.path)]
     for name in change.path[len(names) :]:
         held = [inner[name] for each in held for inner in (each if isinstance(each, list) else [each])
                 if isinstance(inner, dict) and name in inner]  # fmt: skip
     return bool(held)
-
-
-def _at(content: object, path: Sequence[Part]) -> object:
-    held = content
-    for step in path:
-        if isinstance(held, dict) and isinstance(step, str):
-            held = held.get(step)
-        elif isinstance(held, list) and isinstance(step, int) and step < len(held):
-            held = held[step]
-        else:
-            return None
-    return held
 
 
 def difference(file: str, before: str, after: str) -> str:
@@ -119,7 +108,7 @@ def difference(file: str, before: str, after: str) -> str:
 def migrate(
     how: Delivery,
     file: Annotated[str, typer.Argument(metavar="FILE", help="File of any kind that abu reads.")],
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the difference and write nothing.")] = False,
+    dry_run: Annotated[bool, option("--dry-run", "Show the difference and write nothing.")] = False,
 ) -> Outcome:
     """Rename keys that have changed since the file was written.
 

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import Accuracy, Machine, Overrides, add_command
+from abu_calc.cli.command import Accuracy, Machine, Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.registry import imported
@@ -19,10 +19,7 @@ def grinding(
     machine: Machine,
     set_: Overrides = None,
     accuracy: Accuracy = 0.01,
-    wheel: Annotated[
-        int | None,
-        typer.Option("--wheel", metavar="N", help="With two races: only this wheel at work, by its number."),
-    ] = None,
+    wheel: Annotated[int | None, option("--wheel N", "With two races: only this wheel at work, by its number.")] = None,
 ) -> Outcome:
     """Calculate vibration, contact force and wheel wear while grinding."""
     from abu_calc.features.grinding.study import grinding as study

@@ -111,7 +111,7 @@ def read(scene: Scene, times: Array, states: Array, summary: RunSummary) -> Work
     whole = place[:, :-1]
     away = np.abs(whole - whole.mean(axis=1, keepdims=True)).max(axis=1)
     balls = states[count : count + len(scene.ball_masses)]
-    force = _forces(scene, times, states)
+    force = contact_forces(scene, times, states)
     return WorkSimulation(
         axis=(_phasor(scene, place[0], times), _phasor(scene, place[1], times)),
         x=float(away[0]),
@@ -145,14 +145,15 @@ def _profile(scene: Scene, times: Array, force: Array) -> tuple[tuple[float, flo
                         mean.tolist(), strict=True)))  # fmt: skip
 
 
-def _forces(scene: Scene, times: Array, states: Array) -> Array:
-    """N [N] at the rated speed, none where nothing presses in the plane."""
+def contact_forces(scene: Scene, times: Array, states: Array) -> Array:
+    """Force of wheel and workpiece N [N] at the rated speed; none where nothing presses in the plane."""
     contact = next((each for each in scene.effects if isinstance(each, GrindingContactEffect)), None)
     if contact is None or contact.contact == "face":
         return np.empty(0)
     if contact.contact == "rigid":
         return contact.normal_forces(assemble(scene), Samples(times, states))
-    gap = scene.axis_place(states)[1] + contact.runout * np.sin(scene.speed * times + contact.runout_angle)
+    moved = scene.axis_place(states, contact.plane_offset)[1]
+    gap = moved + contact.runout * np.sin(scene.speed * times + contact.runout_angle)
     return np.asarray(np.maximum(contact.press_force - contact.contact_stiffness * gap, 0.0), dtype=float)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import File, Overrides, add_command
+from abu_calc.cli.command import File, Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
@@ -21,24 +21,15 @@ def identify(
     file: File,
     recordings: Annotated[list[str], typer.Argument(metavar="RECORDING…", help="CSV files, one start each.")],
     set_: Overrides = None,
-    without: Annotated[
-        str | None, typer.Option("--without", metavar="FILE", help="Recording of a run with the balls taken out.")
-    ] = None,
+    without: Annotated[str | None, option("--without FILE", "Recording of a run with the balls taken out.")] = None,
     bench: Annotated[
-        str | None,
-        typer.Option("--bench", metavar="FILE", help="CSV of a ball let go in the standing race: t_s, angle_deg."),
+        str | None, option("--bench FILE", "CSV of a ball let go in the standing race: t_s, angle_deg.")
     ] = None,
     mark_angle: Annotated[
-        float,
-        typer.Option("--mark-angle", metavar="DEG", help="Angle of the mark from the imbalance, with the rotation."),
+        float, option("--mark-angle DEG", "Angle of the mark from the imbalance, with the rotation.")
     ] = 0.0,
-    run_up: Annotated[
-        float | None, typer.Option("--run-up", metavar="S", help="Run-up time instead of the file's.")
-    ] = None,
-    write: Annotated[
-        Path | None,
-        typer.Option("--write", metavar="FILE", help="File to write: this one with the identified values."),
-    ] = None,
+    run_up: Annotated[float | None, option("--run-up S", "Run-up time instead of the file's.")] = None,
+    write: Annotated[Path | None, option("--write FILE", "File to write: this one with the identified values.")] = None,
 ) -> Outcome:
     """Identify viscous drag rate, rolling friction and race eccentricity.
 

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import File, Overrides, add_command
+from abu_calc.cli.command import File, Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
@@ -17,13 +17,9 @@ def measure_plan(
     how: Delivery,
     file: File,
     set_: Overrides = None,
-    runs: Annotated[int, typer.Option("--runs", metavar="N", help="Starts to record.")] = 10,
-    noise_um: Annotated[
-        float, typer.Option("--noise", metavar="UM", help="Noise of a recorded place over two revolutions, µm.")
-    ] = 0.3,
-    run_up: Annotated[
-        float | None, typer.Option("--run-up", metavar="S", help="Run-up time instead of the file's.")
-    ] = None,
+    runs: Annotated[int, option("--runs N", "Starts to record.")] = 10,
+    noise_um: Annotated[float, option("--noise UM", "Noise of a recorded place over two revolutions, µm.")] = 0.3,
+    run_up: Annotated[float | None, option("--run-up S", "Run-up time instead of the file's.")] = None,
 ) -> Outcome:
     """Plan the recordings for `abu identify`.
 

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import Accuracy, Overrides, WhichStart, add_command
+from abu_calc.cli.command import Accuracy, Overrides, WhichStart, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
@@ -27,73 +27,41 @@ def levels(
     set_: Overrides = None,
     quantity: Annotated[
         str | None,
-        typer.Option(
-            "--quantity",
-            metavar="NAME",
-            help="Recorded quantity, if the file gives none: acceleration, velocity or displacement.",
-            rich_help_panel=RECORDING,
+        option(
+            "--quantity NAME",
+            "Recorded quantity, if the file gives none: acceleration, velocity or displacement.",
+            RECORDING,
         ),
     ] = None,
     scale: Annotated[
         float | None,
-        typer.Option(
-            "--scale",
-            metavar="FACTOR",
-            help="SI value (m/s², m/s, m) of one unit of the file; for WAV, of full scale.",
-            rich_help_panel=RECORDING,
-        ),
+        option("--scale FACTOR", "SI value (m/s², m/s, m) of one unit of the file; for WAV, of full scale.", RECORDING),
     ] = None,
-    channels: Annotated[
-        str | None,
-        typer.Option("--channels", metavar="1,2|NAMES", help="Columns or channels to use.", rich_help_panel=RECORDING),
-    ] = None,
+    channels: Annotated[str | None, option("--channels 1,2|NAMES", "Columns or channels to use.", RECORDING)] = None,
     from_s: Annotated[
-        float | None,
-        typer.Option(
-            "--from", metavar="S", help="Leave this many first seconds out of the means.", rich_help_panel=RECORDING
-        ),
+        float | None, option("--from S", "Leave this many first seconds out of the means.", RECORDING)
     ] = None,
     sensitivity: Annotated[
         list[str] | None,
-        typer.Option(
-            "--sensitivity",
-            metavar="[CHANNEL=]VALUE",
-            help='Sensitivity of a sensor recorded in V or mV: mV per m/s², or with its unit: "100 mV/g". Repeatable.',
-            rich_help_panel=RECORDING,
+        option(
+            "--sensitivity [CHANNEL=]VALUE",
+            'Sensitivity of a sensor recorded in V or mV: mV per m/s², or with its unit: "100 mV/g". Repeatable.',
+            RECORDING,
         ),
     ] = None,
     full_scale_mv: Annotated[
         float | None,
-        typer.Option(
-            "--full-scale-mV",
-            metavar="MV",
-            help="Voltage at full scale of a WAV file, with --sensitivity.",
-            rich_help_panel=RECORDING,
-        ),
+        option("--full-scale-mV MV", "Voltage at full scale of a WAV file, with --sensitivity.", RECORDING),
     ] = None,
     handle: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--handle",
-            metavar="NAME=1,2,3",
-            help="Columns or channels at a handle. Repeatable.",
-            rich_help_panel=RECORDING,
-        ),
+        list[str] | None, option("--handle NAME=1,2,3", "Columns or channels at a handle. Repeatable.", RECORDING)
     ] = None,
-    third_octaves: Annotated[
-        bool, typer.Option("--third-octaves", help="Calculate third octaves beside octaves.")
-    ] = False,
-    minutes: Annotated[
-        float | None, typer.Option("--minutes", metavar="MIN", help="Minutes of work a day, for A(8).")
-    ] = None,
-    scene: Annotated[
-        str | None, typer.Option("--scene", metavar="NAME", help="Scene of a machine: idle (default) or grinding.")
-    ] = None,
+    third_octaves: Annotated[bool, option("--third-octaves", "Calculate third octaves beside octaves.")] = False,
+    minutes: Annotated[float | None, option("--minutes MIN", "Minutes of work a day, for A(8).")] = None,
+    scene: Annotated[str | None, option("--scene NAME", "Scene of a machine: idle (default) or grinding.")] = None,
     start: WhichStart = None,
     accuracy: Accuracy = 0.01,
-    duration_s: Annotated[
-        float | None, typer.Option("--duration", metavar="S", help="Simulate this many seconds.")
-    ] = None,
+    duration_s: Annotated[float | None, option("--duration S", "Simulate this many seconds.")] = None,
 ) -> Outcome:
     """Calculate octave-band levels, weighted acceleration, daily exposure.
 

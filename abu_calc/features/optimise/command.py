@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.command import Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.features.sweep.command import Cluster, ClusterWait, Resume, StoreFile, Workers, cluster_executor, wording
@@ -40,59 +40,41 @@ def optimise(
     set_: Overrides = None,
     choose: Annotated[
         list[str] | None,
-        typer.Option(
-            "--choose",
-            metavar="KEY=choice(A,B,…)",
-            help="Values of one key to choose from; repeatable. Without it: balls, eccentricity, friction, drag rate.",
+        option(
+            "--choose KEY=choice(A,B,…)",
+            "Values of one key to choose from; repeatable. Without it: balls, eccentricity, friction, drag rate.",
         ),
     ] = None,
     share: Annotated[
-        float | None,
-        typer.Option("--share", metavar="SHARE", help="Share of machines built that must meet the limits; 0.95."),
+        float | None, option("--share SHARE", "Share of machines built that must meet the limits; 0.95.")
     ] = None,
     share_parts: Annotated[
         str | None,
-        typer.Option(
-            "--share-parts",
-            metavar="PART,…",
-            help="Parts that several machines share: balls, race, housing, oil; default balls,race.",
+        option(
+            "--share-parts PART,…", "Parts that several machines share: balls, race, housing, oil; default balls,race."
         ),
     ] = None,
     tolerances: Annotated[
         bool | None,
-        typer.Option(
+        option(
             "--tolerances/--no-tolerances",
-            help="Vary the drawing's tolerances and the usual scatter of use; default: as [sweep] says, else yes.",
-            rich_help_panel=RACE,
+            "Vary the drawing's tolerances and the usual scatter of use; default: as [sweep] says, else yes.",
+            RACE,
         ),
     ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option("--seed", metavar="N", help="Seed of the random numbers; default 0.", rich_help_panel=RACE),
-    ] = None,
-    runs: Annotated[
-        int,
-        typer.Option("--runs", metavar="N", help="Fresh samples of the recommended design.", rich_help_panel=RACE),
-    ] = 1000,
+    seed: Annotated[int | None, option("--seed N", "Seed of the random numbers; default 0.", RACE)] = None,
+    runs: Annotated[int, option("--runs N", "Fresh samples of the recommended design.", RACE)] = 1000,
     samples: Annotated[
-        int | None,
-        typer.Option(
-            "--samples", metavar="N", help="Most samples of the race; default: by the choices.", rich_help_panel=RACE
-        ),
+        int | None, option("--samples N", "Most samples of the race; default: by the choices.", RACE)
     ] = None,
-    accuracy: Annotated[
-        float, typer.Option("--accuracy", metavar="RATIO", help="Relative error of each simulation.")
-    ] = 0.01,
+    accuracy: Annotated[float, option("--accuracy RATIO", "Relative error of each simulation.")] = 0.01,
     store: StoreFile = None,
     resume: Resume = False,
     workers: Workers = None,
     cluster: Cluster = None,
     cluster_wait_s: ClusterWait = 60.0,
     write: Annotated[
-        Path | None,
-        typer.Option(
-            "--write", metavar="FILE", help="Write the recommended design as a machine file; of several, one for each."
-        ),
+        Path | None, option("--write FILE", "Write the recommended design as a machine file; of several, one for each.")
     ] = None,
 ) -> Outcome:
     """Find the cheapest design of which a wanted share meets the limits.

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 
 import typer
 
-from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.command import Overrides, add_command, option
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.blocks import Block
 from abu_calc.reporting.outcome import Outcome
@@ -23,22 +23,24 @@ if TYPE_CHECKING:
 
 
 class BearingOption(NamedTuple):
-    """One option: the key it gives, its name, panel, type and metavar, and its help text."""
+    """One option: the key it gives, its name and value as help shows them, its panel, type and text."""
 
     key: str
-    name: str
+    usage: str
     panel: str
     type: type[float] | type[str] | type[bool]
-    metavar: str | None
     help: str
+
+    @property
+    def name(self) -> str:
+        """Name of the option, with its dashes."""
+        return self.usage.split(" ")[0]
 
     @property
     def parameter(self) -> inspect.Parameter:
         """The option as a parameter of a command, None when it is not given."""
-        option = typer.Option(self.name, help=self.help, metavar=self.metavar, rich_help_panel=self.panel)
-        return inspect.Parameter(
-            self.key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[self.type | None, option]
-        )
+        annotation = Annotated[self.type | None, option(self.usage, self.help, self.panel)]
+        return inspect.Parameter(self.key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 
 BEARING: Final = "Bearing"
@@ -50,114 +52,91 @@ THERMAL: Final = "Temperatures and clearance"
 KINDS: Final = "rotating, stationary or indeterminate."
 MATERIALS: Final = "steel, stainless-steel, cast-iron, aluminium or magnesium."
 OPTIONS: Final = (
-    BearingOption("designation", "--designation", BEARING, str, "NAME", "Designation, such as 6203 or 7516."),
-    BearingOption("bore_mm", "--bore", BEARING, float, "MM", "Bore of the inner ring."),
-    BearingOption("outer_mm", "--outer", BEARING, float, "MM", "Outer diameter."),
-    BearingOption("width_mm", "--width", BEARING, float, "MM", "Width of the ring."),
-    BearingOption("chamfer_mm", "--chamfer", BEARING, float, "MM", "Chamfer of one edge."),
+    BearingOption("designation", "--designation NAME", BEARING, str, "Designation, such as 6203 or 7516."),
+    BearingOption("bore_mm", "--bore MM", BEARING, float, "Bore of the inner ring."),
+    BearingOption("outer_mm", "--outer MM", BEARING, float, "Outer diameter."),
+    BearingOption("width_mm", "--width MM", BEARING, float, "Width of the ring."),
+    BearingOption("chamfer_mm", "--chamfer MM", BEARING, float, "Chamfer of one edge."),
     BearingOption(
-        "bearing_type", "--bearing-type", BEARING, str, "NAME", "Type if sizes are given: ball, cylindrical, needle …"
+        "bearing_type", "--bearing-type NAME", BEARING, str, "Type if sizes are given: ball, cylindrical, needle …"
     ),
-    BearingOption("bearing_class", "--bearing-class", BEARING, str, "NAME", "Normal, P6, P5, P4 or P2."),
-    BearingOption("series", "--series", BEARING, str, "NAME", "light, medium or heavy."),
+    BearingOption("bearing_class", "--bearing-class NAME", BEARING, str, "Normal, P6, P5, P4 or P2."),
+    BearingOption("series", "--series NAME", BEARING, str, "light, medium or heavy."),
+    BearingOption("dynamic_load_rating_kN", "--dynamic-load-rating KN", BEARING, float, "Basic dynamic load rating C."),
+    BearingOption("static_load_rating_kN", "--static-load-rating KN", BEARING, float, "Basic static load rating C0."),
+    BearingOption("name", "--name NAME", BEARING, str, "Name of the bearing in the report."),
+    BearingOption("radial_load_kN", "--radial-load-kN KN", LOADS, float, "Radial load."),
+    BearingOption("axial_load_kN", "--axial-load-kN KN", LOADS, float, "Axial load."),
+    BearingOption("load_kind", "--load-kind NAME", LOADS, str, "moderate (to 150 %) or shock (to 300 %)."),
+    BearingOption("inner_ring_load", "--inner-ring-load NAME", LOADS, str, f"Inner ring: {KINDS}"),
+    BearingOption("outer_ring_load", "--outer-ring-load NAME", LOADS, str, f"Outer ring: {KINDS}"),
+    BearingOption("speed_rpm", "--speed RPM", LOADS, float, "Speed of the shaft."),
+    BearingOption("starting_torque_N_m", "--starting-torque NM", LOADS, float, "Torque that the seat must transmit."),
     BearingOption(
-        "dynamic_load_rating_kN", "--dynamic-load-rating", BEARING, float, "KN", "Basic dynamic load rating C."
-    ),
-    BearingOption(
-        "static_load_rating_kN", "--static-load-rating", BEARING, float, "KN", "Basic static load rating C0."
-    ),
-    BearingOption("name", "--name", BEARING, str, "NAME", "Name of the bearing in the report."),
-    BearingOption("radial_load_kN", "--radial-load-kN", LOADS, float, "KN", "Radial load."),
-    BearingOption("axial_load_kN", "--axial-load-kN", LOADS, float, "KN", "Axial load."),
-    BearingOption("load_kind", "--load-kind", LOADS, str, "NAME", "moderate (to 150 %) or shock (to 300 %)."),
-    BearingOption("inner_ring_load", "--inner-ring-load", LOADS, str, "NAME", f"Inner ring: {KINDS}"),
-    BearingOption("outer_ring_load", "--outer-ring-load", LOADS, str, "NAME", f"Outer ring: {KINDS}"),
-    BearingOption("speed_rpm", "--speed", LOADS, float, "RPM", "Speed of the shaft."),
-    BearingOption(
-        "starting_torque_N_m", "--starting-torque", LOADS, float, "NM", "Torque that the seat must transmit."
+        "lubricant_viscosity_mm2_per_s", "--lubricant-viscosity MM2/S", LIFE, float, "Viscosity at its temperature."
     ),
     BearingOption(
-        "lubricant_viscosity_mm2_per_s", "--lubricant-viscosity", LIFE, float, "MM2/S", "Viscosity at its temperature."
+        "contamination_factor", "--contamination-factor RATIO", LIFE, float, "e_C of ISO 281: 1 clean … 0 dirty."
+    ),
+    BearingOption("required_life_h", "--required-life H", LIFE, float, "Rating life that is required."),
+    BearingOption("position_mm", "--position MM", LIFE, float, "Place along the spindle from the wheel's centre."),
+    BearingOption("shaft_fit", "--shaft CLASS", SEATS, str, "Class of the shaft: k6, or several: j5,k5."),
+    BearingOption("housing_fit", "--housing CLASS", SEATS, str, "Class of the housing: H7, or several."),
+    BearingOption("shaft_limits_um", "--shaft-limits LOW:HIGH", SEATS, str, "Measured limits of the shaft, µm."),
+    BearingOption("housing_limits_um", "--housing-limits LOW:HIGH", SEATS, str, "Measured limits of the housing, µm."),
+    BearingOption(
+        "asked_interference_um", "--asked-interference LOW:HIGH", SEATS, str, "Interference required of every pair, µm."
     ),
     BearingOption(
-        "contamination_factor", "--contamination-factor", LIFE, float, "RATIO", "e_C of ISO 281: 1 clean … 0 dirty."
-    ),
-    BearingOption("required_life_h", "--required-life", LIFE, float, "H", "Rating life that is required."),
-    BearingOption("position_mm", "--position", LIFE, float, "MM", "Place along the spindle from the wheel's centre."),
-    BearingOption("shaft_fit", "--shaft", SEATS, str, "CLASS", "Class of the shaft: k6, or several: j5,k5."),
-    BearingOption("housing_fit", "--housing", SEATS, str, "CLASS", "Class of the housing: H7, or several."),
-    BearingOption("shaft_limits_um", "--shaft-limits", SEATS, str, "LOW:HIGH", "Measured limits of the shaft, µm."),
-    BearingOption(
-        "housing_limits_um", "--housing-limits", SEATS, str, "LOW:HIGH", "Measured limits of the housing, µm."
+        "short_pairs_warn_percent", "--short-pairs-warn PERCENT", SEATS, float, "Share of short pairs that warns."
     ),
     BearingOption(
-        "asked_interference_um",
-        "--asked-interference",
-        SEATS,
-        str,
-        "LOW:HIGH",
-        "Interference required of every pair, µm.",
+        "short_pairs_fail_percent", "--short-pairs-fail PERCENT", SEATS, float, "Share of short pairs that fails."
     ),
+    BearingOption("seat_friction", "--seat-friction RATIO", SEATS, float, "Friction coefficient of the seat."),
+    BearingOption("shaft_rz_um", "--shaft-rz UM", PARTS, float, "Roughness Rz of the shaft."),
+    BearingOption("shaft_bore_mm", "--shaft-bore MM", PARTS, float, "Bore of a hollow shaft."),
+    BearingOption("shaft_material", "--shaft-material NAME", PARTS, str, MATERIALS),
+    BearingOption("shaft_strength_MPa", "--shaft-strength MPA", PARTS, float, "Allowable hoop stress of the shaft."),
+    BearingOption("housing_rz_um", "--housing-rz UM", PARTS, float, "Roughness Rz of the housing."),
+    BearingOption("housing_outer_mm", "--housing-outer MM", PARTS, float, "Outer diameter of the housing."),
+    BearingOption("housing_material", "--housing-material NAME", PARTS, str, MATERIALS),
     BearingOption(
-        "short_pairs_warn_percent", "--short-pairs-warn", SEATS, float, "PERCENT", "Share of short pairs that warns."
+        "housing_strength_MPa", "--housing-strength MPA", PARTS, float, "Allowable hoop stress of the housing."
     ),
+    BearingOption("housing_split", "--housing-split", PARTS, bool, "The housing is split in two halves."),
+    BearingOption("internal_clearance", "--internal-clearance GROUP", THERMAL, str, "C2, CN, C3, C4 or C5."),
+    BearingOption("temperature_rise_K", "--temperature-rise K", THERMAL, float, "Bearing warmer than at mounting."),
     BearingOption(
-        "short_pairs_fail_percent", "--short-pairs-fail", SEATS, float, "PERCENT", "Share of short pairs that fails."
-    ),
-    BearingOption("seat_friction", "--seat-friction", SEATS, float, "RATIO", "Friction coefficient of the seat."),
-    BearingOption("shaft_rz_um", "--shaft-rz", PARTS, float, "UM", "Roughness Rz of the shaft."),
-    BearingOption("shaft_bore_mm", "--shaft-bore", PARTS, float, "MM", "Bore of a hollow shaft."),
-    BearingOption("shaft_material", "--shaft-material", PARTS, str, "NAME", MATERIALS),
-    BearingOption("shaft_strength_MPa", "--shaft-strength", PARTS, float, "MPA", "Allowable hoop stress of the shaft."),
-    BearingOption("housing_rz_um", "--housing-rz", PARTS, float, "UM", "Roughness Rz of the housing."),
-    BearingOption("housing_outer_mm", "--housing-outer", PARTS, float, "MM", "Outer diameter of the housing."),
-    BearingOption("housing_material", "--housing-material", PARTS, str, "NAME", MATERIALS),
-    BearingOption(
-        "housing_strength_MPa", "--housing-strength", PARTS, float, "MPA", "Allowable hoop stress of the housing."
-    ),
-    BearingOption("housing_split", "--housing-split", PARTS, bool, None, "The housing is split in two halves."),
-    BearingOption("internal_clearance", "--internal-clearance", THERMAL, str, "GROUP", "C2, CN, C3, C4 or C5."),
-    BearingOption("temperature_rise_K", "--temperature-rise", THERMAL, float, "K", "Bearing warmer than at mounting."),
-    BearingOption(
-        "temperature_range_K", "--temperature-range", THERMAL, str, "LOW:HIGH", "Lowest and highest above mounting."
+        "temperature_range_K", "--temperature-range LOW:HIGH", THERMAL, str, "Lowest and highest above mounting."
     ),
     BearingOption(
         "ring_temperature_difference_K",
-        "--ring-temperature-difference",
+        "--ring-temperature-difference K",
         THERMAL,
         float,
-        "K",
         "Inner ring warmer than its shaft.",
     ),
     BearingOption(
         "housing_temperature_difference_K",
-        "--housing-temperature-difference",
+        "--housing-temperature-difference K",
         THERMAL,
         float,
-        "K",
         "Housing warmer than the outer ring.",
     ),
     BearingOption(
         "raceway_temperature_difference_K",
-        "--raceway-temperature-difference",
+        "--raceway-temperature-difference K",
         THERMAL,
         float,
-        "K",
         "Inner ring warmer than the outer ring.",
     ),
 )
 SELDOM: Final = (
     *(LIFE, PARTS, THERMAL),
     *("--chamfer", "--bearing-class", "--series", "--dynamic-load-rating", "--static-load-rating", "--name"),
-    *(
-        "--load-kind",
-        "--starting-torque",
-        "--shaft-limits",
-        "--housing-limits",
-        "--asked-interference",
-        "--seat-friction",
-    ),
-    *("--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet", "--no-color"),
+    *("--load-kind", "--starting-torque", "--shaft-limits", "--housing-limits", "--asked-interference"),
+    *("--seat-friction", "--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet", "--no-color"),
 )
 """Panels and options that `--help` lists by name, so that it fits on a screen."""
 NAMES: Final = {option.key: option.name for option in OPTIONS}
@@ -211,7 +190,7 @@ def band(key: str, text: str) -> list[float]:
 def check_fit(
     machine: Annotated[str | None, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")] = None,
     set_: Overrides = None,
-    explain: Annotated[bool, typer.Option("--explain", help="Print the report with every formula.")] = False,
+    explain: Annotated[bool, option("--explain", "Print the report with every formula.")] = False,
     **bearing: object,
 ) -> Outcome:
     """Check bearing seats, or recommend their tolerance classes.

@@ -6,7 +6,18 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import Accuracy, Duration, File, Overrides, WhichScene, WhichStart, With, Without, add_command
+from abu_calc.cli.command import (
+    Accuracy,
+    Duration,
+    File,
+    Overrides,
+    WhichScene,
+    WhichStart,
+    With,
+    Without,
+    add_command,
+    option,
+)
 from abu_calc.cli.help import OUTPUT
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
@@ -24,36 +35,16 @@ METHOD: Final = "Method"
 
 
 RaceCentre = Annotated[
-    float | None,
-    typer.Option(
-        "--race-centre", metavar="DEG", help="Angle from the imbalance to the centre of the race; default 180."
-    ),
+    float | None, option("--race-centre DEG", "Angle from the imbalance to the centre of the race; default 180.")
 ]
-Integrator = Annotated[
-    str,
-    typer.Option("--integrator", metavar="NAME", help="auto, scipy, plain or compiled.", rich_help_panel=METHOD),
-]
-TrajectoryFile = Annotated[
-    Path | None,
-    typer.Option("--trajectory", metavar="FILE.csv", help="Also write the motion.", rich_help_panel=OUTPUT),
-]
-Samples = Annotated[
-    int | None,
-    typer.Option("--samples", metavar="N", help=f"Times in the trajectory; default {SAMPLES}.", rich_help_panel=OUTPUT),
-]
+Integrator = Annotated[str, option("--integrator NAME", "auto, scipy, plain or compiled.", METHOD)]
+TrajectoryFile = Annotated[Path | None, option("--trajectory FILE.csv", "Also write the motion.", OUTPUT)]
+Samples = Annotated[int | None, option("--samples N", f"Times in the trajectory; default {SAMPLES}.", OUTPUT)]
 MostEvaluations = Annotated[
     int | None,
-    typer.Option(
-        "--most-evaluations",
-        metavar="N",
-        help="Most evaluations of the equations; default ten million, a minute or two.",
-        rich_help_panel=METHOD,
-    ),
+    option("--most-evaluations N", "Most evaluations of the equations; default ten million, a minute or two.", METHOD),
 ]
-Audit = Annotated[
-    bool,
-    typer.Option("--audit", help="Repeat the run with every effect and report the difference.", rich_help_panel=METHOD),
-]
+Audit = Annotated[bool, option("--audit", "Repeat the run with every effect and report the difference.", METHOD)]
 
 
 def simulate(

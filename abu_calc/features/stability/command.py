@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import File, Overrides, add_command
+from abu_calc.cli.command import File, Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, Place
@@ -23,39 +23,25 @@ def stability(
     file: File,
     set_: Overrides = None,
     scene: Annotated[
-        str | None,
-        typer.Option("--scene", metavar="NAME", help=f"Scene of a machine: {', '.join(SCENES)}; default {SCENES[0]}."),
+        str | None, option("--scene NAME", f"Scene of a machine: {', '.join(SCENES)}; default {SCENES[0]}.")
     ] = None,
     speeds_rpm: Annotated[
-        str | None,
-        typer.Option(
-            "--speeds", metavar="LOW:HIGH", help="Range of speeds, rpm. Find every speed at which stability changes."
-        ),
+        str | None, option("--speeds LOW:HIGH", "Range of speeds, rpm. Find every speed at which stability changes.")
     ] = None,
     arrangement: Annotated[
         str,
-        typer.Option(
-            "--arrangement",
-            metavar="NAME",
-            help="Arrangement of more than two balls: worst (of those that balance), fan (evenly spread) or start.",
+        option(
+            "--arrangement NAME",
+            "Arrangement of more than two balls: worst (of those that balance), fan (evenly spread) or start.",
         ),
     ] = "worst",
-    crossings: Annotated[
-        bool,
-        typer.Option("--crossings", help="Also list every crossing of an eigenvalue."),
-    ] = False,
+    crossings: Annotated[bool, option("--crossings", "Also list every crossing of an eigenvalue.")] = False,
     attractors: Annotated[
-        bool,
-        typer.Option("--attractors", help="Also simulate many starts, and list every state in which they end."),
+        bool, option("--attractors", "Also simulate many starts, and list every state in which they end.")
     ] = False,
-    starts: Annotated[
-        int | None,
-        typer.Option("--starts", metavar="N", help="Starts drawn by lot for --attractors; default 64."),
-    ] = None,
-    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Seed of the starts drawn for --attractors.")] = 0,
-    only: Annotated[
-        str | None, typer.Option("--only", metavar="START", help="Follow this one start of --attractors: drawn-7.")
-    ] = None,
+    starts: Annotated[int | None, option("--starts N", "Starts drawn by lot for --attractors; default 64.")] = None,
+    seed: Annotated[int, option("--seed N", "Seed of the starts drawn for --attractors.")] = 0,
+    only: Annotated[str | None, option("--only START", "Follow this one start of --attractors: drawn-7.")] = None,
 ) -> Outcome:
     """Find whether the balanced state is stable, and at which speeds.
 

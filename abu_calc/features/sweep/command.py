@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from abu_calc.cli.command import File, Overrides, add_command
+from abu_calc.cli.command import File, Overrides, add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.call_files import enter
@@ -28,101 +28,42 @@ COMPUTING: Final = "Computing"
 
 Vary = Annotated[
     list[str] | None,
-    typer.Option(
-        "--vary",
-        metavar="KEY=HOW",
-        help="LOW:HIGH:N, A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), "
+    option(
+        "--vary KEY=HOW",
+        "LOW:HIGH:N, A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), "
         "triangular(LOW,MODE,HIGH) or choice(A,B,…); repeatable. KEY is a key of the file, start.kind, "
         "start.angle_deg, start.eccentricity_deg or start.temperature_C.",
-        rich_help_panel=SAMPLING,
+        SAMPLING,
     ),
 ]
 
 
-Runs = Annotated[
-    int | None,
-    typer.Option("--runs", metavar="N", help="Number of samples; default 100.", rich_help_panel=SAMPLING),
-]
+Runs = Annotated[int | None, option("--runs N", "Number of samples; default 100.", SAMPLING)]
 What = Annotated[
-    str | None,
-    typer.Option(
-        "--what",
-        metavar="NAME",
-        help="build: size once, then build and start each sample; design: size each sample.",
-    ),
+    str | None, option("--what NAME", "build: size once, then build and start each sample; design: size each sample.")
 ]
 Tolerances = Annotated[
-    bool,
-    typer.Option(
-        "--tolerances", help="Vary the drawing's tolerances and the usual scatter of use.", rich_help_panel=SAMPLING
-    ),
+    bool, option("--tolerances", "Vary the drawing's tolerances and the usual scatter of use.", SAMPLING)
 ]
-Grid = Annotated[
-    tuple[str, str] | None,
-    typer.Option("--grid", metavar="KEY KEY", help="Chart two keys that have listed values.", rich_help_panel=SAMPLING),
-]
+Grid = Annotated[tuple[str, str] | None, option("--grid KEY KEY", "Chart two keys that have listed values.", SAMPLING)]
 Sensitivity = Annotated[
-    bool,
-    typer.Option(
-        "--sensitivity",
-        help="Use a Saltelli design of N × (varied values + 2) samples.",
-        rich_help_panel=SAMPLING,
-    ),
+    bool, option("--sensitivity", "Use a Saltelli design of N × (varied values + 2) samples.", SAMPLING)
 ]
-Sampling = Annotated[
-    str | None,
-    typer.Option("--sampling", metavar="NAME", help="latin-hypercube (default) or sobol.", rich_help_panel=SAMPLING),
-]
-Seed = Annotated[
-    int | None,
-    typer.Option("--seed", metavar="N", help="Seed of the random numbers; default 0.", rich_help_panel=SAMPLING),
-]
-SampleAccuracy = Annotated[
-    float, typer.Option("--accuracy", metavar="RATIO", help="Relative error of each simulation.")
-]
+Sampling = Annotated[str | None, option("--sampling NAME", "latin-hypercube (default) or sobol.", SAMPLING)]
+Seed = Annotated[int | None, option("--seed N", "Seed of the random numbers; default 0.", SAMPLING)]
+SampleAccuracy = Annotated[float, option("--accuracy RATIO", "Relative error of each simulation.")]
 TimeLimit = Annotated[
-    float | None,
-    typer.Option(
-        "--time-limit",
-        metavar="S",
-        help="Longest computing time of one sample; default 60.",
-        rich_help_panel=COMPUTING,
-    ),
+    float | None, option("--time-limit S", "Longest computing time of one sample; default 60.", COMPUTING)
 ]
-StoreFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--store", metavar="FILE.sqlite", help="Store every sample when it is computed.", rich_help_panel=COMPUTING
-    ),
-]
-Resume = Annotated[bool, typer.Option("--resume", help="Continue with the store.", rich_help_panel=COMPUTING)]
+StoreFile = Annotated[Path | None, option("--store FILE.sqlite", "Store every sample when it is computed.", COMPUTING)]
+Resume = Annotated[bool, option("--resume", "Continue with the store.", COMPUTING)]
 Workers = Annotated[
-    int | None,
-    typer.Option(
-        "--workers",
-        metavar="N",
-        help="Number of processes; default one for each processor.",
-        rich_help_panel=COMPUTING,
-    ),
+    int | None, option("--workers N", "Number of processes; default one for each processor.", COMPUTING)
 ]
 Cluster = Annotated[
-    str | None,
-    typer.Option(
-        "--cluster",
-        metavar="ADDRESS",
-        help="Compute on the Dask scheduler at this address.",
-        rich_help_panel=COMPUTING,
-    ),
+    str | None, option("--cluster ADDRESS", "Compute on the Dask scheduler at this address.", COMPUTING)
 ]
-ClusterWait = Annotated[
-    float,
-    typer.Option(
-        "--cluster-wait",
-        metavar="S",
-        help="Longest wait for the cluster.",
-        rich_help_panel=COMPUTING,
-    ),
-]
+ClusterWait = Annotated[float, option("--cluster-wait S", "Longest wait for the cluster.", COMPUTING)]
 
 
 def sweep(

@@ -121,28 +121,18 @@ def grind_two_races(
     each = tuple(_judged(design, wheel, progress, threads, above) for wheel in chosen)
     rows = tuple(_row(design, runs) for runs in each)
     worst = max(zip(rows, each, strict=True), key=lambda pair: _badness(pair[0]))[0]
-    first = worst.races[0]
-    return TwoRaceGrindingResult(
+    return TwoRaceGrindingResult.read(
+        worst,
+        worst.races[0],
         title=machine.title,
         checks=tuple(check for runs in each for check in _checks(design, runs, above)),
         warnings=(*machine.warnings, *_notes(design, each)),
         provenance=Provenance.of(machine),
         model=_model(design),
         verdict=_verdict(rows, above),
-        wheel=worst.wheel,
         helps=None if any(row.helps is None for row in rows) and not any(row.helps is False for row in rows)
         else all(row.helps for row in rows),
         contact=wheels[0].table.contact,
-        level_before_db=worst.level_before_db,
-        level_after_db=worst.level_after_db,
-        level_at_once_db=worst.level_at_once_db,
-        ball_resultant_g_mm=first.ball_resultant_g_mm,
-        ball_angles_deg=first.ball_angles_deg,
-        reaction=worst.reaction,
-        reaction_without=worst.reaction_without,
-        axis=worst.axis,
-        axis_without=worst.axis_without,
-        wear=worst.wear,
         contact_stiffness_regions_N_per_m=None,
         flutter_drag_limit_per_s=None,
         wheels=rows,
@@ -242,16 +232,13 @@ def _wear(wheel: PressedWheel, runout: complex, force: complex) -> WearOfWheel:
 def _model(design: TwoRaceDesign) -> TwoRaceGrindingModel:
     case, table = design.case, design.case.table.grinding
     assert table is not None
-    return TwoRaceGrindingModel(
-        system_mass_kg=design.system_mass,
+    return TwoRaceGrindingModel.read(
+        design,
+        table,
         speed_rad_per_s=case.speed,
         races_m=case.races,
         wheels_m=tuple(wheel.place for wheel in case.wheels),
-        contact=table.contact,
         contact_stiffness_N_per_m=table.contact_stiffness_N_per_m if table.contact == "compliant" else None,
-        press_force_N=table.press_force_N,
-        cutting_coefficient=table.cutting_coefficient,
-        rotation_sense=table.rotation_sense,
         race_eccentricity_m=case.eccentricity,
     )
 

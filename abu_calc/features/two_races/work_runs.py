@@ -10,10 +10,8 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
-from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.trajectory import Samples
+from abu_calc.features.grinding.simulation import contact_forces
 from abu_calc.features.grinding.start_cases import TOLERANCE
 from abu_calc.features.two_races.case import LevelPlaceOnSpindle
 from abu_calc.features.two_races.choice import TwoRaceDesign
@@ -173,18 +171,6 @@ def _levels(scene: Scene, states: Array, places: Sequence[LevelPlaceOnSpindle]) 
     size = len(scene.support.names)
     each = (scene.support.axis(states[size : 2 * size], held.place) for held in places)
     return tuple(level_from_velocity(max(float(np.sqrt((v**2).mean(axis=1)).max()), LEAST)) for v in each)
-
-
-def contact_forces(scene: Scene, times: Array, states: Array) -> Array:
-    """Force of wheel and workpiece [N]; none of a face, which presses evenly."""
-    contact = next(effect for effect in scene.effects if isinstance(effect, GrindingContactEffect))
-    if contact.contact == "face":
-        return np.empty(0)
-    if contact.contact == "rigid":
-        return np.asarray(contact.normal_forces(assemble(scene), Samples(times, states)))
-    gap = scene.axis_place(states, contact.plane_offset)[1]
-    gap = gap + contact.runout * np.sin(scene.speed * times + contact.runout_angle)
-    return np.asarray(np.maximum(contact.press_force - contact.contact_stiffness * gap, 0.0), dtype=float)
 
 
 def agreement(design: TwoRaceDesign, wheel: PressedWheel, member: Member) -> float | str | None:

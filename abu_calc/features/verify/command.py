@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.command import add_command
+from abu_calc.cli.command import add_command, option
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, OutputError, Place
@@ -24,7 +24,7 @@ def verify(
         list[str] | None,
         typer.Argument(metavar="FILE|FOLDER", help="Files of machines or readings, folders, or presets."),
     ] = None,
-    update: Annotated[bool, typer.Option("--update", help="Write the results into [expected]; comments stay.")] = False,
+    update: Annotated[bool, option("--update", "Write the results into [expected]; comments stay.")] = False,
 ) -> Outcome:
     """Recompute files and compare with their [expected] values.
 

@@ -164,7 +164,7 @@ def apply(document: dict[str, object], overrides: Sequence[Override], model: typ
     for override in overrides:
         *parent, key = override.path
         table = table_at(model, tuple(parent))
-        held = _at(document, parent)
+        held = value_at(document, parent)
         if table is None or not isinstance(held, dict) or not isinstance(key, str):
             continue
         for other in table.displaced_by(key, override.value):
@@ -238,9 +238,9 @@ def _put(document: dict[str, object], override: Override) -> None:
             held = held.setdefault(step, [] if isinstance(following, int) else {})
 
 
-def _at(document: dict[str, object], path: Sequence[Part]) -> object:
+def value_at(content: object, path: Sequence[Part]) -> object:
     """Value at a path, or None."""
-    held: object = document
+    held = content
     for step in path:
         if isinstance(held, dict) and isinstance(step, str):
             held = held.get(step)

@@ -9,9 +9,9 @@ and {default} where they belong in its sentence; the key's bounds and defaults a
 """
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Final, NamedTuple, Self, cast, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Final, NamedTuple, Self, cast, get_args, get_origin
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 from pydantic.config import JsonDict
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, PydanticKnownError
@@ -46,6 +46,29 @@ class Usual(NamedTuple):
 def usual(low: float, high: float) -> JsonDict:
     """A field's usual range, for its `json_schema_extra`."""
     return {WORD: [low, high]}
+
+
+class entry:  # noqa: N801 - written like a function, beside each key
+    """Field of a key, declared in one line, its meaning below.
+
+    >>> class Wheel(Table):
+    ...     mass_kg: float = entry(0.5, gt=0, le=50, usual=(0.1, 5)).means("Mass [kg]; {range}. Default: {default}.")
+    >>> Wheel.model_fields["mass_kg"].description
+    'Mass [kg]; above 0 … 50, usually 0.1 … 5. Default: 0.5.'
+    """
+
+    def __init__(
+        self, default: object = ..., *, usual: tuple[float, float] | None = None, example: object = None, **limits: Any
+    ) -> None:
+        """A key without a default must be given; `limits`: bounds, lengths and pattern, named as pydantic does."""
+        has_default = {} if default is ... else {"default": default}
+        has_usual = {} if usual is None else {"json_schema_extra": {WORD: [*usual]}}
+        has_example = {} if example is None else {"examples": [example]}
+        self.given: dict[str, Any] = has_default | limits | has_usual | has_example
+
+    def means(self, text: str) -> Any:
+        """Field with its description."""
+        return Field(description=text, **self.given)
 
 
 def usual_of(field: FieldInfo) -> Usual | None:
