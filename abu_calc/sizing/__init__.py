@@ -13,7 +13,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks, residual_check
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, sound, why_not
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.sizing.design import Design, RaceDesign
+from abu_calc.sizing.design import Design, Judgement, RaceDesign
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.handles import body_bands, handle_checks, highest_total
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
@@ -147,23 +147,25 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     construction = construct(case, best, eccentricity)
     advice = drawing(case, best, race, eccentricity, construction)
     bands = body_bands(case, best, frequency.balancing_possible)
-    checks = (
+    made = (
         region_check(case, best, frequency),
         *_motor(case, best),
         *candidate_checks(case, best),
         eccentricity_check(case, best, eccentricity),
         *track_checks(case, best, race),
         *construction.checks,
-        *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
+    )
+    level, lowered = vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None)
+    rest = (
+        lowered,
         *handle_checks(case, best, total, bands),
         *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
-        *(arm.checks if arm else ()),
     )
     warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, total, loaded, arm, advice,
-        checks, warnings, bands, eccentricity, construction,
+        Judgement(made, level, rest, arm.checks if arm else ()), warnings, bands, eccentricity, construction,
     )  # fmt: skip
 
 

@@ -4,9 +4,9 @@ A built machine has its own balls, race, wheel and hands, and keeps the choices 
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
@@ -27,6 +27,15 @@ if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
+class Judgement(NamedTuple):
+    """Checks of sizing in the order in which a reader needs them, the expected idle level in its place."""
+
+    made: tuple[Check, ...]
+    level: Finding
+    rest: tuple[Check, ...]
+    arm: tuple[Check, ...]
+
+
 @dataclass(frozen=True)
 class Design:
     """Return value of `size`, in the order of the steps; SI inside."""
@@ -45,7 +54,8 @@ class Design:
     loaded: LevelsUnderLoad | None
     swing_arm: "SwingArmBounds | None"
     drawing: tuple[DrawingRequirement, ...]
-    checks: tuple[Check, ...]
+    judged: Judgement | None
+    """None if the design was built as one machine."""
     warnings: tuple[str, ...]
     bands: BodyBands | None
     """Bands of an estimated body; None: nothing is estimated, or the design was built as one machine."""
@@ -58,6 +68,14 @@ class Design:
     def autobalancer(self) -> Candidate:
         """The chosen one."""
         return self.choice.best
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Checks of sizing alone."""
+        if self.judged is None:
+            return ()
+        made, level, rest, arm = self.judged
+        return *made, coded("ABU401", *level), *rest, *arm
 
     @property
     def system_mass(self) -> float:
@@ -112,7 +130,7 @@ def built(design: Design, machine: MachineFile) -> Design:
     return replace(
         design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),
         track=track(case, made, frequency.natural_frequencies), runner_up_tracks=(), worst=(), speed_levels=None,
-        highest_total=None, loaded=None, swing_arm=None, drawing=(), checks=(), warnings=(), bands=None,
+        highest_total=None, loaded=None, swing_arm=None, drawing=(), judged=None, warnings=(), bands=None,
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.features.design.band import BandRow, band
-from abu_calc.features.design.searched_checks import decisive, repeated, worst_further
+from abu_calc.features.design.repeats import decisive, repeated, worst_further
 from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
