@@ -39,6 +39,10 @@ class Measure(NamedTuple):
         values = map(self.value, outcomes)
         return float(sum(values)) if self.counts else max(values, default=0.0)
 
+    def worst(self, outcomes: Iterable[StartOutcome]) -> StartOutcome | None:
+        """The start case with the largest value, None without any."""
+        return max(outcomes, key=self.value, default=None)
+
 
 @dataclass(frozen=True)
 class TriedChange:
@@ -70,9 +74,8 @@ class TriedChange:
         return set_action(self.entries, self.candidate, moved, SIMULATED, more)
 
 
-FULL, ONE, NONE = "full", "one", "none"
+STARTS = FULL, ONE, NONE = "full", "one", "none"
 """Start cases that `size` simulates: all, the first at the given drag rate, none."""
-STARTS: Final = (FULL, ONE, NONE)
 
 UNCARRIED: Final = Finding("not-done", "The balls, side by side, cannot carry the imbalance",
                            action="Add balls or specify larger ones, see ABU201.")  # fmt: skip
@@ -127,10 +130,6 @@ class StartRule(NamedTuple):
     foresees: bool = False
     """Whether the time that one of 1000 start cases exceeds counts, too."""
 
-    def check(self, facts: StartFacts, listed: Finding) -> Check:
-        """The check, by what the listed start cases say and by what lies beyond them."""
-        return coded(self.code, *self._with_further(facts, listed))
-
     def finding(self, facts: StartFacts, unsimulated: Finding, earlier: str | None = None) -> Finding:
         """What the listed start cases say; `earlier`: code of a check that tells the action."""
 
@@ -151,6 +150,10 @@ class StartRule(NamedTuple):
         broken = [outcome for outcome in searched.outcomes if self.breaks(outcome, design)]
         near = self.foresees and searched.foreseen > design.case.table.limits.longest_quiet_time
         return max(broken or (searched.outcomes if near else ()), key=self.order, default=None), broken
+
+    def check(self, facts: StartFacts, listed: Finding) -> Check:
+        """The check, by what the listed start cases say and by what lies beyond them."""
+        return coded(self.code, *self._with_further(facts, listed))
 
     def _with_further(self, facts: StartFacts, listed: Finding) -> Finding:
         """With start cases that were left out, without an answer, or break the rule: promised ones fail the check."""
@@ -207,19 +210,19 @@ def checks_of_starts(facts: StartFacts) -> Iterator[Check]:
 
 
 LOUDEST: Final = Measure("the loudest start case", "dB", attrgetter("level"))
-LEFT: Final = Measure("the largest imbalance left by a start case", "g·mm", lambda start: _g_mm(start.imbalance))
+LEFT: Final = Measure("the largest imbalance left by a start case", "g·mm", lambda run: from_si(run.imbalance, "g_mm"))
 SLOWEST: Final = Measure("the slowest start case", "s", slowness)
 LAST_AT_REST: Final = Measure("the rest time of the slowest start case", "s", attrgetter("rest_time_or_inf"))
 STALLED: Final = Measure("the number of start cases with stalled balls", "", attrgetter("hanging"), counts=True)
 
 
-def _level(facts: StartFacts, ensemble: Ensemble, _: Advise) -> Finding:
+def _level(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     """The idle level with the loudest start case beside the calculated cases; the worse of both stands.
 
     NOT EVALUATED if the patience that was asked for left out a start case.
     """
     closed, limit = facts.level, facts.level.limit
-    given, loudest = (max(some, key=LOUDEST.value, default=None) for some in (ensemble.given, ensemble.outcomes))
+    given, loudest = LOUDEST.worst(ensemble.given), LOUDEST.worst(ensemble.outcomes)
     if limit is None or closed.value is None:
         return closed
     if patience.over() and ensemble.lost and closed.status != "fail":
@@ -227,8 +230,7 @@ def _level(facts: StartFacts, ensemble: Ensemble, _: Advise) -> Finding:
     if given is None or loudest is None:
         return closed
     message = f"{closed.message}. Loudest start case: {_of_limit(given, ensemble, limit)}"
-    value = max(given.level, closed.value)
-    quieter = None if facts.change is None else facts.change.action(LOUDEST, limit)
+    value, quieter = max(given.level, closed.value), advise("warn", LOUDEST, limit)
     if given.level > limit and given.level > closed.value:
         # A truer race helps where the closed form fails, too; what helps a start that does not balance was tried.
         advice = closed.action if closed.status == "fail" and given.balanced else quieter
@@ -250,12 +252,10 @@ def _of_limit(outcome: StartOutcome, ensemble: Ensemble, limit: float) -> str:
 
 
 def _balances(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
-    given = ensemble.given
-    failing = [outcome for outcome in given if not outcome.balanced]
-    worst = max(given, key=lambda outcome: outcome.imbalance, default=None)
-    status = _grade(ensemble, lambda outcome: outcome.balanced)
+    worst, status = LEFT.worst(ensemble.given), _grade(ensemble, attrgetter("balanced"))
     sentences = [f"{ensemble.balanced} of {_starts(ensemble.members)} balance"]
-    others = [*failing, *(start for start in ensemble.outcomes if not start.balanced and start not in failing)]
+    unbalanced = (start for start in ensemble.outcomes if not start.balanced)
+    others = sorted(unbalanced, key=lambda start: start.member.drag != ensemble.drag)
     if others:
         verb = "does" if len(others) == 1 else "do"
         sentences.append(f"{len(others)} {verb} not: {_first(others, ensemble)}")
@@ -265,7 +265,7 @@ def _balances(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
                   for lost in ensemble.lost[:1]]  # fmt: skip
     if worst:
         sentences.append("The value is the largest imbalance left at the given drag rate")
-    value, limit = (_g_mm(worst.imbalance), _g_mm(worst.allowed)) if worst else (None, None)
+    value, limit = (LEFT.value(worst), from_si(worst.allowed, "g_mm")) if worst else (None, None)
     return Finding(status, ". ".join(sentences), value, limit, "g·mm", advise(status, LEFT, limit))
 
 
@@ -274,8 +274,7 @@ def _settles(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     limit = limits.longest_quiet_time
     longest = math.inf if limits.rest_time_s is None else limits.rest_time_s
     status = _grade(ensemble, lambda outcome: outcome.in_time(limits))
-    late = max(ensemble.given, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
-    latest = max(ensemble.outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
+    late, latest = SLOWEST.worst(ensemble.given), SLOWEST.worst(ensemble.outcomes)
     sentences = ["No start case gave an answer" if late is None else f"Slowest start case: {_time(late, ensemble)}"]
     if status == "warn" and latest and latest.quiet_time_or_inf > limit:
         sentences.append(f"Slowest at another drag rate: {_time(latest, ensemble)}")
@@ -284,21 +283,17 @@ def _settles(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     elif any(outcome.member.run_up for outcome in ensemble.given):
         sentences.append("Times count from full speed, after the run-up")
     creeping = [outcome for outcome in ensemble.outcomes if outcome.creeping and not outcome.hanging]
-    rested = max(ensemble.given, key=lambda outcome: outcome.rest_time_or_inf, default=None)
     if creeping:
         sentences.append(f"The balls still creep at the end of {_starts(len(creeping))}: {_first(creeping, ensemble)}")
         status = "warn" if status == "pass" else status
-    elif rested is not None and rested.rest_time is not None:
+    elif (rested := LAST_AT_REST.worst(ensemble.given)) is not None and rested.rest_time is not None:
         allowed = "" if math.isinf(longest) else f" (limit {longest:g} s)"
         sentences.append(f"The balls rest after {rested.rest_time:#.3g} s at the latest{allowed}")
-    value = None if late is None or math.isinf(late.quiet_time_or_inf) else late.quiet_time_or_inf
-
-    # By the rest time only where that alone is late.
-    at_rest = all(slowness(outcome) <= limit for outcome in ensemble.outcomes)
-    measure, most = (LAST_AT_REST, longest) if at_rest else (SLOWEST, limit)
     kept = all(outcome.in_time(limits) for outcome in ensemble.outcomes)
+    # By the rest time only where that alone is late.
+    measure, most = (LAST_AT_REST, longest) if SLOWEST.of(ensemble.outcomes) <= limit else (SLOWEST, limit)
     action = advise(status, None if kept else measure, most)
-    return Finding(status, ". ".join(sentences), value, limit, "s", action)
+    return Finding(status, ". ".join(sentences), None if late is None else late.quiet_time, limit, "s", action)
 
 
 def _none_stalls(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
@@ -323,8 +318,8 @@ def _grade(ensemble: Ensemble, good: Callable[[StartOutcome], bool]) -> Grade:
 
 
 def _time(outcome: StartOutcome, ensemble: Ensemble) -> str:
-    time = outcome.quiet_time_or_inf
-    return f"{_named(outcome, ensemble)}, {'never' if math.isinf(time) else f'{time:#.3g} s'}"
+    time = outcome.quiet_time
+    return f"{_named(outcome, ensemble)}, {'never' if time is None else f'{time:#.3g} s'}"
 
 
 def _named(outcome: StartOutcome, ensemble: Ensemble) -> str:
@@ -360,10 +355,6 @@ def _first(outcomes: Sequence[StartOutcome], ensemble: Ensemble) -> str:
     return first if len(outcomes) == 1 else f"one is {first}"
 
 
-def _g_mm(value: float) -> float:
-    return from_si(value, "g_mm")
-
-
 def _late(outcome: StartOutcome, design: Any) -> bool:
     """True if it is late, or if its balls still creep at the end, however long it was followed."""
     return not outcome.in_time(design.case.table.limits) or (outcome.creeping and not outcome.hanging)
@@ -374,21 +365,15 @@ def _unbalanced(outcome: StartOutcome, design: Any) -> bool:
     return not outcome.balanced and (outcome.member.promised or outcome.hanging or outcome.quiet_time is None)
 
 
-def _loud(outcome: StartOutcome, design: Any) -> bool:
-    """True if the level, with the error of a simulated one, is not below its limit."""
-    return bool(outcome.loudest + SLACK > design.case.level_limit)
-
-
 def _time_in_words(outcome: StartOutcome) -> str:
-    quiet, rest = (
-        "never" if math.isinf(time) else f"after {time:.3g} s"
-        for time in (outcome.quiet_time_or_inf, outcome.rest_time_or_inf)
-    )
+    times = outcome.quiet_time, outcome.rest_time
+    quiet, rest = ("never" if time is None else f"after {time:.3g} s" for time in times)
     return f"are late{' or still creep' * outcome.creeping}: the slowest is quiet {quiet}, at rest {rest}"
 
 
 LEVEL: Final = StartRule(
-    "ABU401", "loudest", LOUDEST, _level, _loud, loudness,
+    "ABU401", "loudest", LOUDEST, _level,
+    lambda start, design: start.loudest + SLACK > design.case.level_limit, loudness,
     lambda worst: f"may be too loud, the loudest with {worst.loudest:.1f} ± {SLACK:g} dB",
     surely=lambda design, start: fails(design, start) and start.loudest > design.case.level_limit + SLACK,
 )  # fmt: skip
