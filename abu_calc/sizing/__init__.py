@@ -13,7 +13,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks, residual_check
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, sound, why_not
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.sizing.design import Design, Judgement, RaceDesign
+from abu_calc.sizing.design import Design, RaceDesign
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.handles import body_bands, handle_checks, highest_total
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
@@ -147,7 +147,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     construction = construct(case, best, eccentricity)
     advice = drawing(case, best, race, eccentricity, construction)
     bands = body_bands(case, best, frequency.balancing_possible)
-    made = (
+    before = (
         region_check(case, best, frequency),
         *_motor(case, best),
         *candidate_checks(case, best),
@@ -156,7 +156,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *construction.checks,
     )
     level, lowered = vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None)
-    rest = (
+    behind = (
         lowered,
         *handle_checks(case, best, total, bands),
         *declared_checks(case, best, frequency.balancing_possible),
@@ -165,7 +165,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, total, loaded, arm, advice,
-        Judgement(made, level, rest, arm.checks if arm else ()), warnings, bands, eccentricity, construction,
+        before, level, behind, warnings, bands, eccentricity, construction,
     )  # fmt: skip
 
 

@@ -4,7 +4,7 @@ A built machine has its own balls, race, wheel and hands, and keeps the choices 
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.foundation.frozen import dataclass
@@ -27,15 +27,6 @@ if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
-class Judgement(NamedTuple):
-    """Checks of sizing in the order in which a reader needs them, the expected idle level in its place."""
-
-    made: tuple[Check, ...]
-    level: Finding
-    rest: tuple[Check, ...]
-    arm: tuple[Check, ...]
-
-
 @dataclass(frozen=True)
 class Design:
     """Return value of `size`, in the order of the steps; SI inside."""
@@ -54,8 +45,11 @@ class Design:
     loaded: LevelsUnderLoad | None
     swing_arm: "SwingArmBounds | None"
     drawing: tuple[DrawingRequirement, ...]
-    judged: Judgement | None
-    """None if the design was built as one machine."""
+    checks_before: tuple[Check, ...]
+    level: Finding | None
+    """The idle level as expected, which start cases judge, too; None if the design was built as one machine."""
+    checks_behind: tuple[Check, ...]
+    """Checks of sizing before and behind that of the level; those of the swing arm come last."""
     warnings: tuple[str, ...]
     bands: BodyBands | None
     """Bands of an estimated body; None: nothing is estimated, or the design was built as one machine."""
@@ -72,10 +66,10 @@ class Design:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Checks of sizing alone."""
-        if self.judged is None:
+        if self.level is None:
             return ()
-        made, level, rest, arm = self.judged
-        return *made, coded("ABU401", *level), *rest, *arm
+        arm = () if self.swing_arm is None else self.swing_arm.checks
+        return *self.checks_before, coded("ABU401", *self.level), *self.checks_behind, *arm
 
     @property
     def system_mass(self) -> float:
@@ -130,7 +124,8 @@ def built(design: Design, machine: MachineFile) -> Design:
     return replace(
         design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),
         track=track(case, made, frequency.natural_frequencies), runner_up_tracks=(), worst=(), speed_levels=None,
-        highest_total=None, loaded=None, swing_arm=None, drawing=(), judged=None, warnings=(), bands=None,
+        highest_total=None, loaded=None, swing_arm=None, drawing=(), checks_before=(), level=None,
+        checks_behind=(), warnings=(), bands=None,
     )  # fmt: skip
 
 

@@ -62,9 +62,7 @@ def statuses(found: Design, ensemble: Ensemble) -> dict[str, str]:
 
 def level(closed: Finding, ensemble: Ensemble, change: TriedChange | None = None) -> Check:
     """The check of the idle level with another one by sizing."""
-    found = design("msh-230")
-    assert found.judged is not None
-    return level_check(StartFacts(replace(found, judged=found.judged._replace(level=closed)), ensemble, change=change))
+    return level_check(StartFacts(replace(design("msh-230"), level=closed), ensemble, change=change))
 
 
 def judged(name: str, doubtful: float = 0.0, **changed: object) -> dict[str, str]:

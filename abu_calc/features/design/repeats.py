@@ -1,9 +1,11 @@
 """Start cases that decide checks, and the options of `abu simulate` that repeat them."""
 
 from collections.abc import Iterator
+from typing import Annotated
 
 from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.design.start_search import SearchResult
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.start_cases import Member, Variation
@@ -73,12 +75,21 @@ def decisive(design: Design, ensemble: Ensemble, searched: SearchResult | None) 
     return max(outcomes, key=order, default=None)
 
 
-def worst_further(searched: SearchResult, design: Design) -> Iterator[tuple[str, str, str]]:
-    """Code of each check that further start cases break or come near to, the worst case in words, options to repeat it.
+@record
+class RepeatedStart(Record):
+    """The worst further start case for one check, with the options of `abu simulate` that repeat it."""
 
-    The options are those of `abu simulate`. Quiet times count, too, if one start case of 1000 would be late.
+    check: Annotated[str, Quantity("check")]
+    which: Annotated[str, Quantity("which")]
+    options: Annotated[str, Quantity("options of `abu simulate`")]
+
+
+def worst_further(searched: SearchResult, design: Design) -> Iterator[RepeatedStart]:
+    """The worst further start case for each check that these break or come near to.
+
+    Quiet times count, too, if one start case of 1000 would be late.
     """
     for rule in RULES:
         worst, _ = rule.worst(searched, design)
         if worst is not None:
-            yield rule.code, rule.repeated, repeated(worst, design)
+            yield RepeatedStart(check=rule.code, which=rule.repeated, options=repeated(worst, design))

@@ -102,7 +102,7 @@ class StartFacts:
     @property
     def level(self) -> Finding:
         """The idle level by sizing."""
-        level: Finding = self.design.judged.level
+        level: Finding = self.design.level
         return level
 
 

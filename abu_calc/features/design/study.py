@@ -271,11 +271,10 @@ def size(
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
-    judged, of_arm = design.judged, () if arm is None else arm.checks
-    assert judged is not None
+    of_arm = () if arm is None else arm.checks  # that of the balanced state last
     checks = (
-        *judged.made, level_check(tried), *judged.rest, *of_arm[: len(judged.arm)],
-        *(check for bearing in seats for check in bearing.checks), *of_arm[len(judged.arm) :],
+        *design.checks_before, level_check(tried), *design.checks_behind, *of_arm[:-1],
+        *(check for bearing in seats for check in bearing.checks), *of_arm[-1:],
         *stays, region.check, *checks_of_starts(tried), *lost,
     )  # fmt: skip
     return SizeResult(

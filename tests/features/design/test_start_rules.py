@@ -120,9 +120,7 @@ def test_what_was_left_out_passes_nothing() -> None:
 
 def level(closed: Finding, ensemble: Ensemble | None, starts: str = "full") -> Check:
     """The check of the idle level with another one by sizing."""
-    judged = design().judged
-    assert judged is not None
-    return level_check(StartFacts(replace(design(), judged=judged._replace(level=closed)), ensemble, starts=starts))
+    return level_check(StartFacts(replace(design(), level=closed), ensemble, starts=starts))
 
 
 def test_the_level_stays_as_it_is_without_starts_or_numbers() -> None:

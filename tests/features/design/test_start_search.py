@@ -216,7 +216,7 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
                 assert made(code, listed, SearchResult((good, of_usual)), found) == check
                 of_usual = replace(of_usual, quiet_time=None)
             assert made(code, listed, SearchResult((good, of_usual)), found) == told
-            assert code in [each for each, *_ in worst_further(SearchResult((good, bad)), found)]
+            assert code in [each.check for each in worst_further(SearchResult((good, bad)), found)]
     passed = Finding("pass", "as listed", 1.0, 2.0, "s")
     assert made(code, passed, SearchResult((good,), lost=1), found).status == "warn"
     assert made(code, passed, SearchResult((good,), lost=1, hurried=True), found).status == "not-done"
