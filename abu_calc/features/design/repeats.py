@@ -1,6 +1,7 @@
 """Start cases that decide checks, and the options of `abu simulate` that repeat them."""
 
 from collections.abc import Iterator
+from shlex import quote
 from typing import Annotated
 
 from abu_calc.features.design.start_rules import RULES
@@ -28,12 +29,7 @@ def repeated(outcome: StartOutcome, design: Design) -> str:
         sets.append(f"start.angles_deg=[{angles}]")
     scene = "--scene run-up " if member.run_up else f"--start {member.start} " if not member.angles else ""
     scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
-    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {quoted(entry)}' for entry in sets)}"
-
-
-def quoted(entry: str) -> str:
-    """An entry as a shell takes it: quoted where it holds more than a name and a number."""
-    return f"'{entry}'" if any(letter in entry for letter in '"[ ') else entry
+    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {quote(entry)}' for entry in sets)}"
 
 
 def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:

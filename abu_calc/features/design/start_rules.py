@@ -99,12 +99,6 @@ class StartFacts:
     advice: Callable[[str, Grade], Action | str] | None = None
     """Action of a check that is not passed, by its code and status; None: that of `change`."""
 
-    @property
-    def level(self) -> Finding:
-        """The idle level by sizing."""
-        level: Finding = self.design.level
-        return level
-
 
 Advise = Callable[[Grade, Measure | None, float | None], Action | str | None]
 """The action of a check by its status, by what it judges, None where that is kept, and by the limit."""
@@ -134,7 +128,7 @@ class StartRule(NamedTuple):
         """What the listed start cases say; `earlier`: code of a check that tells the action."""
 
         def advise(status: Grade, measure: Measure | None, limit: float | None) -> Action | str | None:
-            """That which was given or told before, else that of the simulated change."""
+            """The action given or told before, else that of the simulated change."""
             if status == "pass":
                 return None
             if facts.advice is not None:
@@ -156,7 +150,7 @@ class StartRule(NamedTuple):
         return coded(self.code, *self._with_further(facts, listed))
 
     def _with_further(self, facts: StartFacts, listed: Finding) -> Finding:
-        """With start cases that were left out, without an answer, or break the rule: promised ones fail the check."""
+        """The finding with start cases that were left out, gave no answer, or break the rule; promised ones fail it."""
         searched, status, said, action = facts.searched, listed.status, f"{listed.message}. ", listed.action
         if facts.starts != FULL and status != "fail":
             said = f'{"" if listed is facts.unsimulated else said}Start cases were left out: starts="{facts.starts}"'
@@ -193,7 +187,7 @@ NOT_TRIED: Final = "No change was simulated; --full prints a command that repeat
 
 def level_check(facts: StartFacts) -> Check:
     """The check of the idle level, by sizing and by start cases."""
-    return LEVEL.check(facts, LEVEL.finding(facts, facts.level))
+    return LEVEL.check(facts, LEVEL.finding(facts, facts.design.level))
 
 
 def checks_of_starts(facts: StartFacts) -> Iterator[Check]:
@@ -221,7 +215,8 @@ def _level(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
 
     NOT EVALUATED if the patience that was asked for left out a start case.
     """
-    closed, limit = facts.level, facts.level.limit
+    closed: Finding = facts.design.level
+    limit = closed.limit
     given, loudest = LOUDEST.worst(ensemble.given), LOUDEST.worst(ensemble.outcomes)
     if limit is None or closed.value is None:
         return closed
