@@ -107,14 +107,14 @@ Advise = Callable[[Grade, Measure | None, float | None], Action | str | None]
 class StartRule(NamedTuple):
     """Rule of one check that start cases decide: what the listed ones say, and which further ones break it.
 
-    `repeated`: name of the start case that is repeated; `measure`: what it judges; `breaks`: whether a further start
+    `measure`: what it judges; `repeated`: name of the start case that is repeated; `breaks`: whether a further start
     case breaks it; `order`: by what these are ordered, whose largest value decides unless they are counted; `words`:
     what they do, by the worst.
     """
 
     code: str
-    repeated: str
     measure: Measure
+    repeated: str
     listed: Callable[[StartFacts, Ensemble, Advise], Finding]
     breaks: Callable[[StartOutcome, Any], bool]
     order: Callable[[StartOutcome], float]
@@ -367,18 +367,18 @@ def _time_in_words(outcome: StartOutcome) -> str:
 
 
 LEVEL: Final = StartRule(
-    "ABU401", "loudest", LOUDEST, _level,
+    "ABU401", LOUDEST, "loudest", _level,
     lambda start, design: start.loudest + SLACK > design.case.level_limit, loudness,
     lambda worst: f"may be too loud, the loudest with {worst.loudest:.1f} ± {SLACK:g} dB",
     surely=lambda design, start: fails(design, start) and start.loudest > design.case.level_limit + SLACK,
 )  # fmt: skip
 BALANCES: Final = StartRule(
-    "ABU701", "one with the largest imbalance left", LEFT, _balances, _unbalanced, LEFT.value,
+    "ABU701", LEFT, "one with the largest imbalance left", _balances, _unbalanced, LEFT.value,
     lambda _: "do not balance",
 )  # fmt: skip
-SETTLES: Final = StartRule("ABU702", "slowest", SLOWEST, _settles, _late, slowness, _time_in_words, foresees=True)
+SETTLES: Final = StartRule("ABU702", SLOWEST, "slowest", _settles, _late, slowness, _time_in_words, foresees=True)
 STALLS: Final = StartRule(
-    "ABU704", "one with the slowest ball", STALLED, _none_stalls, lambda start, _: start.hanging, attrgetter("slip"),
+    "ABU704", STALLED, "one with the slowest ball", _none_stalls, lambda start, _: start.hanging, attrgetter("slip"),
     lambda _: "leave stalled balls",
 )  # fmt: skip
 OF_STARTS: Final = BALANCES, SETTLES, STALLS
