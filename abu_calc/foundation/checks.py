@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Final, Literal
+from typing import Final, Literal, NamedTuple
 
 from abu_calc.foundation.frozen import dataclass
 
@@ -166,6 +166,17 @@ class OptionalCheck(Check):
 def parts_of(action: Action | str | None) -> tuple[str | None, tuple[str, ...]]:
     """Sentence and entries of an action; none of an action that no entry of a file makes."""
     return (action.text, action.overrides) if isinstance(action, Action) else (action, ())
+
+
+class Finding(NamedTuple):
+    """What is found of a requirement, before the check with its code is made of it."""
+
+    status: Grade
+    message: str
+    value: float | None = None
+    limit: float | None = None
+    unit: str | None = None
+    action: Action | str | None = None
 
 
 def coded(

@@ -1,18 +1,23 @@
 """The scenes a machine file calls for, simulated with the effects they call for."""
 
 from collections.abc import Sequence
+from typing import Final
 
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
+from abu_calc.foundation import patience
+from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
 from abu_calc.simulation.effect_selection import Ledger, chosen, simulate_chosen
-from abu_calc.simulation.ensemble_checks import WORK
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.simulation.simulate import Simulation
 from abu_calc.sizing.design import Design
 
+WORK = 300_000
+"""Evaluations that the simulation of one scene within `abu size` may take, some seconds. A wheel that bounces before it
+stays on the work took SciPy 200 000, events counted in, until two runs agreed; other machines take a tenth of that."""
 MORE = 10
 """Times the work of a first try that a second may take, where the first did not suffice."""
 
@@ -70,3 +75,23 @@ def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -
         return SceneFailure(name, str(error).splitlines()[0])
     except NotTrustworthyError as error:
         return SceneFailure(name, str(error).splitlines()[0])
+
+
+IDLE: Final = ("idle", "swing-arm-idle")
+"""Scenes that many start cases repeat."""
+
+
+def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str | None = None) -> Check:
+    """The check of a scene whose simulation gave no number to be trusted.
+
+    `answered`: whether many starts of the machine, idle as in this scene, gave theirs: then one that did not is no
+    veto. `mean`: what a chaotic motion comes to on average, where that is known.
+    """
+    if mean is not None:
+        return coded(
+            "ABU703", "warn", mean, of=scene, remedy="Keep the wheel on the workpiece, see `abu grinding FILE`."
+        )
+    status: Grade = "warn" if answered and scene in IDLE and not patience.over() else "not-done"
+    return coded("ABU703", status, f"No simulation of this scene can be trusted: {reason}", of=scene,
+                 remedy="Specify a drag rate nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).",
+                 )  # fmt: skip

@@ -147,23 +147,25 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     construction = construct(case, best, eccentricity)
     advice = drawing(case, best, race, eccentricity, construction)
     bands = body_bands(case, best, frequency.balancing_possible)
-    checks = (
+    before = (
         region_check(case, best, frequency),
         *_motor(case, best),
         *candidate_checks(case, best),
         eccentricity_check(case, best, eccentricity),
         *track_checks(case, best, race),
         *construction.checks,
-        *vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None),
+    )
+    level, lowered = vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None)
+    behind = (
+        lowered,
         *handle_checks(case, best, total, bands),
         *declared_checks(case, best, frequency.balancing_possible),
         *power_checks(case, best),
-        *(arm.checks if arm else ()),
     )
     warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
         case, frequency, imbalance, choice, race, others, idle, worst, levels, total, loaded, arm, advice,
-        checks, warnings, bands, eccentricity, construction,
+        before, level, behind, warnings, bands, eccentricity, construction,
     )  # fmt: skip
 
 

@@ -6,7 +6,7 @@ A built machine has its own balls, race, wheel and hands, and keeps the choices 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
@@ -45,7 +45,11 @@ class Design:
     loaded: LevelsUnderLoad | None
     swing_arm: "SwingArmBounds | None"
     drawing: tuple[DrawingRequirement, ...]
-    checks: tuple[Check, ...]
+    checks_before: tuple[Check, ...]
+    level: Finding | None
+    """The idle level as expected, which start cases judge, too; None if the design was built as one machine."""
+    checks_behind: tuple[Check, ...]
+    """Checks of sizing before and behind that of the level; those of the swing arm come last."""
     warnings: tuple[str, ...]
     bands: BodyBands | None
     """Bands of an estimated body; None: nothing is estimated, or the design was built as one machine."""
@@ -58,6 +62,14 @@ class Design:
     def autobalancer(self) -> Candidate:
         """The chosen one."""
         return self.choice.best
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Checks of sizing alone."""
+        if self.level is None:
+            return ()
+        arm = () if self.swing_arm is None else self.swing_arm.checks
+        return *self.checks_before, coded("ABU401", *self.level), *self.checks_behind, *arm
 
     @property
     def system_mass(self) -> float:
@@ -112,7 +124,8 @@ def built(design: Design, machine: MachineFile) -> Design:
     return replace(
         design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),
         track=track(case, made, frequency.natural_frequencies), runner_up_tracks=(), worst=(), speed_levels=None,
-        highest_total=None, loaded=None, swing_arm=None, drawing=(), checks=(), warnings=(), bands=None,
+        highest_total=None, loaded=None, swing_arm=None, drawing=(), checks_before=(), level=None,
+        checks_behind=(), warnings=(), bands=None,
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from typing import Final
 from abu_calc.formulas.friction_band import worst_friction
 from abu_calc.formulas.shaken_friction import remaining_band
 from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Action, Check, Finding, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
@@ -267,23 +267,23 @@ def vibration_checks(
     idle: VibrationLevels,
     levels: SpeedLevels | None,
     band: tuple[float, float] | None = None,
-) -> tuple[Check, ...]:
-    """The idle level against the limit over the speed range, and that the autobalancer lowers it.
+) -> tuple[Finding, Check]:
+    """The idle level against the limit over the speed range, and the check that the autobalancer lowers it.
 
     `band`: of the highest level [dB], if the inertia is estimated.
     """
     limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None or levels is None:
         reason = "The level is not known: the balls cannot balance at these speeds"
-        allowed = {"ABU401": limit, "ABU402": before}
-        return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
+        unknown = Finding("not-done", reason, None, limit, "dB")
+        return unknown, coded("ABU402", *unknown._replace(limit=before))
     message = "The idle level with the autobalancer must be below the level without it"
     measurable, alike = measurably_lower(idle), before is not None and abs(after - before) < LEVEL_ERROR
     if not measurable and (idle.lowered or alike):
         much = f"lower by less than {LEAST_GAIN:g} dB" if idle.lowered else f"higher by less than {LEVEL_ERROR:g} dB"
         message += f". It is {much}, which no measurement tells from none"
     return (
-        _level_check(case, candidate, levels, loudest_place(idle), band),
+        _level(case, candidate, levels, loudest_place(idle), band),
         coded("ABU402", verdict(idle.lowered or alike, measurable), message, after, before, "dB",
               None if measurable else _lower(case, candidate, after)),
     )  # fmt: skip
@@ -318,9 +318,9 @@ def decibels(level: float, limit: float) -> str:
     )
 
 
-def _level_check(
+def _level(
     case: Case, candidate: Candidate, levels: SpeedLevels, place: str, band: tuple[float, float] | None
-) -> Check:
+) -> Finding:
     """Fails on the level as expected where it is highest; the bound of friction is told.
 
     On a horizontal spindle gravity shakes out friction that holds the balls. Hand tools get turned, so that the message
@@ -344,7 +344,7 @@ def _level_check(
         message += f". The estimated inertia leaves {low.removesuffix(' dB')} … {high} as expected"
     if kept and not within:
         action = Action("Measure the inertia: the band of the estimate crosses the limit.")
-    return coded("ABU401", verdict(kept, within), message, highest.level_after, limit, "dB", action)
+    return Finding(verdict(kept, within), message, highest.level_after, limit, "dB", action)
 
 
 def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels) -> Action:

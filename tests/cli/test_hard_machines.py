@@ -7,8 +7,8 @@ import pytest
 
 from abu_calc.dynamics.integrators.choice import LOOP, LOOP_WORK
 from abu_calc.features.design import study
+from abu_calc.features.design.start_rules import RULES
 from abu_calc.simulation.design_scenes import MORE, WORK
-from abu_calc.simulation.ensemble_checks import NEED_STARTS
 from tests.cli.runner import Seen, abu, without_extras
 
 GOOD = {"pass", "warn"}
@@ -180,7 +180,7 @@ def test_edges_are_answered_before_their_start_cases_are(entries: tuple[str, ...
 def test_an_arm_that_does_not_press_or_stand(angle: float, codes: set[str], look: Look) -> None:
     """At 0.09 rad g(Z) is −0.02: static divergence; at 0 and 180° no normal force turns the arm."""
     _, checks, _ = look(ARM, f"swing_arm.contact_angle_deg={angle}")
-    undone = {*NEED_STARTS} if look is _hasty else set()
+    undone = {rule.code for rule in RULES} if look is _hasty else set()
     assert {code for code, check in checks.items() if check["status"] not in GOOD} - undone == codes
 
 

@@ -5,8 +5,7 @@ import pytest
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.simulation import design_scenes
-from abu_calc.simulation.design_scenes import SceneFailure, scenes_of, simulated
-from abu_calc.simulation.ensemble_checks import WORK
+from abu_calc.simulation.design_scenes import WORK, SceneFailure, not_simulated, scenes_of, simulated
 from abu_calc.sizing import size
 from tests.sizing.machines import PINNED, machine
 
@@ -38,3 +37,13 @@ def test_too_much_work_is_tried_once_more_with_ten_times_as_much(monkeypatch: py
     monkeypatch.setattr(design_scenes, "simulate_chosen", simulate)
     assert simulated(size(machine(**PINNED)), 0.01) == ((), (SceneFailure("idle", "never agreed"),))
     assert asked == [WORK, 10 * WORK]
+
+
+def test_a_scene_that_was_not_simulated_passes_nothing() -> None:
+    assert not_simulated("grinding", "chaotic").status == "not-done"
+    assert not_simulated("grinding", "chaotic", answered=True).status == "not-done"
+    assert not_simulated("idle", "chaotic", answered=True).status == "warn"
+    assert not_simulated("swing-arm-idle", "chaotic", answered=True).status == "warn"
+    assert not_simulated("swing-arm-cutting", "chaotic", answered=True).status == "not-done"
+    check = not_simulated("grinding", "chaotic", mean="104 dB on average")
+    assert (check.status, check.message) == ("warn", "104 dB on average") and check.name.endswith("grinding")

@@ -16,16 +16,16 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.scene import with_parted_balls
 from abu_calc.features.design import verification
+from abu_calc.features.design.start_rules import StartFacts, TriedChange, checks_of_starts, level_check
 from abu_calc.features.design.start_search import designed
 from abu_calc.features.design.verification import MachineChange, changes, other_drags, passes, proven
-from abu_calc.foundation.checks import Check, Grade, coded
+from abu_calc.foundation.checks import Check, Finding, Grade
 from abu_calc.foundation.progress import silent
 from abu_calc.inputs.duty import Motor
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation import ensemble
 from abu_calc.simulation.design_scenes import simulated
 from abu_calc.simulation.ensemble import TOLERANCE, WORK, followed_until, outcome_of, simulate_members, start_once
-from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.scene_of_design import guided
 from abu_calc.simulation.start_cases import Member, members, scene_of_member
@@ -56,8 +56,13 @@ PINNED = {
 
 def statuses(found: Design, ensemble: Ensemble) -> dict[str, str]:
     """Of the checks that starts decide."""
-    level = next(one for one in found.checks if one.code == "ABU401")
-    return {one.code: one.status for one in (level_check(level, ensemble), *ensemble_checks(found, ensemble))}
+    facts = StartFacts(found, ensemble)
+    return {one.code: one.status for one in (level_check(facts), *checks_of_starts(facts))}
+
+
+def level(closed: Finding, ensemble: Ensemble, change: TriedChange | None = None) -> Check:
+    """The check of the idle level with another one by sizing."""
+    return level_check(StartFacts(replace(design("msh-230"), level=closed), ensemble, change=change))
 
 
 def judged(name: str, doubtful: float = 0.0, **changed: object) -> dict[str, str]:
@@ -276,16 +281,16 @@ def test_balls_that_carry_too_little_are_not_done() -> None:
     found = design("msh-230", ball_count=2, ball_diameter_mm=5)
     tried = proven(found)
     assert tried.ensemble is None
-    assert {one.status for one in ensemble_checks(found, None)} == {"not-done"}
+    assert {one.status for one in checks_of_starts(StartFacts(found, None))} == {"not-done"}
 
 
 def test_the_level_check_keeps_the_worse() -> None:
     """Of the closed form and of the starts."""
-    closed = coded("ABU401", "pass", "closed", 105.0, 109.0, "dB")
-    failed = coded("ABU401", "fail", "closed", 111.0, 109.0, "dB")
+    closed = Finding("pass", "closed", 105.0, 109.0, "dB")
+    failed = Finding("fail", "closed", 111.0, 109.0, "dB")
 
-    def value(one: Check, level: float) -> tuple[str, float | None]:
-        found = level_check(one, Ensemble(10.0, (outcome(level=level),), ()))
+    def value(one: Finding, loud: float) -> tuple[str, float | None]:
+        found = level(one, Ensemble(10.0, (outcome(level=loud),), ()))
         return found.status, found.value
 
     assert value(closed, 100.0) == ("pass", 105.0)
@@ -301,14 +306,14 @@ def test_the_level_check_keeps_the_worse() -> None:
 )
 def test_a_loud_start_is_answered_by_what_helps_it(status: Grade, slip: float, told: str) -> None:
     """A truer race does not catch balls that stall."""
-    closed = coded("ABU401", status, "closed", 105.0, 109.0, "dB", "truer race")
+    closed = Finding(status, "closed", 105.0, 109.0, "dB", "truer race")
     loud = Ensemble(10.0, (outcome(level=120.0, slip=slip),), ())
     quiet = Ensemble(30.0, (outcome(30.0, level=100.0),), ())
     entries = {"autobalancer.rolling_drag_per_s": 30.0}
-    action = level_check(closed, loud, TriedChange(design("msh-230").autobalancer, loud, entries, quiet)).remedy or ""
+    action = level(closed, loud, TriedChange(design("msh-230").autobalancer, loud, entries, quiet)).remedy or ""
     more_drag = "Set rolling_drag_per_s = 30: the loudest start case falls from 120.0 to 100.0 dB (simulated)."
     assert action.startswith(more_drag if told == "more drag" else told)
-    assert "ABU701" in (level_check(closed, loud).remedy or "") or told == "truer race"
+    assert "ABU701" in (level(closed, loud).remedy or "") or told == "truer race"
 
 
 @pytest.mark.slow

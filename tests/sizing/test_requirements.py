@@ -33,7 +33,8 @@ KEPT = {"limits.a_hv_m_per_s2": 1000.0, "limits.quiet_time_s": 10.0}
 
 def made(design: Design) -> Design:
     """The design without its checks, and without the file and what only a limit asks for."""
-    return replace(design, checks=(), highest_total=None, case=read_one_race(with_entries(design.case.table, {
+    bare = replace(design, checks_before=(), level=None, checks_behind=(), highest_total=None)
+    return replace(bare, case=read_one_race(with_entries(design.case.table, {
         "limits": {"vibration_level_db": design.case.table.limits.vibration_level_db}})))  # fmt: skip
 
 

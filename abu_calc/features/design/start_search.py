@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import cycle
+from operator import attrgetter
 from typing import Final
 
 from abu_calc.features.design.band import corners, promised, usual
@@ -238,14 +239,8 @@ def _doubtful(outcome: StartOutcome, design: Design) -> bool:
     return late or outcome.loudest > design.case.level_limit - MARGIN
 
 
-def slowness(outcome: StartOutcome) -> float:
-    """Quiet time [s]; infinite if the machine never is."""
-    return outcome.quiet_time_or_inf
-
-
-def loudness(outcome: StartOutcome) -> float:
-    """Level at the loudest time and place [dB]."""
-    return outcome.loudest
+slowness, loudness = attrgetter("quiet_time_or_inf"), attrgetter("loudest")
+"""Quiet time [s], infinite if the machine never is; level at the loudest time and place [dB]."""
 
 
 def design_part(design: Design, part: int) -> Iterator[Member]:

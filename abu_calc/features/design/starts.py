@@ -14,7 +14,7 @@ from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.features.design.band import BandRow, band
-from abu_calc.features.design.searched_checks import decisive, repeated, worst_further
+from abu_calc.features.design.repeats import RepeatedStart, decisive, repeated, worst_further
 from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -227,15 +227,6 @@ class SettlingOfStart(Record):
 
 
 @record
-class RepeatedStart(Record):
-    """The worst further start case for one check, with the options of `abu simulate` that repeat it."""
-
-    check: Annotated[str, Quantity("check")]
-    which: Annotated[str, Quantity("which")]
-    options: Annotated[str, Quantity("options of `abu simulate`")]
-
-
-@record
 class FurtherStarts(Record):
     """Start cases beside the listed ones, over the band and where they are worst.
 
@@ -263,10 +254,7 @@ class FurtherStarts(Record):
             settling_time_s=finite(max(outcome.settling_time_or_inf for outcome in searched.outcomes)),
             rare_quiet_time_s=finite(searched.foreseen),
             level_db=max(outcome.loudest for outcome in searched.outcomes),
-            repeats=tuple(
-                RepeatedStart(check=code, which=which, options=options)
-                for code, which, options in worst_further(searched, design)
-            ),
+            repeats=tuple(worst_further(searched, design)),
         )
 
 

@@ -25,7 +25,7 @@ from abu_calc.features.design.records import (
     Vibration,
 )
 from abu_calc.features.design.region import true_region
-from abu_calc.features.design.searched_checks import start_checks
+from abu_calc.features.design.start_rules import FULL, STARTS, checks_of_starts, level_check
 from abu_calc.features.design.starts import EnsembleResult, Starts
 from abu_calc.features.design.verdict import Verdict, benefit
 from abu_calc.features.design.verification import Proven, proven
@@ -47,8 +47,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
-from abu_calc.simulation.ensemble_checks import FULL, STARTS, not_simulated, unproven
+from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, not_simulated, simulated
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SimulatedScene
@@ -260,8 +259,6 @@ def size(
         region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress, balanced)
     stays = _on_work(design, runs, accuracy, progress)
-    started = start_checks(design, tried.ensemble, tried.searched, tried.change)
-    level = started.pop("ABU401")
     given = () if tried.ensemble is None else tried.ensemble.given
     lost = (
         not_simulated(
@@ -274,16 +271,12 @@ def size(
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
-    checks = tuple(
-        unproven(check, tried.starts)
-        for check in (
-            *_checks(design, level, [check for bearing in seats for check in bearing.checks], arm),
-            *stays,
-            region.check,
-            *started.values(),
-            *lost,
-        )
-    )
+    of_arm = () if arm is None else arm.checks  # that of the balanced state last
+    checks = (
+        *design.checks_before, level_check(tried), *design.checks_behind, *of_arm[:-1],
+        *(check for bearing in seats for check in bearing.checks), *of_arm[-1:],
+        *stays, region.check, *checks_of_starts(tried), *lost,
+    )  # fmt: skip
     return SizeResult(
         title=tables.machine.name,
         verdict=_verdict(design, checks, tried.ensemble, machine.file),
@@ -409,15 +402,6 @@ def _with_lives(
     loads = UseLoads(design.imbalance.value * speed**2, None if residual is None else residual * speed**2, constant)
     lives = lives_in_use([bearing.bearing for bearing in seats], loads, speed)
     return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
-
-
-def _checks(design: Design, level: Check, seat_checks: Sequence[Check], arm: "ArmJudgement | None") -> Iterator[Check]:
-    """Checks of the sizing, the level by its worst start case and the arm's checks as they were judged."""
-    held = {arm_check.code: arm_check for arm_check in arm.checks} if arm else {}
-    for check in design.checks:
-        yield level if check.code == level.code else held.pop(check.code, check)
-    yield from seat_checks
-    yield from held.values()
 
 
 def _view(design: Design, runs: Sequence[SceneRun], scene: str) -> RotorView | None:

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 
+from abu_calc.features.design.start_rules import FULL, ONE, StartFacts, TriedChange
 from abu_calc.features.design.start_search import SearchResult, fails, search
 from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation import patience
@@ -18,7 +19,6 @@ from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import simulate_first, simulate_members
-from abu_calc.simulation.ensemble_checks import FULL, ONE, TriedChange
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing import instead, no_worse, usable
 from abu_calc.sizing.actions import overrides, pins, with_entries, words
@@ -222,17 +222,13 @@ MOST_SEARCHED = 2_000_000
 
 
 @dataclass(frozen=True)
-class Proven:
-    """A design, what its starts show (None: its balls cannot carry the imbalance), and what was tried beside it."""
+class Proven(StartFacts):
+    """A design of one race, what its starts show, and what was tried beside it.
 
-    design: Design
-    ensemble: Ensemble | None
-    change: TriedChange | None = None
+    Without an ensemble its balls cannot carry the imbalance. Further start cases are searched if all listed ones pass.
+    """
+
     warnings: tuple[str, ...] = ()
-    searched: SearchResult | None = None
-    """Result of further start cases, if all listed ones pass."""
-    starts: str = FULL
-    """Start cases that were simulated: all, one or none of them."""
 
     @property
     def holds(self) -> bool:
@@ -246,7 +242,7 @@ def proven(
     """The best candidate if it passes from every start at the drag given, else the next one that does.
 
     If none does, the best one, with the first change that would make it pass. With one start or none nothing is
-    proven: the best candidate stands, and `unproven` takes the checks that need all start cases.
+    proven: the best candidate stands, and no check that needs all start cases passes.
     """
     if not _carries(design):
         return Proven(design, None)

@@ -21,8 +21,8 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import level_from_velocity
+from abu_calc.simulation.design_scenes import WORK
 from abu_calc.simulation.effect_selection import chosen, simulate_chosen
-from abu_calc.simulation.ensemble_checks import WORK
 from abu_calc.simulation.response import (
     SAMPLES_PER_REVOLUTION,
     amplitude_window,

@@ -23,8 +23,7 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si
-from abu_calc.simulation.design_scenes import SceneFailure, SceneRun
-from abu_calc.simulation.ensemble_checks import WORK
+from abu_calc.simulation.design_scenes import WORK, SceneFailure, SceneRun
 from abu_calc.simulation.scene_of_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.budget import accuracy_budget

@@ -3,14 +3,15 @@
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Final
 
+from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.records import OneRace, TwoRaceVibration
 from abu_calc.formulas.two_races import two_races_balance
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Action, Check, Finding, coded, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.simulation.ensemble_checks import JUDGED, ensemble_checks
 from abu_calc.simulation.ensemble_results import Ensemble
 
 
@@ -153,12 +154,12 @@ LONGER = "Allow some minutes: --patience 600 (not tried)."
 """Actions where no change that was tried helps, and where start cases gave no answer."""
 
 
+BELOW: Final = Finding("not-done", "Not simulated below a critical speed", action="See ABU101.")
+
+
 def start_checks(design: TwoRaceDesign, ensemble: Ensemble | None, action: Action | None) -> Iterator[Check]:
     """Checks of the start cases; `action`: one that was tried and makes all of them pass."""
-    if ensemble is None:
-        for code in JUDGED:
-            yield coded(code, "not-done", "Not simulated below a critical speed", remedy="See ABU101.")
-        return
-    for check in ensemble_checks(design, ensemble):
-        advice = LONGER if check.status == "not-done" else action or OTHERWISE[check.code]
-        yield check if check.status == "pass" else check.with_action(advice)
+    return checks_of_starts(StartFacts(
+        design, ensemble, unsimulated=BELOW,
+        advice=lambda code, status: LONGER if status == "not-done" else action or OTHERWISE[code],
+    ))  # fmt: skip

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 import abu_calc
+from abu_calc.features.design.start_rules import IN_ALL_OILS
 from abu_calc.features.design.study import SizeResult
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import AbuError
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine, machine_from, read_machine
 from abu_calc.inputs.reading.overrides import following, parse_overrides
-from abu_calc.simulation.ensemble_checks import IN_ALL_OILS
 from tests.hard_machines import FILES_BY_HAND
 from tests.remembered import recalled
 from tests.studies.random_machines import family_of, machine_text

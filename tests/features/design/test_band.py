@@ -22,7 +22,7 @@ from abu_calc.features.design.band import (
     turned_in_use,
     usual,
 )  # fmt: skip
-from abu_calc.features.design.searched_checks import decisive, repeated
+from abu_calc.features.design.repeats import decisive, repeated
 from abu_calc.features.design.start_search import SearchResult, fails
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import first_tolerance, run_of_start

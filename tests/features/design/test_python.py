@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 import abu_calc
+from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.files.result_schema import RESULTS
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, OutputError
 from abu_calc.foundation.quantity import LEVEL_AFTER, Record, parts_of_type, quantities
 from abu_calc.foundation.units import unit_of
-from abu_calc.simulation.ensemble_checks import NEED_STARTS
 from tests.cli.runner import again
 from tests.remembered import remembered
 from tests.rows import for_each
@@ -104,8 +104,9 @@ def test_tables(result: abu_calc.SizeResult) -> None:
 @pytest.mark.parametrize("preset", [PRESET, "msh-230", "avtovaz-707-305"])
 def test_without_the_starts_no_check_that_needs_them_passes(preset: str, starts: str) -> None:
     sized = abu_calc.size(abu_calc.read(preset), starts=starts)
-    needing = {check.code: check for check in sized.checks if check.code in NEED_STARTS}
-    assert set(needing) == set(NEED_STARTS)
+    codes = {rule.code for rule in RULES}
+    needing = {check.code: check for check in sized.checks if check.code in codes}
+    assert set(needing) == codes
     assert all(check.status in ("not-done", "fail") for check in needing.values())
     assert sized.status != "pass" and any(f'starts="{starts}"' in text for text in sized.warnings)
 

@@ -9,11 +9,11 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.records import FrictionBound
+from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.simulate.study import SimulateResult
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.ensemble_checks import ensemble_checks
 from abu_calc.simulation.ensemble_results import Ensemble
 from abu_calc.sizing.design import Design
 from tests.remembered import recalled
@@ -228,7 +228,7 @@ def judged(sized: SizeResult, limit: float | None, changed: Ensemble | None = No
     """The check of the start cases of a result under a limit of the rest time [s]."""
     assert sized.starts.of is not None
     design, ensemble, _ = sized.starts.of
-    return check_of(ensemble_checks(with_rest(design, limit), changed or ensemble), "ABU702")
+    return check_of(checks_of_starts(StartFacts(with_rest(design, limit), changed or ensemble)), "ABU702")
 
 
 def test_the_rest_time_is_judged_where_the_file_limits_it(sized: SizeResult) -> None:

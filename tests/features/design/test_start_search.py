@@ -15,7 +15,8 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design import start_search
-from abu_calc.features.design.searched_checks import with_searched, worst_further
+from abu_calc.features.design.repeats import worst_further
+from abu_calc.features.design.start_rules import RULES, StartFacts
 from abu_calc.features.design.start_search import (
     NEAR,
     PARTS,
@@ -32,7 +33,7 @@ from abu_calc.features.design.start_search import (
     search,
     tail_shape,
 )
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.inputs.reading.overrides import parse_overrides
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
@@ -104,12 +105,18 @@ def test_a_range_is_started_at_both_ends_and_in_the_middle() -> None:
         assert not [start for first in designed(machine) for start in at_near_speeds(first, machine)]
 
 
+def made(code: str, listed: Finding, searched: SearchResult | None, found: Design) -> Check:
+    """The check by what the listed start cases say and by further ones."""
+    (rule,) = (rule for rule in RULES if rule.code == code)
+    return rule.check(StartFacts(found, None, searched), listed)
+
+
 def test_a_level_within_its_error_of_the_limit_warns() -> None:
     """A run below the limit by less than the error of a simulated level does not prove that the limit is kept."""
-    found, check = design("avtovaz-707-222"), Check("ABU401", "", "pass", "as listed", 1.0, 2.0, "dB", None)
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 1.0, 2.0, "dB")
     limit = found.case.level_limit
-    assert with_searched(check, SearchResult((outcome(0.1, level=limit - 1.1 * SLACK),)), found).status == "pass"
-    told = with_searched(check, SearchResult((outcome(0.1, level=limit - 0.9 * SLACK),)), found)
+    assert made("ABU401", listed, SearchResult((outcome(0.1, level=limit - 1.1 * SLACK),)), found).status == "pass"
+    told = made("ABU401", listed, SearchResult((outcome(0.1, level=limit - 0.9 * SLACK),)), found)
     assert told.status == "warn" and "Further start cases: 1 of 1 may be too loud" in told.message
 
 
@@ -194,34 +201,33 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
     """
     found, good = design("avtovaz-707-222"), outcome(0.1)
     for status in ("pass", "warn", "fail", "not-done"):
-        check = Check(code, "", status, "as listed", 1.0, 2.0, "s", None)
-        assert with_searched(check, SearchResult((good,)), found) == check == with_searched(check, None, found)
-        told = with_searched(check, SearchResult((good, bad)), found)
+        listed = Finding(status, "as listed", 1.0, 2.0, "s")
+        check = coded(code, *listed)
+        assert made(code, listed, SearchResult((good,)), found) == check == made(code, listed, None, found)
+        told = made(code, listed, SearchResult((good, bad)), found)
         if status in ("fail", "not-done"):
             assert told == check
         else:
             assert told.status == "warn" and told.message.startswith("as listed. Further start cases: 1 of 2")
             assert told.remedy and "No change was simulated" in told.remedy
-            surely = with_searched(check, SearchResult((good, replace(bad, confirmed=True))), found)
+            surely = made(code, listed, SearchResult((good, replace(bad, confirmed=True))), found)
             assert surely.status == "fail" and surely.message == told.message
             of_usual = replace(bad, confirmed=True, member=replace(bad.member, promised=False))
             if code == "ABU701":  # more friction leaves more, and that is no matter where the machine is quiet
-                assert with_searched(check, SearchResult((good, of_usual)), found) == check
+                assert made(code, listed, SearchResult((good, of_usual)), found) == check
                 of_usual = replace(of_usual, quiet_time=None)
-            assert with_searched(check, SearchResult((good, of_usual)), found) == told
-            assert code in [each for each, *_ in worst_further(SearchResult((good, bad)), found)]
-    passed = Check(code, "", "pass", "as listed", 1.0, 2.0, "s", None)
-    assert with_searched(passed, SearchResult((good,), lost=1), found).status == "warn"
-    assert with_searched(passed, SearchResult((good,), lost=1, hurried=True), found).status == "not-done"
-    other = Check("ABU201", "", "pass", "capacity", 1.0, 2.0, "s", None)
-    assert with_searched(other, SearchResult((bad,)), found) == other
+            assert made(code, listed, SearchResult((good, of_usual)), found) == told
+            assert code in [each.check for each in worst_further(SearchResult((good, bad)), found)]
+    passed = Finding("pass", "as listed", 1.0, 2.0, "s")
+    assert made(code, passed, SearchResult((good,), lost=1), found).status == "warn"
+    assert made(code, passed, SearchResult((good,), lost=1, hurried=True), found).status == "not-done"
 
 
 def test_further_balls_that_still_creep_warn() -> None:
     """Followed for ten times the limit they have no time of rest: that is no failure, but it is told."""
-    found, check = design("avtovaz-707-222"), Check("ABU702", "", "pass", "as listed", 0.2, 1.0, "s", None)
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0, "s")
     creeping = replace(outcome(0.1), creeping=True, rest_time=None, confirmed=True)
-    told = with_searched(check, SearchResult((outcome(0.2), creeping)), found)
+    told = made("ABU702", listed, SearchResult((outcome(0.2), creeping)), found)
     assert (
         told.status == "warn" and "1 of 2 are late or still creep" in told.message and "at rest never" in told.message
     )
@@ -229,11 +235,11 @@ def test_further_balls_that_still_creep_warn() -> None:
 
 def test_a_long_tail_of_quiet_times_warns_before_one_is_too_late() -> None:
     """Balls that linger leave as e^{λt}: of 40 times with that tail the rare ones are foreseen within 25 %."""
-    found, check = design("avtovaz-707-222"), Check("ABU702", "", "pass", "as listed", 0.2, 1.0, "s", None)
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0, "s")
     quiet = SearchResult(tuple(outcome(0.1 + 0.01 * k) for k in range(24)))
-    assert with_searched(check, quiet, found) == check
+    assert made("ABU702", listed, quiet, found).status == "pass"
     lingering = SearchResult(quiet.outcomes[:20], listed=tuple(outcome(time) for time in (0.5, 0.6, 0.7, 0.9)))
-    told = with_searched(check, lingering, found)
+    told = made("ABU702", listed, lingering, found)
     assert told.status == "warn" and "one of 1000 takes" in told.message and told.remedy
     times = [0.1 - 0.2 * math.log(1 - (k + 0.5) / 40) for k in range(40)]
     assert exceeded(times, 1e-3) == pytest.approx(0.1 + 0.2 * math.log(1000), rel=0.25)
@@ -283,10 +289,10 @@ def test_starts_that_a_result_chose_do_not_tell_how_long_rare_ones_take() -> Non
     with_near = SearchResult((*drawn, *near), near=len(near))
     assert with_near.drawn == drawn and with_near.foreseen == SearchResult(drawn).foreseen < 1
     assert SearchResult((*drawn, *near)).foreseen > 1
-    found, check = design("avtovaz-707-222"), Check("ABU702", "", "pass", "as listed", 0.2, 1.0, "s", None)
-    assert with_searched(check, with_near, found) == check
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0, "s")
+    assert made("ABU702", listed, with_near, found).status == "pass"
     late = SearchResult((*drawn, outcome(1.1)), near=1)
-    assert with_searched(check, late, found).status == "warn"
+    assert made("ABU702", listed, late, found).status == "warn"
 
 
 @pytest.mark.parametrize("name", ["avtovaz-707-222", "late-between-speeds", "motor-no-load-speed"])

@@ -4,8 +4,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.study import merged
-from abu_calc.simulation.design_scenes import simulated
-from abu_calc.simulation.ensemble_checks import not_simulated
+from abu_calc.simulation.design_scenes import not_simulated, simulated
 from abu_calc.sizing import size as size_design
 from tests.cli.runner import once
 

@@ -1,11 +1,12 @@
 """Checks of many start cases: which start decides, and what is said of those without an answer."""
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
 
-from abu_calc.foundation.checks import Check, coded
-from abu_calc.simulation.ensemble_checks import TriedChange, ensemble_checks, level_check, not_simulated
+from abu_calc.features.design.start_rules import StartFacts, TriedChange, checks_of_starts, level_check
+from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
 from abu_calc.simulation.start_cases import ALIKE, Member
 from abu_calc.sizing import size
@@ -13,7 +14,7 @@ from abu_calc.sizing.design import Design
 from tests.sizing.machines import PINNED, machine
 
 DRAG = 10.0
-CLOSED = coded("ABU401", "pass", "closed", 105.0, 109.0, "dB")
+CLOSED = Finding("pass", "closed", 105.0, 109.0, "dB")
 
 
 @cache
@@ -35,7 +36,7 @@ def by_code(
     before = Ensemble(DRAG, outcomes, lost)
     change = TriedChange(design().autobalancer, before, {"autobalancer.rolling_drag_per_s": 30.0},
                          Ensemble(3 * DRAG, mended, ())) if mended else None  # fmt: skip
-    return {check.code: check for check in ensemble_checks(design(), before, change)}
+    return {check.code: check for check in checks_of_starts(StartFacts(design(), before, change=change))}
 
 
 def test_the_worst_start_stands_beside_its_limit() -> None:
@@ -77,10 +78,11 @@ def test_rest_is_judged_only_if_the_file_limits_it() -> None:
     assert told.status == "pass" and told.message.endswith("The balls rest after 1.70 s at the latest")
     for longest, status in ((1.8, "pass"), (1.6, "fail")):
         limited = size(machine(**PINNED, limits={"rest_time_s": longest}))
-        judged = {one.code: one for one in ensemble_checks(limited, Ensemble(DRAG, (outcome(), late), ()))}["ABU702"]
+        facts = StartFacts(limited, Ensemble(DRAG, (outcome(), late), ()))
+        judged = {one.code: one for one in checks_of_starts(facts)}["ABU702"]
         assert (judged.status, judged.value) == (status, 0.2) and f"(limit {longest:g} s)" in judged.message
     other = Ensemble(DRAG, (outcome(), outcome(Member("bunched", 3 * DRAG), rest_time=1.7)), ())
-    assert {one.code: one for one in ensemble_checks(limited, other)}["ABU702"].status == "warn"
+    assert {one.code: one for one in checks_of_starts(StartFacts(limited, other))}["ABU702"].status == "warn"
 
 
 def test_balls_that_still_creep_warn_unless_they_stall() -> None:
@@ -97,15 +99,39 @@ def test_hanging_starts_are_counted() -> None:
     assert (check.status, check.value, check.limit) == ("fail", 1.0, 0.0) and "behind" in check.message
 
 
+def test_what_was_left_out_passes_nothing() -> None:
+    """What fails with one start case fails; without any nothing is known of them."""
+    one = Ensemble(DRAG, (outcome(quiet_time=1.5),), ())
+    left_out = {check.code: check for check in checks_of_starts(StartFacts(design(), one, starts="one"))}
+    assert {code: check.status for code, check in left_out.items()} == {
+        "ABU701": "not-done", "ABU702": "fail", "ABU704": "not-done"
+    }  # fmt: skip
+    assert left_out["ABU704"].message == (
+        'No ball stalls in any start case. Start cases were left out: starts="one"'
+    ) and left_out["ABU704"].value == 0.0  # fmt: skip
+    facts = StartFacts(design(), None, starts="none")
+    assert {check.message for check in checks_of_starts(facts)} == {'Start cases were left out: starts="none"'}
+    check = level(CLOSED, None, starts="none")
+    assert (check.status, check.value) == ("not-done", 105.0) and check.message.startswith(
+        "closed. Start cases were left"
+    )
+    assert level(CLOSED._replace(status="fail"), None, starts="none").status == "fail"
+
+
+def level(closed: Finding, ensemble: Ensemble | None, starts: str = "full") -> Check:
+    """The check of the idle level with another one by sizing."""
+    return level_check(StartFacts(replace(design(), level=closed), ensemble, starts=starts))
+
+
 def test_the_level_stays_as_it_is_without_starts_or_numbers() -> None:
-    assert level_check(CLOSED, None) is CLOSED
-    undone = coded("ABU401", "not-done", "not known", None, 109.0, "dB")
-    assert level_check(undone, Ensemble(DRAG, (outcome(level=120.0),), ())) is undone
+    assert level(CLOSED, None) == coded("ABU401", *CLOSED)
+    undone = Finding("not-done", "not known", None, 109.0, "dB")
+    assert level(undone, Ensemble(DRAG, (outcome(level=120.0),), ())) == coded("ABU401", *undone)
 
 
 def test_a_loud_start_at_another_drag_warns() -> None:
     starts = Ensemble(DRAG, (outcome(), outcome(Member("spread", 3 * DRAG), level=112.0)), ())
-    check = level_check(CLOSED, starts)
+    check = level(CLOSED, starts)
     assert (check.status, check.value) == ("warn", 105.0)
     assert "112.0 dB (limit 109 dB), spread, drag rate 30 1/s (cold oil)" in check.message
 
@@ -114,17 +140,7 @@ def test_a_level_within_its_error_below_the_limit_warns() -> None:
     """The start case at the given drag rate or at another one; farther below, the level passes."""
     for drag in (DRAG, 3 * DRAG):
         near = outcome(Member("spread", drag), level=109.0 - 0.9 * SLACK)
-        check = level_check(CLOSED, Ensemble(DRAG, (outcome(), near), ()))
+        check = level(CLOSED, Ensemble(DRAG, (outcome(), near), ()))
         assert check.status == "warn" and "leaves open whether the limit is kept" in check.message
         far = outcome(Member("spread", drag), level=109.0 - 1.1 * SLACK)
-        assert level_check(CLOSED, Ensemble(DRAG, (outcome(), far), ())).status == "pass"
-
-
-def test_a_scene_that_was_not_simulated_passes_nothing() -> None:
-    assert not_simulated("grinding", "chaotic").status == "not-done"
-    assert not_simulated("grinding", "chaotic", answered=True).status == "not-done"
-    assert not_simulated("idle", "chaotic", answered=True).status == "warn"
-    assert not_simulated("swing-arm-idle", "chaotic", answered=True).status == "warn"
-    assert not_simulated("swing-arm-cutting", "chaotic", answered=True).status == "not-done"
-    check = not_simulated("grinding", "chaotic", mean="104 dB on average")
-    assert (check.status, check.message) == ("warn", "104 dB on average") and check.name.endswith("grinding")
+        assert level(CLOSED, Ensemble(DRAG, (outcome(), far), ())).status == "pass"

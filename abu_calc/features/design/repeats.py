@@ -1,0 +1,93 @@
+"""Start cases that decide checks, and the options of `abu simulate` that repeat them."""
+
+from collections.abc import Iterator
+from shlex import quote
+from typing import Annotated
+
+from abu_calc.features.design.start_rules import RULES
+from abu_calc.features.design.start_search import SearchResult
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.start_cases import Member, Variation, ball_speed_rpm
+from abu_calc.sizing.design import Design
+
+
+def repeated(outcome: StartOutcome, design: Design) -> str:
+    """The options of `abu simulate` that repeat a start of a design, which they pin."""
+    member, balls = outcome.member, design.autobalancer
+    entries = {
+        "autobalancer.ball_count": f"{balls.ball_count}",
+        "autobalancer.ball_diameter_mm": f"{from_si(balls.ball_diameter, 'mm'):.10g}",
+        **dict(_other_values(member, design)),
+    }
+    if member.run_up and not member.by_motor:
+        entries["run_up.time_s"] = f"{member.run_up:.10g}"
+    sets = [f"{key}={value}" for key, value in entries.items()]
+    if member.angles:
+        angles = ", ".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
+        sets.append(f"start.angles_deg=[{angles}]")
+        if member.lag:
+            sets.append(f"start.speeds_rpm={[ball_speed_rpm(design, member)] * len(member.angles)}")
+    scene = "--scene run-up " if member.run_up else f"--start {member.start} " if not member.angles else ""
+    scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
+    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {quote(entry)}' for entry in sets)}"
+
+
+def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
+    """Entries of what a start has otherwise than the file, with race and imbalance as they are.
+
+    A motor runs up to its idle speed, whatever is rated.
+    """
+    case, varied = design.case, member.varied
+    at_speed = member.speed is not None and case.table.motor is None
+    if at_speed:
+        yield "machine.speed_rpm", f"{from_si(member.speed or 0.0, 'rpm'):.10g}"
+    if at_speed or varied != Variation():
+        yield "autobalancer.race_radius_mm", f"{from_si(design.autobalancer.race_radius, 'mm'):.10g}"
+        yield "wheel.imbalance_g_mm", f"{varied.imbalance * from_si(design.imbalance.value, 'g_mm'):.10g}"
+    if member.drag != case.drag:
+        yield "autobalancer.rolling_drag_per_s", f"{member.drag:.10g}"
+    if varied.race_eccentricity != 1:
+        eccentricity = varied.race_eccentricity * case.race_eccentricity
+        yield "autobalancer.race_eccentricity_mm", f"{from_si(eccentricity, 'mm'):.10g}"
+    if varied.friction_arm != 1:
+        yield "autobalancer.rolling_friction_mm", f"{from_si(varied.friction_arm * case.friction_arm, 'mm'):.10g}"
+    if varied.spindle_axis is not None:
+        yield "machine.spindle_axis", f'"{varied.spindle_axis}"'
+    given = case.table.suspension.frequencies
+    if varied.natural_frequency != 1 and given is not None:
+        values = ", ".join(f"{varied.natural_frequency * each:.10g}" for each in given)
+        yield "suspension.natural_frequencies_hz", f"[{values}]"
+
+
+def decisive(design: Design, ensemble: Ensemble, searched: SearchResult | None) -> StartOutcome | None:
+    """The start case that decides the verdict: one that fails before one that breaks a limit, then the latest."""
+    outcomes = (*ensemble.outcomes, *(() if searched is None else searched.outcomes))
+
+    def order(outcome: StartOutcome) -> tuple[bool, bool, float, float]:
+        """The decisive one last."""
+        broken = any(rule.breaks(outcome, design) for rule in RULES)
+        return outcome.member.promised and broken, broken, outcome.quiet_time_or_inf, outcome.level
+
+    return max(outcomes, key=order, default=None)
+
+
+@record
+class RepeatedStart(Record):
+    """The worst further start case for one check, with the options of `abu simulate` that repeat it."""
+
+    check: Annotated[str, Quantity("check")]
+    which: Annotated[str, Quantity("which")]
+    options: Annotated[str, Quantity("options of `abu simulate`")]
+
+
+def worst_further(searched: SearchResult, design: Design) -> Iterator[RepeatedStart]:
+    """The worst further start case for each check that these break or come near to.
+
+    Quiet times count, too, if one start case of 1000 would be late.
+    """
+    for rule in RULES:
+        worst, _ = rule.worst(searched, design)
+        if worst is not None:
+            yield RepeatedStart(check=rule.code, which=rule.repeated, options=repeated(worst, design))
