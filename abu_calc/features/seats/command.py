@@ -39,8 +39,10 @@ class BearingOption(NamedTuple):
     @property
     def parameter(self) -> inspect.Parameter:
         """The option as a parameter of a command, None when it is not given."""
-        annotation = Annotated[self.type | None, option(self.usage, self.help, self.panel)]
-        return inspect.Parameter(self.key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+        shown = option(self.usage, self.help, self.panel)
+        return inspect.Parameter(
+            self.key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[self.type | None, shown]
+        )
 
 
 BEARING: Final = "Bearing"
