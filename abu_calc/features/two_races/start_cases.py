@@ -270,7 +270,9 @@ def _run(
 ) -> TwoRaceOutcome:  # fmt: skip
     """Outcome of one run. Raises NotTrustworthyError."""
     times, turns = merged(needed_times(scene), revolution_times(scene)), revolution_times(scene)
-    looks = tuple(float(turns[int(share * len(turns))]) for share in LOOKS) if early_end else ()
+    # Of what is seen then, several turns must be whole.
+    ends = [int(share * len(turns)) for share in LOOKS if early_end and SEEN * share * len(turns) > 4 * PER_TURN]
+    looks = tuple(float(turns[end]) for end in ends)
     windows = [amplitude_window(replace(scene, duration=look)).times for look in looks]
     until = Until(looks, partial(_enough, design, member, scene))
     run, spent = integrated(scene, Sampling(merged(times, *windows), until=until), tolerance, work, wanted)

@@ -44,6 +44,9 @@ TRUE = (
 )
 
 
+SOFT = {"stiffness_N_per_m": 2.0, "damping_N_s_per_m": 0.01}
+
+
 @cache
 def design_of(*overrides: str) -> TwoRaceDesign:
     tables = read_machine("pedestal-grinder", overrides).two_races
@@ -285,3 +288,13 @@ def test_no_start_is_begun_after_the_work_of_all(monkeypatch: pytest.MonkeyPatch
     with patience.limited(600):
         simulate_starts(design, list(start_cases(design))[:6], 0.05, FIRST_TOLERANCE, silent, 1, runner)
     assert len(begun) == 2 + 6
+
+
+def test_a_scene_of_few_turns_is_run_to_its_end() -> None:
+    """At 30 rpm it has four: nothing is judged by parts of a turn."""
+    soft = *(f"suspension.bearing_{what}=[{value}, {value}]" for what, value in SOFT.items()), "machine.speed_rpm=30.0"
+    design = design_of(*soft)
+    short, whole = (
+        start_once(design, start(design), 0.05, FIRST_TOLERANCE, early_end=early) for early in (True, False)
+    )
+    assert isinstance(short, TwoRaceOutcome) and short == whole
