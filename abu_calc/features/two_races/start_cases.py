@@ -300,7 +300,7 @@ def _integrator(design: TwoRaceDesign, member: Member, accuracy: float, toleranc
     return "compiled" if name.startswith("compiled") else "auto"
 
 
-TWO_RACES: Final = Runner(start_once, _integrator, MOST_MORE // 5)
+TWO_RACES: Final = Runner(start_once, _integrator, MOST_MORE // 6)
 """An evaluation with two races takes three to four times as long as its balls alone say."""
 
 
