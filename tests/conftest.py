@@ -44,7 +44,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def pytest_collect_file(file_path: Path) -> Any:
     """A module without an example in its docstrings is not searched for one."""
     collectors = yield
-    return [one for one in collectors if type(one) is pytest.Module or b">>>" in file_path.read_bytes()]
+    examples = b">>>" in file_path.read_bytes()
+    return [collector for collector in collectors if examples or type(collector) is pytest.Module]
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -160,8 +160,8 @@ class Early:
         end = float(samples.t[-1])
         if end < self.scene.duration:
             return False
-        left = over_turns(self._left(samples.at(self._late(end))))
-        return bool(np.abs(left - left[-1]).max() > RESTING * reference_imbalance(self.scene))
+        moved = movement(self._left(samples.at(self._late(end))), 1.0)
+        return moved > RESTING * reference_imbalance(self.scene)
 
     def _late(self, end: float) -> Array:
         """Times [s] that are looked at where a run ends."""
@@ -173,18 +173,24 @@ class Early:
         if len(times) < 4 * PER_TURN:
             return math.inf, math.inf
         states = samples.at(times)
-        left, speed = over_turns(self._left(states)), over_turns((self.scene.axis_velocity(states) ** 2).sum(axis=0))
+        speed = _over_turns((self.scene.axis_velocity(states) ** 2).sum(axis=0))
         ahead = (self.scene.duration - end) / seen
         half = len(speed) // 2
         before, after = float(speed[:half].mean()), float(speed[half:].mean())
         rise = 10 * math.log10(after / before) if before > 0 and after > 0 else 0.0
-        return ahead * float(np.abs(left - left[-1]).max()), rise
+        return movement(self._left(states), ahead), rise
 
     def _left(self, states: Array) -> np.ndarray:
         first = 2 * len(self.scene.support.names)
         return self.scene.total_imbalance(states[first : first + len(self.scene.ball_masses)])
 
 
-def over_turns(values: np.ndarray) -> np.ndarray:
+def movement(left: np.ndarray, ahead: float) -> float:
+    """How far an imbalance [kg m] may yet move, turn by turn, in `ahead` times as long as it was seen."""
+    turns = _over_turns(left)
+    return ahead * float(np.abs(turns - turns[-1]).max())
+
+
+def _over_turns(values: np.ndarray) -> np.ndarray:
     """Means over one turn each."""
     return np.convolve(values, np.full(PER_TURN, 1 / PER_TURN), "valid")

@@ -102,10 +102,13 @@ def band(design: Design) -> tuple[BandRow, ...]:
     usual = {
         "autobalancer.rolling_drag_per_s": (min(drag), max(drag)),
         "autobalancer.rolling_friction_mm": _times(friction_factors(design), abu.rolling_friction_mm),
-        "machine.speed_rpm": _times(SPEED, speed),
-        "run_up.time_s": RUN_UPS,
-        "start.speeds_rpm": (-speed, 0.0),
     }
+    if not usual_run_up(design).by_motor:  # a motor runs up in its own time, to its own speed
+        usual |= {
+            "machine.speed_rpm": _times(SPEED, speed),
+            "run_up.time_s": RUN_UPS,
+            "start.speeds_rpm": (-speed, 0.0),
+        }
     if (most := identified(design, "race_eccentricity_mm", (1.0, 1.0))[1]) > 1:
         usual["autobalancer.race_eccentricity_mm"] = 0.0, most * abu.race_eccentricity_mm
     if measured(design):

@@ -33,7 +33,7 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
-from abu_calc.simulation.early_stopping import LOOKS, SEEN, over_turns
+from abu_calc.simulation.early_stopping import LOOKS, SEEN, movement
 from abu_calc.simulation.ensemble import (
     LONGEST_CREEPING,
     MORE,
@@ -269,13 +269,15 @@ def _run(
     early_end: bool = False,
 ) -> TwoRaceOutcome:  # fmt: skip
     """Outcome of one run. Raises NotTrustworthyError."""
-    times, turns = merged(needed_times(scene), revolution_times(scene)), revolution_times(scene)
+    turns = revolution_times(scene)
     # Of what is seen then, several turns must be whole.
     ends = [int(share * len(turns)) for share in LOOKS if early_end and SEEN * share * len(turns) > 4 * PER_TURN]
     looks = tuple(float(turns[end]) for end in ends)
     windows = [amplitude_window(replace(scene, duration=look)).times for look in looks]
     until = Until(looks, partial(_enough, design, member, scene))
-    run, spent = integrated(scene, Sampling(merged(times, *windows), until=until), tolerance, work, wanted)
+    run, spent = integrated(
+        scene, Sampling(merged(needed_times(scene), turns, *windows), until=until), tolerance, work, wanted
+    )
     return _observed(design, member, replace(scene, duration=float(run.t[-1])), run, spent)
 
 
@@ -286,9 +288,9 @@ def _enough(design: TwoRaceDesign, member: Member, scene: Scene, samples: Sample
     late = turns[-int(SEEN * len(turns)) :]
     ahead = (scene.duration - so_far.duration) / (late[-1] - late[0])
     states, needs = samples.at(late), (wheels_share(design, 0, member), wheels_share(design, 1, member))
-    for k, left in enumerate(map(over_turns, _left(scene, states, needs))):
+    for k, left in enumerate(_left(scene, states, needs)):
         balanced = max(abs(wheels_share(design, k, of_file)), HARDLY * scene.races[k].static_moment)
-        if ahead * np.abs(left - left[-1]).max() > STILL * balanced:
+        if movement(left, ahead) > STILL * balanced:
             return False
     outcome, limits = _observed(design, member, so_far, samples, 0), design.case.table.limits
     return not outcome.creeping and outcome.holds(limits, limits.vibration_level_db - MARGIN)

@@ -82,6 +82,18 @@ def test_usual_stays_within_the_band_and_is_not_promised(design: Design) -> None
         assert drag.low <= member.drag <= drag.high
 
 
+def test_a_motor_runs_up_in_its_own_way() -> None:
+    """So neither speeds nor run-ups nor restarts are varied, and no row says so."""
+    motor = {"stall_torque_N_m": 3.0, "no_load_speed_rpm": 6200.0, "rotor_inertia_kg_m2": 1e-3}
+    driven = design_of(motor=motor, run_up={"time_s": 1.0})
+    keys = {"machine.speed_rpm", "run_up.time_s", "start.speeds_rpm"}
+    assert keys <= {row.key for row in band(design_of())} and not keys & {row.key for row in band(driven)}
+    placed = Member("placed", driven.case.drag, angles=(0.1, 1.3, 2.6, 4.0))
+    members = list(usual(driven, [placed] * 6))
+    assert len(members) == 6
+    assert all(not member.lag and not member.run_up and member.speed is None for member in members)
+
+
 def test_a_measured_imbalance_is_no_maximum(design: Design) -> None:
     """The usual band has wheels as bad as the margin of the capacity allows for; a given one is the worst."""
     found = design_of(wheel__imbalance_g_mm=None, wheel__measured_level_db=111.0)
