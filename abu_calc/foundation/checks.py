@@ -102,6 +102,9 @@ Grade = Literal["pass", "warn", "fail", "not-done"]
 """Grade of one check; warn: the usual rule holds, a stricter one or the worst case does not."""
 
 
+RANK: Final[tuple[Grade, ...]] = ("fail", "not-done", "warn", "pass")
+"""Grades from the worst to the best."""
+
 WORDS: Final[Mapping[str, str]] = {"pass": "PASS", "warn": "WARN", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 """Grades as people read them."""
 
@@ -218,8 +221,7 @@ def worst(checks: Iterable[Check]) -> Grade:
     'pass'
     """
     statuses = {check.status for check in checks if check.requested}
-    order: tuple[Grade, ...] = ("fail", "not-done", "warn", "pass")
-    return next((grade for grade in order if grade in statuses), "pass")
+    return next((grade for grade in RANK if grade in statuses), "pass")
 
 
 def verdict_words(status: Status, checks: Sequence[Check]) -> str:

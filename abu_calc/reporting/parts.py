@@ -8,7 +8,7 @@ import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
-from abu_calc.foundation.checks import Check, Grade
+from abu_calc.foundation.checks import RANK, Check, Grade
 from abu_calc.foundation.quantity import Record, quantities
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.text import shown as exact
@@ -22,9 +22,6 @@ BOUND: Final = {"most": "at most", "least": "at least"}
 WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 """Word before a check of each grade: no grade is shown by its colour alone."""
 
-
-RANK: Final[tuple[Grade, ...]] = ("fail", "not-done", "warn")
-"""Grades that need a word, the worst first."""
 MARGIN: Final = 2
 DIGITS: Final = range(4, 9)
 """Numbers of significant digits for a value and its limit."""

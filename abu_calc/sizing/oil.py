@@ -1,5 +1,6 @@
 """Viscous drag rate by the oil in the race: cold, at work and hot, with the factor by which it is uncertain."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Final
@@ -15,10 +16,11 @@ from abu_calc.formulas.oil import (
     oil_viscosity,
     viscosity_at_100,
 )
-from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.errors import AbuError, InputError, Place
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.identified import identified_note
 from abu_calc.inputs.oil import Oil
+from abu_calc.sizing.actions import with_entries
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import GROOVE_CLEARANCE, RULES, groove_radius
@@ -110,6 +112,36 @@ def with_oil(case: Case, candidate: Candidate) -> Case:
     if oil is None:
         return case
     return replace(case, oil=oil, drag=case.drag if oil.overridden else oil.working.drag)
+
+
+USUAL_GRADES: Final = ("VG 22", "VG 32", "VG 46", "VG 68", "VG 100", "VG 150", "VG 220", "VG 320", "VG 460")
+FLAT: Final = (120.0, 160.0)
+"""Grades that are sold everywhere, and viscosity indices of oils whose viscosity depends less on the temperature."""
+FILL: Final = 1.0
+"""Fill [ml] of a race whose file names no oil; half as much or twice moves the drag rate by some 10 %."""
+
+
+def usual_oils(case: Case, candidate: Candidate) -> list[tuple[dict[str, object], float]]:
+    """Entries of oils in the race, each with its drag rate at work [1/s]; none for rollers, or if a rate is given.
+
+    Those with the lower viscosity index come first, then those whose rate is nearest to that of the case.
+    """
+    if RATE_KEY in case.autobalancer.model_fields_set or case.autobalancer.corrector != "ball":
+        return []
+    fill: dict[str, object] = {} if case.table.oil else {"oil.fill_ml": FILL}
+    found = list[tuple[dict[str, object], float]]()
+    for index in FLAT:
+        own = list[tuple[dict[str, object], float]]()
+        for grade in USUAL_GRADES:
+            entries = {"oil.grade": grade, "oil.viscosity_index": index, **fill}
+            try:
+                oil = oil_drag(replace(case, table=with_entries(case.table, entries)), candidate)
+            except (AbuError, ValueError):  # the file refuses it, or the race cannot hold it
+                continue
+            if oil is not None:
+                own.append((entries, oil.working.drag))
+        found += sorted(own, key=lambda each: abs(math.log(each[1] / case.drag)))
+    return found
 
 
 def overriding(case: Case, entries: Mapping[str, object]) -> str:

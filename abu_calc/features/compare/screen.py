@@ -14,9 +14,10 @@ from abu_calc.features.compare.view import (
     table_blocks,
     written_alike,
 )
+from abu_calc.foundation.checks import RANK
 from abu_calc.foundation.units import quantity_and_unit, unit_of
 from abu_calc.reporting.blocks import Block, Heading, Paragraph
-from abu_calc.reporting.parts import RANK, told, unlike, warning_blocks, without_entries
+from abu_calc.reporting.parts import told, unlike, warning_blocks, without_entries
 from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by
 from abu_calc.reporting.text import height
 
@@ -122,7 +123,7 @@ def _checks(result: CompareResult) -> tuple[ComparisonTable, int]:
     def rank(name: str) -> tuple[bool, int]:
         """Checks whose grades differ first, then the worst grade first."""
         grades = [check and check.status for check in checks_named(result, name)]
-        return len(set(grades)) == 1, min((RANK.index(grade) for grade in grades if grade in RANK), default=len(RANK))
+        return len(set(grades)) == 1, min((RANK.index(grade) for grade in grades if grade), default=len(RANK))
 
     limits = len(result.files) <= WITH_LIMITS
     lines = (graded_line(result, name, DIGITS, limits=limits) for name in sorted(names, key=rank))

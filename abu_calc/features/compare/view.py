@@ -12,14 +12,14 @@ from typing import Any, Final, NamedTuple
 from abu_calc.features.compare.labels import label_of
 from abu_calc.features.compare.main_numbers import main_blocks
 from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part, checks_named
+from abu_calc.foundation.checks import RANK, Check
 from abu_calc.foundation.checks import WORDS as VERDICTS
-from abu_calc.foundation.checks import Check
 from abu_calc.inputs.reading.text import is_number
 from abu_calc.inputs.reading.text import shown as exact
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.parts import RANK, WORD, check_blocks, provenance_blocks, warning_blocks
+from abu_calc.reporting.parts import WORD, check_blocks, provenance_blocks, warning_blocks
 from abu_calc.reporting.screen import many, verdict_line
 
 SECTIONS: Final[dict[Part, str]] = {
@@ -94,7 +94,7 @@ def _checks(result: CompareResult, rows: Sequence[Difference], marked: bool) -> 
         name = head.removeprefix("checks.").strip('"')
         same = all(f"{head}.{key}" in equal for key in ("status", "value", "limit"))
         label, *cells = graded_line(result, name)
-        ranks = [RANK.index(check.status) for check in checks_named(result, name) if check and check.status in RANK]
+        ranks = [RANK.index(check.status) for check in checks_named(result, name) if check]
         lines.append((min(ranks, default=len(RANK)), (f"{_mark(same, marked)}{label}", *cells)))
     return [line for _, line in sorted(lines, key=lambda pair: pair[0])]
 

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Final, NamedTuple, Self
 
-from abu_calc.features.design.verification import design_with
+from abu_calc.features.design.changes import design_with
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass

@@ -17,7 +17,7 @@ from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.two_modes import LinearMotion
 from abu_calc.dynamics.stability.verdict import judged
 from abu_calc.dynamics.switching.stick_slip import AT_REST
-from abu_calc.features.design.verification import design_with, more_damping, other_drags
+from abu_calc.features.design.changes import design_with, more_damping, other_drags
 from abu_calc.features.design.whirl import unstable_speed
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check, Grade, coded
@@ -215,8 +215,7 @@ def _whirls(speed: float) -> Check:
         f"At {_rpm(speed)} a small disturbance grows in six degrees of freedom, though it dies out in the plane of the "
         "race. Gyroscopic moments or the hands at the handles make the difference"
     )
-    remedy = "Hold the machine more softly, raise the lowest speed by some per cent, or use lighter balls."
-    return coded("ABU103", "fail", message, remedy=remedy)
+    return coded("ABU103", "fail", message)
 
 
 def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accuracy: float) -> Check:
@@ -268,11 +267,7 @@ def _action(design: Design, speeds: SpeedRange) -> Action:
         if changed and changed.stable:
             moved = Moved("the growth rate", speeds.growth, changed.growth, "1/s", 0.0)
             return set_action(entries, design.autobalancer, moved, more=overriding(case, entries))
-    above = f"Keep all speeds above {_rpm(last.speed)}. " if last else ""
-    return Action(
-        f"{above}No change of the drag rate or the damping was found that makes these speeds stable. Use lighter "
-        "balls, or hold the machine more softly."
-    )
+    return Action("No change of the drag rate or the damping was found that makes these speeds stable.")
 
 
 def _rpm(speed: float) -> str:

@@ -10,10 +10,10 @@ from abu_calc.features.design.section_drawing import legend, section_lines
 from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds, arm_line, short_advice
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import RANK, Check
 from abu_calc.foundation.units import to_si
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, level_text, number
-from abu_calc.reporting.parts import RANK, WORD, SaidSentences, file_of, paste_lines, unlike, value_and_limit
+from abu_calc.reporting.parts import WORD, SaidSentences, file_of, paste_lines, unlike, value_and_limit
 from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by, verdict_line
 from abu_calc.reporting.text import height
 from abu_calc.simulation.vibration_records import HandleLevels
@@ -534,7 +534,7 @@ def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
 
 
 def _rank(check: Check) -> int:
-    return RANK.index(check.status) if check.status in RANK else len(RANK)
+    return RANK.index(check.status)
 
 
 def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:

@@ -4,7 +4,7 @@ A rule tells what the listed start cases say, and which further ones break it.
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
@@ -12,18 +12,12 @@ from abu_calc.features.design.start_search import RARE, SearchResult, fails, lou
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check, Finding, Grade, coded, verdict
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.simulation.scene_of_design import guided
 from abu_calc.simulation.start_cases import OPPOSITE
-from abu_calc.sizing.actions import SIMULATED, set_action
-from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.vibration import decibels
-
-IN_ALL_OILS: Final = " in hot or cold oil"
-"""Words behind a quantity that is judged in hot and cold oil, too."""
 
 
 class Measure(NamedTuple):
@@ -44,36 +38,6 @@ class Measure(NamedTuple):
         return max(outcomes, key=self.value, default=None)
 
 
-@dataclass(frozen=True)
-class TriedChange:
-    """Entries with which all start cases at the given viscous drag rate pass, and the ensembles before and after.
-
-    `after` None: none of the changes `without_success` makes them pass. `in_all_oils`: hot and cold oil are judged,
-    too.
-    """
-
-    candidate: Candidate
-    before: Ensemble
-    entries: Mapping[str, object]
-    after: Ensemble | None
-    without_success: tuple[str, ...] = ()
-    in_all_oils: bool = False
-    by_oil: str = ""
-    """Sentence on a drag rate that overrides the oil of the file."""
-
-    def action(self, measure: Measure, limit: float | None) -> Action:
-        """The action, by a quantity of the start cases that are judged."""
-        if self.after is None:
-            return Action(f"No change was found. Simulated without success: {'; '.join(self.without_success)}.")
-        oils, judged, of = "", "at the given drag rate", attrgetter("given")
-        if self.in_all_oils:
-            oils, judged, of = IN_ALL_OILS, "hot and cold oil included", attrgetter("outcomes")
-        before, after = measure.of(of(self.before)), measure.of(of(self.after))
-        moved = Moved(f"{measure.quantity}{oils}", before, after, measure.unit, limit)
-        more = f"All {self.after.members} start cases, {judged}, then pass. {self.by_oil}".rstrip()
-        return set_action(self.entries, self.candidate, moved, SIMULATED, more)
-
-
 STARTS = FULL, ONE, NONE = "full", "one", "none"
 """Start cases that `size` simulates: all, the first at the given drag rate, none."""
 
@@ -86,22 +50,35 @@ class StartFacts:
     """What is known of a design by its start cases.
 
     `design`: of one race or of two; `ensemble`: outcomes of the listed start cases, None without any; `searched`: of
-    further ones; `change`: one that was simulated with them; `starts`: those that were simulated.
+    further ones; `starts`: those that were simulated.
     """
 
     design: Any
     ensemble: Ensemble | None
     searched: SearchResult | None = None
-    change: TriedChange | None = None
     starts: str = FULL
     unsimulated: Finding = UNCARRIED
     """What is known without start cases."""
     advice: Callable[[str, Grade], Action | str] | None = None
-    """Action of a check that is not passed, by its code and status; None: that of `change`."""
+    """Action of a check that is not passed, by its code and status."""
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def listed_pass(self) -> bool:
+        """True if every listed start case at the given drag rate balances, in time and within the level."""
+        ensemble, limits, level = self.ensemble, self.design.case.table.limits, self.design.case.level_limit
+        if ensemble is None or any(start.member.drag == ensemble.drag for start in ensemble.lost):
+            return False
+        return all(start.holds(limits, level) for start in ensemble.given)
+
+    @property
+    def holds(self) -> bool:
+        """True if no promised start case that was searched breaks a limit."""
+        return self.searched is None or not any(fails(self.design, outcome) for outcome in self.searched.outcomes)
 
 
-Advise = Callable[[Grade, Measure | None, float | None], Action | str | None]
-"""The action of a check by its status, by what it judges, None where that is kept, and by the limit."""
+Advise = Callable[[Grade], Action | str | None]
+"""The action of a check by its status."""
 
 
 class StartRule(NamedTuple):
@@ -124,18 +101,12 @@ class StartRule(NamedTuple):
     foresees: bool = False
     """Whether the time that one of 1000 start cases exceeds counts, too."""
 
-    def finding(self, facts: StartFacts, unsimulated: Finding, earlier: str | None = None) -> Finding:
-        """What the listed start cases say; `earlier`: code of a check that tells the action."""
+    def finding(self, facts: StartFacts, unsimulated: Finding) -> Finding:
+        """What the listed start cases say."""
 
-        def advise(status: Grade, measure: Measure | None, limit: float | None) -> Action | str | None:
-            """The action given or told before, else that of the simulated change."""
-            if status == "pass":
-                return None
-            if facts.advice is not None:
-                return facts.advice(self.code, status)
-            if earlier is not None:
-                return f"See the action of {earlier}."
-            return None if facts.change is None or measure is None else facts.change.action(measure, limit)
+        def advise(status: Grade) -> Action | str | None:
+            """The action given."""
+            return None if status == "pass" or facts.advice is None else facts.advice(self.code, status)
 
         return unsimulated if facts.ensemble is None else self.listed(facts, facts.ensemble, advise)
 
@@ -176,13 +147,7 @@ class StartRule(NamedTuple):
                 f"{worst.quiet_time_or_inf:.3g} s"
             )
             value = searched.foreseen
-        if surely and facts.change is not None:
-            action = facts.change.action(self.measure, listed.limit)
-        status = "fail" if surely else "warn"
-        return listed._replace(status=status, message=said, value=value, action=action or NOT_TRIED)
-
-
-NOT_TRIED: Final = "No change was simulated; --full prints a command that repeats the start case, to try one."
+        return listed._replace(status="fail" if surely else "warn", message=said, value=value, action=action)
 
 
 def level_check(facts: StartFacts) -> Check:
@@ -193,14 +158,9 @@ def level_check(facts: StartFacts) -> Check:
 def checks_of_starts(facts: StartFacts) -> Iterator[Check]:
     """Checks that the balls balance in every start case, soon enough, and that none stalls.
 
-    Start cases at the given viscous drag rate fail a check, those at a third and at three times it warn. The first
-    check that is not passed tells the simulated change.
+    Start cases at the given viscous drag rate fail a check, those at a third and at three times it warn.
     """
-    earlier: str | None = None
-    for rule in OF_STARTS:
-        listed = rule.finding(facts, facts.unsimulated, earlier)
-        earlier = earlier or (rule.code if listed.action else None)
-        yield rule.check(facts, listed)
+    yield from (rule.check(facts, rule.finding(facts, facts.unsimulated)) for rule in OF_STARTS)
 
 
 LOUDEST: Final = Measure("the loudest start case", "dB", attrgetter("level"))
@@ -225,11 +185,11 @@ def _level(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     if given is None or loudest is None:
         return closed
     message = f"{closed.message}. Loudest start case: {_of_limit(given, ensemble, limit)}"
-    value, quieter = max(given.level, closed.value), advise("warn", LOUDEST, limit)
+    value, quieter = max(given.level, closed.value), advise("warn")
     if given.level > limit and given.level > closed.value:
         # A truer race helps where the closed form fails, too; what helps a start that does not balance was tried.
         advice = closed.action if closed.status == "fail" and given.balanced else quieter
-        return Finding("fail", message, value, limit, "dB", advice or BALANCE)
+        return Finding("fail", message, value, limit, "dB", advice)
     if closed.status == "pass" and loudest.level + SLACK > limit:
         if loudest is not given:
             message += f". Loudest start case at another drag rate: {_of_limit(loudest, ensemble, limit)}"
@@ -237,9 +197,6 @@ def _level(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
             message += f". The error of its simulation, {SLACK:g} dB, leaves open whether the limit is kept"
         return Finding("warn", message, value, limit, "dB", quieter)
     return closed._replace(message=message, value=value)
-
-
-BALANCE: Final = "See the action of ABU701; else reduce the friction and the eccentricity of the race."
 
 
 def _of_limit(outcome: StartOutcome, ensemble: Ensemble, limit: float) -> str:
@@ -261,7 +218,7 @@ def _balances(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     if worst:
         sentences.append("The value is the largest imbalance left at the given drag rate")
     value, limit = (LEFT.value(worst), from_si(worst.allowed, "g_mm")) if worst else (None, None)
-    return Finding(status, ". ".join(sentences), value, limit, "g·mm", advise(status, LEFT, limit))
+    return Finding(status, ". ".join(sentences), value, limit, "g·mm", advise(status))
 
 
 def _settles(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
@@ -284,11 +241,7 @@ def _settles(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     elif (rested := LAST_AT_REST.worst(ensemble.given)) is not None and rested.rest_time is not None:
         allowed = "" if math.isinf(longest) else f" (limit {longest:g} s)"
         sentences.append(f"The balls rest after {rested.rest_time:#.3g} s at the latest{allowed}")
-    kept = all(outcome.in_time(limits) for outcome in ensemble.outcomes)
-    # By the rest time only where that alone is late.
-    measure, most = (LAST_AT_REST, longest) if SLOWEST.of(ensemble.outcomes) <= limit else (SLOWEST, limit)
-    action = advise(status, None if kept else measure, most)
-    return Finding(status, ". ".join(sentences), None if late is None else late.quiet_time, limit, "s", action)
+    return Finding(status, ". ".join(sentences), None if late is None else late.quiet_time, limit, "s", advise(status))
 
 
 def _none_stalls(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
@@ -299,7 +252,7 @@ def _none_stalls(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
         message = f"Balls stall in {count}: {_first(ensemble.hanging, ensemble)}"
     for lost in ensemble.lost[:1]:
         message += f". No answer from {_words(lost.member.name, lost.member.drag, ensemble)}"
-    return Finding(status, message, float(len(ensemble.hanging)), 0.0, "start cases", advise(status, STALLED, 0.0))
+    return Finding(status, message, float(len(ensemble.hanging)), 0.0, "start cases", advise(status))
 
 
 def _grade(ensemble: Ensemble, good: Callable[[StartOutcome], bool]) -> Grade:

@@ -3,13 +3,13 @@
 `SizeModel` holds the SI numbers behind a sized design, for those who check it by hand.
 """
 
-import math
-import statistics
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
+from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, judge
+from abu_calc.features.design.next_step import NextStep, actions, next_step, promise
 from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
@@ -24,30 +24,28 @@ from abu_calc.features.design.records import (
     Section,
     Vibration,
 )
-from abu_calc.features.design.region import true_region
-from abu_calc.features.design.start_rules import FULL, STARTS, checks_of_starts, level_check
+from abu_calc.features.design.start_rules import FULL, STARTS
 from abu_calc.features.design.starts import EnsembleResult, Starts
 from abu_calc.features.design.verdict import Verdict, benefit
-from abu_calc.features.design.verification import Proven, proven
 from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
-from abu_calc.features.grinding.work import Work, loaded_levels, work_of
+from abu_calc.features.grinding.work import Work, loaded_levels
 from abu_calc.features.seats.records import SeatResult, seat_results
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
+from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check
-from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
+from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.parallel import meanwhile, processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.rows import Rows
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
-from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, not_simulated, simulated
+from abu_calc.simulation.design_scenes import SceneFailure, SceneRun
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SimulatedScene
@@ -56,13 +54,11 @@ from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
-from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.parts.housing_parts import HousingParts
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
-    from abu_calc.features.swing_arm.verdict import ArmJudgement
 
 
 @record
@@ -245,57 +241,39 @@ def size(
         return two
     tables = machine.whole("size")
     with machine.located():
-        seats = _seats(tables)
         threads = processors() if workers is None else workers
-        tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads, starts=starts)
-        design, whole = tried.design, starts == FULL
-        further = () if tried.searched is None else tried.searched.outcomes
-        gaps = meanwhile(data_gaps, design, tried.ensemble if whole else None, further, accuracy, workers=threads)
-        balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=threads)
-        runs, failures = simulated(design, accuracy, progress, workers=threads)
-        work = work_of(design, accuracy, progress, _grinding(runs, failures))
-        work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads) if whole else (work, None)
-        seats = _with_lives(seats, design, tried.ensemble, tables)
-        region = true_region(design, accuracy)
-    arm, moved = _arm(design, failures, accuracy, progress, balanced)
-    stays = _on_work(design, runs, accuracy, progress)
-    given = () if tried.ensemble is None else tried.ensemble.given
-    lost = (
-        not_simulated(
-            fault.scene, fault.reason, mean=_mean(fault, work),
-            answered=any(outcome.member.on_arm == fault.scene.startswith("swing-arm") for outcome in given),
-        )
-        for fault in failures
-    )  # fmt: skip
-    remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
+        judged = judge(tables, accuracy, progress, threads, starts)
+        design, facts, whole = judged.design, judged.facts, starts == FULL
+        step = next_step(machine, judged, accuracy, progress, threads) if whole else NextStep(None)
+        further = () if facts.searched is None else facts.searched.outcomes
+        gaps = meanwhile(data_gaps, design, facts.ensemble if whole else None, further, accuracy, workers=threads)
+        work, loads = judged.work, None
+        if whole:
+            work, loads = _pressed(work, facts.ensemble, accuracy, progress, threads)
+    remarks = (f"{run.ledger.scene.name}: {text}" for run in judged.runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
-    reached = next((run.simulation.response.final.ball_angles for run in runs), None)
-    of_arm = () if arm is None else arm.checks  # that of the balanced state last
-    checks = (
-        *design.checks_before, level_check(tried), *design.checks_behind, *of_arm[:-1],
-        *(check for bearing in seats for check in bearing.checks), *of_arm[-1:],
-        *stays, region.check, *checks_of_starts(tried), *lost,
-    )  # fmt: skip
+    reached = next((run.simulation.response.final.ball_angles for run in judged.runs), None)
+    checks = actions(judged, step) if whole else judged.checks
     return SizeResult(
         title=tables.machine.name,
-        verdict=_verdict(design, checks, tried.ensemble, machine.file),
+        verdict=_verdict(judged, checks, step, machine.file),
         checks=checks,
         warnings=merged(
-            *tried.warnings,
+            *facts.warnings,
             *machine.warnings,
-            *_bearing_notes(seats),
+            *_bearing_notes(judged.seats),
             *design.warnings,
             *remarks,
             *_under_load(work, loads, bound),
             *(() if whole else (f'Start cases were left out (starts="{starts}"): this result is no verdict.',)),
         ),
-        model=SizeModel.of(design, runs),
+        model=SizeModel.of(design, judged.runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
         effective_mass_kg=need.effective_mass,
         body=BodyRecord.of(design),
-        frequency=Frequency.of(design, region),
+        frequency=Frequency.of(design, judged.region),
         idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
         imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
         required_capacity_g_mm=from_si(need.required, "g_mm"),
@@ -321,35 +299,39 @@ def size(
             bound=None if bound is None else LevelBound.read(bound),
         ),
         measured_after=MeasuredAfterRecord.of(
-            compared_starts(design, tried.ensemble),
+            compared_starts(design, facts.ensemble),
             level_where_measured(design, work.moved) if isinstance(work, Work) else None,
         ),
         oil=OilRecord.of(design),
-        friction_bound=FrictionBound.of(design, (outcome.level for outcome in _outcomes(tried))),
+        friction_bound=FrictionBound.of(design, (outcome.level for outcome in judged.outcomes)),
         new_wheel=NewWheel.of(design),
         ensemble=None
-        if tried.ensemble is None
-        else EnsembleResult.of(tried.ensemble, design, predicted_level(design, tried.ensemble), tried.searched),
+        if facts.ensemble is None
+        else EnsembleResult.of(facts.ensemble, design, predicted_level(design, facts.ensemble), facts.searched),
         data_gaps=gaps(),
-        simulation=tuple(SimulatedScene.of(run.simulation, run.ledger) for run in runs),
-        fits=tuple(seat for bearing in seats for seat in seat_results(bearing)),
-        swing_arm=None if arm is None else SwingArmRecord.of(arm),
-        arm_motion=moved,
+        simulation=tuple(SimulatedScene.of(run.simulation, run.ledger) for run in judged.runs),
+        fits=tuple(seat for bearing in judged.seats for seat in seat_results(bearing)),
+        swing_arm=None if judged.arm is None else SwingArmRecord.of(judged.arm),
+        arm_motion=judged.arm_motion,
         drawing=tuple(map(DrawingLine.read, design.drawing)),
-        idle_run=_view(design, runs, "idle"),
-        grinding_run=_view(design, runs, "grinding"),
-        starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy), tried.searched),
+        idle_run=_view(design, judged.runs, "idle"),
+        grinding_run=_view(design, judged.runs, "grinding"),
+        starts=Starts(None if facts.ensemble is None else (design, facts.ensemble, accuracy), facts.searched),
         parts=design.construction.parts,
     )
 
 
-def _verdict(design: Design, checks: Sequence[Check], ensemble: Ensemble | None, file: str) -> Verdict:
-    """The verdict with what the autobalancer does at the loudest place."""
-    levels, quiet = design.idle.worst, None
+def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, file: str) -> Verdict:
+    """The verdict with what the autobalancer does at the loudest place, and the change that mends the machine."""
+    design, ensemble, quiet = judged.design, judged.facts.ensemble, None
+    levels = design.idle.worst
     if ensemble is not None:
         quiet = ensemble.typical(outcome.quiet_time_or_inf for outcome in ensemble.rated)
+    told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
+    entries = () if step.best is None else step.best.entries
+    sought = judged.facts.starts == FULL and not patience.over()
     return Verdict.of(
-        checks, benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet), file or None
+        checks, told, file or None, entries, promise(judged, step), incurable=sought and step.best is None
     )
 
 
@@ -363,15 +345,6 @@ def merged(*warnings: str) -> tuple[str, ...]:
     return tuple(once)
 
 
-def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
-    """Bearing seats of the machine, judged."""
-    if not tables.bearing:
-        return ()
-    from abu_calc.features.seats.seats import seat_bearings
-
-    return seat_bearings(tables.bearing)
-
-
 def _bearing_notes(seats: "tuple[BearingSeats, ...]") -> Iterator[str]:
     """Notes on the bearings."""
     if seats:
@@ -380,51 +353,10 @@ def _bearing_notes(seats: "tuple[BearingSeats, ...]") -> Iterator[str]:
         yield from bearing_notes(seats)
 
 
-def _with_lives(
-    seats: "tuple[BearingSeats, ...]", design: Design, ensemble: Ensemble | None, tables: MachineFile
-) -> "tuple[BearingSeats, ...]":
-    """Bearings with their lives under the loads of the simulation, without and with the autobalancer.
-
-    The rotating force is the imbalance, or the median residual displacement of the start cases that balance times the
-    effective mass; the constant one is the press force with its friction, of machines that grind.
-    """
-    if not seats:
-        return ()
-    from abu_calc.features.seats.life_in_use import UseLoads, lives_in_use
-
-    outcomes = () if ensemble is None else ensemble.given
-    residuals = [outcome.residual for outcome in outcomes if outcome.balanced]
-    speed, grinding = design.case.speed, tables.grinding
-    constant = 0.0
-    if grinding is not None:
-        constant = grinding.press_force_N * math.hypot(1.0, grinding.cutting_coefficient)
-    residual = statistics.median(residuals) * design.autobalancer.requirement.effective_mass if residuals else None
-    loads = UseLoads(design.imbalance.value * speed**2, None if residual is None else residual * speed**2, constant)
-    lives = lives_in_use([bearing.bearing for bearing in seats], loads, speed)
-    return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
-
-
 def _view(design: Design, runs: Sequence[SceneRun], scene: str) -> RotorView | None:
     """View of a scene's run, with the levels that the limit of the file is for."""
     run = next((run.simulation for run in runs if run.ledger.scene.name == scene), None)
     return None if run is None else RotorView.of(run.scene, run.trajectory, loudest(design, run.response))
-
-
-def _grinding(runs: Sequence[SceneRun], failures: Sequence[SceneFailure]) -> SceneRun | SceneFailure | None:
-    """Run of the grinding scene, or its failure; None if there is neither."""
-    outcomes: list[SceneRun | SceneFailure] = [run for run in runs if run.ledger.scene.name == "grinding"]
-    outcomes += [failure for failure in failures if failure.scene == "grinding"]
-    return next(iter(outcomes), None)
-
-
-def _mean(failure: SceneFailure, work: Work | SceneFailure | None) -> str | None:
-    """Average result of the grinding scene; None unless it is chaotic and the average is known."""
-    if failure.scene != "grinding" or not isinstance(work, Work) or not work.at_once.scatter:
-        return None
-    return (
-        f"The wheel bounces chaotically. Mean level of the early-pressed run: {work.level_at_once:.1f} ± "
-        f"{max(work.at_once.scatter, LEAST_SCATTER):.1f} dB"
-    )
 
 
 def _pressed(
@@ -468,10 +400,6 @@ def _under_load(
         )
 
 
-LEAST_SCATTER: Final = 0.1
-"""Scatter of levels [dB] below which none is told."""
-
-
 def _without(level: float, bare: float | None) -> str:
     """The level [dB] without the autobalancer beside the level with it."""
     return "" if bare is None else f", {'louder than' if level > bare else 'below the'} {bare:.1f} dB without"
@@ -503,61 +431,3 @@ def _starts(loads: GrindingOutcomes, bare: float | None, *, stays: bool) -> Iter
             f"{len(loads.lost)} of {loads.ensemble.count} start cases pressed to the workpiece gave no answer: "
             f"{loads.lost[0].reason}."
         )
-
-
-def _balanced(design: Design) -> Check:
-    """Check of the balanced state on a swing arm."""
-    from abu_calc.features.swing_arm.verdict import balanced_check
-
-    return balanced_check(design)
-
-
-def _arm(
-    design: Design, failures: Sequence[SceneFailure], accuracy: float, progress: Progress,
-    balanced: Callable[[], Check] | None,
-) -> "tuple[ArmJudgement | None, ArmMotion | None]":  # fmt: skip
-    """The swing arm judged, and its motion where it stands at the work; nothing of machines without one.
-
-    Where a scene of the arm gave no answer, also how much more joint damping would give one. `balanced` gives the check
-    of the balanced state, which has been begun.
-    """
-    if design.swing_arm is None:
-        return None, None
-    from abu_calc.features.swing_arm.motion import ForcedArmMotion as Moved
-    from abu_calc.features.swing_arm.motion import arm_motion
-    from abu_calc.features.swing_arm.verdict import judge_arm
-    from abu_calc.simulation.scene_of_design import scene_of_design
-
-    judged = judge_arm(design, progress, balanced)
-    if judged is not None and judged.may_pass and any(failure.scene.startswith("swing-arm") for failure in failures):
-        from abu_calc.features.swing_arm.scenes import damping_to_simulate
-
-        more = damping_to_simulate(design, judged, accuracy, progress)
-        if more is not None:
-            text = f"{judged.advice} ABU703: its scenes can be simulated with {more.text} (tried)."
-            judged = replace(judged, advice=text)
-    try:
-        moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
-    except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
-        return judged, None
-    return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
-
-
-def _on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress: Progress) -> tuple[Check, ...]:
-    """Check that the disk of a swing arm stays on its workpiece.
-
-    There is none for machines without an arm, or with one that does not press.
-    """
-    bounds = design.swing_arm
-    if bounds is None or any(check.status != "pass" for check in bounds.checks if check.code in ("ABU503", "ABU504")):
-        return ()
-    from abu_calc.features.swing_arm.scenes import on_work
-
-    check = on_work(design, runs, accuracy, progress)
-    return () if check is None else (check,)
-
-
-def _outcomes(tried: Proven) -> Iterator[StartOutcome]:
-    """Every start case that was simulated."""
-    yield from () if tried.ensemble is None else tried.ensemble.outcomes
-    yield from () if tried.searched is None else tried.searched.outcomes

@@ -1,12 +1,11 @@
 """Verdict of a design in one word and one sentence: whether the machine suits, and what decides it."""
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Self
 
 from abu_calc.foundation.checks import Check, Grade, worst
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.sizing.actions import SIMULATED
 
 WORDS: Final[dict[Grade, str]] = {
     "pass": "suits", "warn": "suits-but", "fail": "does-not-suit", "not-done": "not-known"
@@ -30,21 +29,29 @@ class Verdict(Record):
     word: Annotated[str, Quantity("verdict", "", 4, "suits, suits-but, does-not-suit or not-known")]
     sentence: Annotated[str, Quantity("in a sentence")]
     next: Annotated[str | None, Quantity("next command")]
+    promise: Annotated[
+        Mapping[str, str | float | None] | None, Quantity("what the next command moves: path of the result, from, to")
+    ]
 
     @classmethod
-    def of(cls, checks: Sequence[Check], benefit: str, file: str | None) -> Self:
-        """Verdict of these checks: the first of the worst grade decides; `benefit`: a sentence if all pass."""
+    def of(
+        cls, checks: Sequence[Check], benefit: str, file: str | None, entries: Sequence[str] = (),
+        promise: Mapping[str, str | float | None] | None = None, *, incurable: bool = False,
+    ) -> Self:  # fmt: skip
+        """Verdict of these checks: those of the worst grade decide; `benefit`: a sentence if all pass.
+
+        `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: whether none was found.
+        """
         grade = worst(checks)
         if grade == "pass":
-            return cls(word=WORDS[grade], sentence=benefit, next=None)
+            return cls(word=WORDS[grade], sentence=benefit, next=None, promise=None)
         deciding = [check for check in checks if check.requested and check.status == grade]
         reasons = "; ".join(dict.fromkeys(map(_reason, deciding)))
         sentence = f"{SENTENCES[grade]}, for {VERBS[grade][len(deciding) > 1]}: {reasons}."
-        # A change that was calculated alone may leave another check failing.
-        simulated = (check.overrides for check in deciding if SIMULATED in (check.remedy or ""))
-        entries = next(filter(None, simulated), ())
+        if incurable and grade == "fail":
+            sentence += " No change of the file was found that mends it."
         words = ["abu", "size", file or "FILE", *(word for entry in entries for word in ("--set", entry))]
-        return cls(word=WORDS[grade], sentence=sentence, next=shlex.join(words) if entries else None)
+        return cls(word=WORDS[grade], sentence=sentence, next=shlex.join(words) if entries else None, promise=promise)
 
 
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:

@@ -59,6 +59,7 @@ from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble_results import Ensemble
 from abu_calc.simulation.result import Provenance
+from abu_calc.sizing.actions import SIMULATED
 
 ONE_RACE_PLACES: Final = 9
 """Places of a single race that are tried between both races."""
@@ -104,7 +105,7 @@ def size_two_races(
     told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
     return TwoRaceSizeResult(
         title=table.machine.name,
-        verdict=Verdict.of(checks, told, machine.file or None),
+        verdict=Verdict.of(checks, told, machine.file or None, _simulated_change(checks)),
         checks=checks,
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
@@ -122,6 +123,11 @@ def size_two_races(
         response=tuple(_response(design.case)),
         run_up=tuple(_run_up(design, progress)),
     )
+
+
+def _simulated_change(checks: Sequence[Check]) -> tuple[str, ...]:
+    """Entries of the first change that was simulated; one that was calculated alone may leave another check failing."""
+    return next((check.overrides for check in checks if check.overrides and SIMULATED in (check.remedy or "")), ())
 
 
 def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:

@@ -1,0 +1,259 @@
+"""A machine with one race judged: its design, what start cases and scenes show, and all checks.
+
+`abu size` makes its result of this, and a change of the file is tried by it, so that both cannot answer differently.
+"""
+
+import math
+import statistics
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from abu_calc.features.design.region import TrueRegion, true_region
+from abu_calc.features.design.start_rules import FULL, ONE, StartFacts, checks_of_starts, level_check
+from abu_calc.features.design.start_search import search
+from abu_calc.features.grinding.work import Work, work_of
+from abu_calc.features.swing_arm.records import ArmMotion
+from abu_calc.foundation import patience
+from abu_calc.foundation.checks import Check
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.parallel import meanwhile
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, not_simulated, simulated
+from abu_calc.simulation.ensemble import simulate_first, simulate_members
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.sizing import size as size_design
+from abu_calc.sizing.design import Design
+
+if TYPE_CHECKING:
+    from abu_calc.features.seats.seats import BearingSeats
+    from abu_calc.features.swing_arm.verdict import ArmJudgement
+
+LEAST_SCATTER = 0.1
+"""Scatter of levels [dB] below which none is told."""
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A design with all that was calculated and simulated of it, and its checks.
+
+    `work`: the machine at its workpiece, None without one; of a change that is tried only where a scene failed.
+    """
+
+    facts: StartFacts
+    seats: "tuple[BearingSeats, ...]"
+    region: TrueRegion
+    arm: "ArmJudgement | None"
+    arm_motion: ArmMotion | None
+    runs: Sequence[SceneRun]
+    failures: Sequence[SceneFailure]
+    work: Work | SceneFailure | None
+    checks: tuple[Check, ...]
+
+    @property
+    def design(self) -> Design:
+        """The design that is judged."""
+        design: Design = self.facts.design
+        return design
+
+    @property
+    def outcomes(self) -> Iterator[StartOutcome]:
+        """Every start case that was simulated."""
+        yield from () if self.facts.ensemble is None else self.facts.ensemble.outcomes
+        yield from () if self.facts.searched is None else self.facts.searched.outcomes
+
+
+class Trial:
+    """What ends a judgement early, of a change that is tried; of the file as it is nothing does."""
+
+    begun = False
+
+    def checked(self, checks: Iterable[Check]) -> None:
+        """Called with the checks that are known so far."""
+
+    def repeated(self, design: Design, accuracy: float) -> None:
+        """Called with the design before its start cases run."""
+
+
+AS_IT_IS = Trial()
+
+
+def judge(
+    tables: MachineFile, accuracy: float, progress: Progress, workers: int, starts: str = FULL, trial: Trial = AS_IT_IS
+) -> Judgement:
+    """Design, simulate and judge a machine; whatever `trial` raises ends it."""
+    seats = _seats(tables)
+    of_seats = tuple(check for bearing in seats for check in bearing.checks)
+    design = size_design(tables)
+    trial.checked((*design.checks, *of_seats))
+    trial.repeated(design, accuracy)
+    facts = proven(design, accuracy, progress, workers, starts, trial.checked)
+    # The search for the true limits of the speed range and the scenes may run beside each other.
+    balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=workers)
+    region = true_region(design, accuracy)
+    trial.checked((region.check,))
+    runs, failures = simulated(design, accuracy, progress, workers=workers)
+    work = (
+        None
+        if trial is not AS_IT_IS and not failures
+        else work_of(design, accuracy, progress, _grinding(runs, failures))
+    )
+    arm, moved = _arm(design, failures, accuracy, progress, balanced)
+    stays = _on_work(design, runs, accuracy, progress)
+    given = () if facts.ensemble is None else facts.ensemble.given
+    lost = (
+        not_simulated(
+            fault.scene, fault.reason, mean=_mean(fault, work),
+            answered=any(outcome.member.on_arm == fault.scene.startswith("swing-arm") for outcome in given),
+        )
+        for fault in failures
+    )  # fmt: skip
+    of_arm = () if arm is None else arm.checks  # that of the balanced state last
+    checks = (
+        *design.checks_before, level_check(facts), *design.checks_behind, *of_arm[:-1], *of_seats, *of_arm[-1:],
+        *stays, region.check, *checks_of_starts(facts), *lost,
+    )  # fmt: skip
+    trial.checked(checks)
+    return Judgement(
+        facts, _with_lives(seats, design, facts.ensemble, tables), region, arm, moved, runs, failures, work, checks
+    )
+
+
+NOT_SEARCHED = (
+    "Further start cases were not simulated, since each takes long (--patience 300 allows them 300 s). All listed "
+    "start cases pass."
+)
+
+MOST_SEARCHED = 2_000_000
+"""Work of the listed starts beyond which no further ones are tried."""
+
+
+def proven(
+    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1, starts: str = FULL,
+    checked: Callable[[Iterable[Check]], None] = lambda _: None,
+) -> StartFacts:  # fmt: skip
+    """What the start cases of a design show: listed ones, and further ones if these pass at the drag given.
+
+    Without an ensemble its balls cannot carry the imbalance. With one start or none nothing is proven: no check that
+    needs all start cases passes. `checked` is called with the checks that the listed ones decide.
+    """
+    if not _carries(design):
+        return StartFacts(design, None)
+    if starts != FULL:
+        return StartFacts(design, simulate_first(design, accuracy) if starts == ONE else None, starts=starts)
+    facts = StartFacts(design, first := simulate_members(design, accuracy, progress, workers))
+    checked((level_check(facts), *checks_of_starts(facts)))
+    if not facts.listed_pass:
+        return facts
+    if first.work > MOST_SEARCHED and not patience.given():
+        return replace(facts, warnings=(NOT_SEARCHED,))
+    return replace(facts, searched=search(design, accuracy, progress, workers, first.given))
+
+
+def _carries(design: Design) -> bool:
+    autobalancer = design.autobalancer
+    return autobalancer.capacity >= design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
+
+
+def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
+    """Bearing seats of the machine, judged."""
+    if not tables.bearing:
+        return ()
+    from abu_calc.features.seats.seats import seat_bearings
+
+    return seat_bearings(tables.bearing)
+
+
+def _with_lives(
+    seats: "tuple[BearingSeats, ...]", design: Design, ensemble: Ensemble | None, tables: MachineFile
+) -> "tuple[BearingSeats, ...]":
+    """Bearings with their lives under the loads of the simulation, without and with the autobalancer.
+
+    The rotating force is the imbalance, or the median residual displacement of the start cases that balance times the
+    effective mass; the constant one is the press force with its friction, of machines that grind.
+    """
+    if not seats:
+        return ()
+    from abu_calc.features.seats.life_in_use import UseLoads, lives_in_use
+
+    outcomes = () if ensemble is None else ensemble.given
+    residuals = [outcome.residual for outcome in outcomes if outcome.balanced]
+    speed, grinding = design.case.speed, tables.grinding
+    constant = 0.0
+    if grinding is not None:
+        constant = grinding.press_force_N * math.hypot(1.0, grinding.cutting_coefficient)
+    residual = statistics.median(residuals) * design.autobalancer.requirement.effective_mass if residuals else None
+    loads = UseLoads(design.imbalance.value * speed**2, None if residual is None else residual * speed**2, constant)
+    lives = lives_in_use([bearing.bearing for bearing in seats], loads, speed)
+    return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
+
+
+def _grinding(runs: Sequence[SceneRun], failures: Sequence[SceneFailure]) -> SceneRun | SceneFailure | None:
+    """Run of the grinding scene, or its failure; None if there is neither."""
+    outcomes: list[SceneRun | SceneFailure] = [run for run in runs if run.ledger.scene.name == "grinding"]
+    outcomes += [failure for failure in failures if failure.scene == "grinding"]
+    return next(iter(outcomes), None)
+
+
+def _mean(failure: SceneFailure, work: Work | SceneFailure | None) -> str | None:
+    """Average result of the grinding scene; None unless it is chaotic and the average is known."""
+    if failure.scene != "grinding" or not isinstance(work, Work) or not work.at_once.scatter:
+        return None
+    return (
+        f"The wheel bounces chaotically. Mean level of the early-pressed run: {work.level_at_once:.1f} ± "
+        f"{max(work.at_once.scatter, LEAST_SCATTER):.1f} dB"
+    )
+
+
+def _balanced(design: Design) -> Check:
+    """Check of the balanced state on a swing arm."""
+    from abu_calc.features.swing_arm.verdict import balanced_check
+
+    return balanced_check(design)
+
+
+def _arm(
+    design: Design, failures: Sequence[SceneFailure], accuracy: float, progress: Progress,
+    balanced: Callable[[], Check] | None,
+) -> "tuple[ArmJudgement | None, ArmMotion | None]":  # fmt: skip
+    """The swing arm judged, and its motion where it stands at the work; nothing of machines without one.
+
+    Where a scene of the arm gave no answer, also how much more joint damping would give one. `balanced` gives the check
+    of the balanced state, which has been begun.
+    """
+    if design.swing_arm is None:
+        return None, None
+    from abu_calc.features.swing_arm.motion import ForcedArmMotion as Moved
+    from abu_calc.features.swing_arm.motion import arm_motion
+    from abu_calc.features.swing_arm.verdict import judge_arm
+    from abu_calc.simulation.scene_of_design import scene_of_design
+
+    judged = judge_arm(design, progress, balanced)
+    if judged is not None and judged.may_pass and any(failure.scene.startswith("swing-arm") for failure in failures):
+        from abu_calc.features.swing_arm.scenes import damping_to_simulate
+
+        more = damping_to_simulate(design, judged, accuracy, progress)
+        if more is not None:
+            text = f"{judged.advice} ABU703: its scenes can be simulated with {more.text} (tried)."
+            judged = replace(judged, advice=text)
+    try:
+        moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
+    except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
+        return judged, None
+    return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
+
+
+def _on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress: Progress) -> tuple[Check, ...]:
+    """Check that the disk of a swing arm stays on its workpiece.
+
+    There is none for machines without an arm, or with one that does not press.
+    """
+    bounds = design.swing_arm
+    if bounds is None or any(check.status != "pass" for check in bounds.checks if check.code in ("ABU503", "ABU504")):
+        return ()
+    from abu_calc.features.swing_arm.scenes import on_work
+
+    check = on_work(design, runs, accuracy, progress)
+    return () if check is None else (check,)

@@ -1,0 +1,271 @@
+"""The next step for a machine that does not simply suit: a change of its file, tried by the verdict it leads to.
+
+Each change is a set of entries as `--set` takes them. It is followed literally: the file with them is judged as
+`abu size` does it. A change counts only if the verdict gets better and no check gets worse.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from itertools import chain, islice
+from operator import attrgetter
+from typing import Final, NamedTuple
+
+from abu_calc.features.design.changes import changes_for_starts
+from abu_calc.features.design.judgement import Judgement, Trial, judge
+from abu_calc.features.design.start_rules import RULES
+from abu_calc.features.design.start_search import loudness, slowness
+from abu_calc.features.design.verdict import WORDS
+from abu_calc.foundation import patience
+from abu_calc.foundation.checks import RANK, Action, Check, worst
+from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.moved import Moved
+from abu_calc.foundation.progress import Progress, within
+from abu_calc.inputs.read_machine import Machine, variant_of
+from abu_calc.simulation.ensemble import MORE, WORK, first_tolerance, start_once
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.records import finite
+from abu_calc.sizing import trials
+from abu_calc.sizing.actions import PINS, SIMULATED, overrides
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.design import Design
+
+Entries = tuple[str, ...]
+"""Entries of a file, each as one `--set` takes it."""
+
+MOST_TRIALS: Final = 24
+"""Changes that are tried."""
+SHARE, LEAST_WORK = 1.0, 200_000
+"""Evaluations that all trials may take, as a share of those of the file as it is, and at least."""
+REPEATED: Final = 3
+"""Start cases that fail as the file is, which run first with a change, the worst ones."""
+
+
+class Tried(NamedTuple):
+    """A change that was tried: its entries, and the machine with them as judged."""
+
+    entries: Entries
+    after: Judgement
+
+
+class NextStep(NamedTuple):
+    """The best change of a machine, None if none helps, and the changes that were tried without success, in words."""
+
+    best: Tried | None
+    without_success: tuple[str, ...] = ()
+
+
+class NotBetterError(Exception):
+    """A change leads to no better verdict, or makes a check worse."""
+
+
+class Change(Trial):
+    """A trial of one change of a machine: it ends as soon as the verdict cannot be better, or a check gets worse.
+
+    `worse_than`: rank of the grade that the verdict has to excel.
+    """
+
+    def __init__(self, before: Judgement, worse_than: int) -> None:
+        self.before, self.worse_than, self.work = before, worse_than, 0
+        self.ranks = {_key(check): RANK.index(check.status) for check in before.checks}
+
+    def checked(self, checks: Iterable[Check]) -> None:
+        """Raise NotBetterError for a check that is worse than before, or as bad as the verdict may not be."""
+        for check in checks:
+            rank = RANK.index(check.status)
+            if check.requested and (rank <= self.worse_than or rank < self.ranks.get(_key(check), PASS)):
+                raise NotBetterError
+
+    def repeated(self, design: Design, accuracy: float) -> None:
+        """Run the promised start cases that fail without the change; raise NotBetterError if one still does."""
+        limits, level, count = design.case.table.limits, design.case.level_limit, design.autobalancer.ball_count
+        drag = self.before.design.case.drag
+        bad = [run for run in self.before.outcomes if not run.holds(limits, level) and run.member.promised]
+        for run in sorted(bad, key=attrgetter("badness"), reverse=True)[:REPEATED]:
+            member = replace(run.member, drag=run.member.drag * design.case.drag / drag if drag else design.case.drag)
+            if member.angles and len(member.angles) != count:
+                continue
+            again = start_once(design, member, accuracy, first_tolerance(design), MORE * WORK, early_end=True)
+            self.work += again.work
+            if not isinstance(again, StartOutcome) or not again.holds(limits, level):
+                raise NotBetterError
+
+
+PASS: Final = RANK.index("pass")
+
+
+def _key(check: Check) -> tuple[str, str]:
+    return check.code, check.name
+
+
+def next_step(machine: Machine, before: Judgement, accuracy: float, progress: Progress, workers: int) -> NextStep:
+    """The first change with which all checks pass, else the one with the best verdict of those tried.
+
+    It costs nothing where nothing is wrong. Where something is, all trials together take as long as the file as it is.
+    """
+    best, rank, tried = None, RANK.index(worst(before.checks)), list[str]()
+    left = max(SHARE * sum(run.work for run in before.outcomes), LEAST_WORK)
+    for entries in islice(proposals(before), MOST_TRIALS):
+        if rank == PASS or left <= 0 or patience.over():
+            break
+        trial, told = Change(before, rank), within(progress, f"with {in_words(entries)}")
+        try:
+            with trials.left_out():
+                after = judge(
+                    variant_of(machine, ",".join(entries)).whole("size"), accuracy, told, workers, trial=trial
+                )
+            best, rank = Tried(entries, after), RANK.index(worst(after.checks))
+            left -= sum(run.work for run in after.outcomes)
+        except NotBetterError:
+            tried.append(in_words(entries))
+        except AbuError:  # the file refuses it
+            continue
+        left -= trial.work
+    return NextStep(best, tuple(tried))
+
+
+def in_words(entries: Entries) -> str:
+    """Entries as a sentence lists them, without those that pin balls and race unless there are no others.
+
+    >>> in_words(("oil.grade=VG 100", "oil.fill_ml=1", "autobalancer.ball_count=4"))
+    'oil.grade = VG 100 and oil.fill_ml = 1'
+    """
+    other = [entry for entry in entries if entry.partition("=")[0] not in PINNED]
+    *first, last = (entry.removeprefix("autobalancer.").replace("=", " = ", 1) for entry in other or entries)
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+class Number(NamedTuple):
+    """A number of the result that decides a check: its path, its name and unit, and how it is read."""
+
+    path: str
+    name: str
+    unit: str
+    of: Callable[[Judgement], float | None]
+
+
+def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False) -> Callable[[Judgement], float | None]:
+    """The largest of the listed or of the further start cases; None for one that never is, or without any."""
+
+    def largest(judged: Judgement) -> float | None:
+        facts = judged.facts
+        starts = (facts.searched if further else facts.ensemble) or Ensemble(0.0, (), ())
+        return finite(max(map(value, starts.outcomes), default=math.inf))
+
+    return largest
+
+
+def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judgement], float | None]:
+    return lambda judged: value(judged.design.autobalancer)
+
+
+NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
+    "ABU201": (Number("autobalancer.capacity_ratio", "the capacity ratio", "", _number(attrgetter("capacity_ratio"))),),
+    "ABU203": (
+        Number("autobalancer.mass_fraction", "the share of the mass", "", _number(attrgetter("mass_fraction"))),
+    ),
+    "ABU401": (
+        Number("vibration.level_after_db", "the expected level", "dB", lambda judged: judged.design.idle.worst.after),
+        Number("ensemble.level_db.worst", "the loudest start case", "dB", _of_starts(attrgetter("level"))),
+        Number("ensemble.further_starts.level_db", "the loudest further start case", "dB",
+               _of_starts(loudness, further=True)),
+    ),
+    "ABU702": (
+        Number("ensemble.quiet_time_s.worst", "the slowest start case", "s", _of_starts(slowness)),
+        Number("ensemble.further_starts.quiet_time_s", "the slowest further start case", "s",
+               _of_starts(slowness, further=True)),
+    ),
+}  # fmt: skip
+"""Numbers by which checks are decided."""
+
+
+def _moved(check: Check, before: Judgement, after: Judgement) -> tuple[Number, float | None, float] | None:
+    """The number that breaks the limit of a check and keeps it with a change, before and after; None: there is none."""
+    for number in NUMBERS.get(check.code, ()):
+        old, new = number.of(before), number.of(after)
+        limit = check.limit if number.unit else 1.0
+        if limit is not None and new is not None and new <= limit and (old is None or old > limit):
+            return number, old, new
+    return None
+
+
+def promise(before: Judgement, step: NextStep) -> dict[str, str | float | None] | None:
+    """What the change moves: the path of a number of the result that breaks a limit, from what and to what.
+
+    By the first check that decides the verdict; where no such number does, the word of the verdict. None: no change.
+    """
+    if step.best is None:
+        return None
+    after, grade = step.best.after, worst(before.checks)
+    deciding = (check for check in before.checks if check.requested and check.status == grade)
+    for number, old, new in filter(None, (_moved(check, before, after) for check in deciding)):
+        return {"path": number.path, "from": old, "to": new}
+    return {"path": "verdict.word", "from": WORDS[grade], "to": WORDS[worst(after.checks)]}
+
+
+PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
+
+
+def actions(before: Judgement, step: NextStep) -> tuple[Check, ...]:
+    """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
+    first, checks = "", list[Check]()
+    for check in before.checks:
+        if check.status == "pass" or not check.requested:
+            checks.append(check)
+            continue
+        action: Action | str | None = check.remedy if not check.overrides else None
+        if step.best is not None:
+            after = next((each for each in step.best.after.checks if _key(each) == _key(check)), None)
+            if after is None or RANK.index(after.status) > RANK.index(check.status):
+                action = _action(check, before, step.best)
+        elif action is None:
+            action = f"See the action of {first}." if first else _no_change(step)
+            first = first or check.code
+        checks.append(check.with_action(action))
+    return tuple(checks)
+
+
+def _no_change(step: NextStep) -> str:
+    if not step.without_success:
+        return "No change of the file was found that mends this."
+    return f"No change was found with which the machine suits. Tried: {'; '.join(step.without_success)}."
+
+
+def _action(check: Check, before: Judgement, best: Tried) -> Action:
+    """The change with what it does to the number that decides this check, and to all other checks."""
+    left = dict.fromkeys(each.code for each in best.after.checks if each.requested and each.status != "pass")
+    then = f"Then {' and '.join(left)} still warn{'s' * (len(left) == 1)}." if left else "All checks then pass."
+    found, text = _moved(check, before, best.after), "this check then passes"
+    if check.code in left:
+        text = "this check then warns"
+    elif found is not None:
+        number, old, new = found
+        text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
+    oil, rate = best.after.design.case.oil, ""
+    if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
+        rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"
+    return Action(f"Set {in_words(best.entries)}{rate}: {text} ({SIMULATED}). {then}", best.entries)
+
+
+def proposals(before: Judgement) -> Iterator[Entries]:
+    """Changes that are worth a trial, without repetition: those of the checks that do not pass, each and all together,
+    then those for start cases, each by itself and with these.
+    """
+    bad = sorted((check for check in before.checks if check.requested and check.status != "pass"),
+                 key=lambda check: RANK.index(check.status))  # fmt: skip
+    calculated = dict.fromkeys(check.overrides for check in bad if check.overrides)
+    together = _together(*calculated)
+    of_starts = []
+    if {check.code for check in bad} & OF_STARTS and before.design.frequency.balancing_possible:
+        of_starts = [overrides(entries) for entries in changes_for_starts(before.facts)]
+    paired = (_together(entries, together) for entries in of_starts) if together else ()
+    yield from dict.fromkeys(filter(None, chain(calculated, [together], of_starts, paired)))
+
+
+OF_STARTS: Final = frozenset(rule.code for rule in RULES)
+
+
+def _together(*changes: Entries) -> Entries:
+    """Several changes as one; none if they set a key to different values."""
+    entries = tuple(dict.fromkeys(chain.from_iterable(changes)))
+    return entries if len({entry.partition("=")[0] for entry in entries}) == len(entries) else ()
