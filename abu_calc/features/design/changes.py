@@ -22,8 +22,8 @@ DRAGS: Final = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
 """Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
 MOST_DRAGS, NEAR = 5, 1.15
 """Most drag rates that are tried, and the factor within which another drag rate counts as the same."""
-MOST_OTHERS: Final = 3
-"""Runners-up that are tried where a listed start case fails."""
+MOST_OTHERS, MOST_TRUER = 3, 6
+"""Runners-up that are tried where a listed start case fails, and truer races."""
 MOST_OILS: Final = 3
 """Oils of each viscosity index that are tried."""
 FASTER, DAMPED = 0.5, 2.0
@@ -45,29 +45,28 @@ def design_with(design: Design, entries: Mapping[str, object]) -> Design | None:
         return None
 
 
-def changes_for_starts(facts: StartFacts) -> Iterator[dict[str, object]]:
+def changes_for_starts(facts: StartFacts, *, loud: bool) -> Iterator[dict[str, object]]:
     """Changes for start cases, each with the balls and the race that it was tried with.
 
-    Another drag rate or oil, other balls if a listed start case fails, a temporary speed reduction if balls stall, a
-    faster run-up if run-ups alone fail, more damping, a truer race.
+    Another oil or drag rate, other balls if a listed start case fails, a temporary speed reduction if balls stall, a
+    faster run-up if run-ups alone fail, more damping, a truer race; this first if start cases are too `loud`.
     """
     design, ensemble = facts.design, facts.ensemble
     if ensemble is None:
         return
-    pinned, table = pins(design.autobalancer), design.case.table
-    oils = [{**entries, **pinned} for entries in _other_oils(facts)]
-    yield from oils[:BEFORE]
+    table = design.case.table
+    oils, truer = list(_other_oils(facts)), list(islice(truer_races(design.case), MOST_TRUER))
+    ways = [*truer, *oils[:BEFORE]] if loud else oils[:BEFORE]
     if not facts.listed_pass:
         others = (runner_up for runner_up, _ in design.choice.runners_up if usable(design.case, runner_up))
-        yield from map(pins, islice(others, MOST_OTHERS))
+        ways += map(pins, islice(others, MOST_OTHERS))
     bad = [start for start in ensemble.given if not start.balanced]
-    yield from ({**slow, **pinned} for slow in _pause(design, ensemble))
+    ways += _pause(design, ensemble)
     if table.run_up and not table.motor and bad and all(start.member.run_up for start in bad):
-        yield {"run_up.time_s": _rounded(FASTER * table.run_up.time_s), **pinned}
-    if damping := more_damping(design):
-        yield {**damping, **pinned}
-    yield from oils[BEFORE:]
-    yield from ({**entries, **pinned} for entries in islice(truer_races(design.case), MOST_OTHERS))
+        ways.append({"run_up.time_s": _rounded(FASTER * table.run_up.time_s)})
+    ways += filter(None, [more_damping(design)])
+    ways += oils[BEFORE:] if loud else [*oils[BEFORE:], *truer]
+    yield from ({**pins(design.autobalancer), **entries} for entries in ways)
 
 
 def more_damping(design: Design) -> dict[str, object] | None:

@@ -66,9 +66,12 @@ class Judgement:
 
 
 class Trial:
-    """What ends a judgement early, of a change that is tried; of the file as it is nothing does."""
+    """What ends a judgement early, of a change that is tried; of the file as it is nothing does.
 
-    begun = False
+    `work`: evaluations of the start cases so far.
+    """
+
+    work = 0
 
     def checked(self, checks: Iterable[Check]) -> None:
         """Called with the checks that are known so far."""
@@ -77,29 +80,28 @@ class Trial:
         """Called with the design before its start cases run."""
 
 
-AS_IT_IS = Trial()
-
-
 def judge(
-    tables: MachineFile, accuracy: float, progress: Progress, workers: int, starts: str = FULL, trial: Trial = AS_IT_IS
+    tables: MachineFile,
+    accuracy: float,
+    progress: Progress,
+    workers: int,
+    starts: str = FULL,
+    trial: Trial | None = None,
 ) -> Judgement:
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
+    only_checks, trial = trial is not None, trial or Trial()
     seats = _seats(tables)
     of_seats = tuple(check for bearing in seats for check in bearing.checks)
     design = size_design(tables)
     trial.checked((*design.checks, *of_seats))
     trial.repeated(design, accuracy)
-    facts = proven(design, accuracy, progress, workers, starts, trial.checked)
+    facts = proven(design, accuracy, progress, workers, starts, trial)
     # The search for the true limits of the speed range and the scenes may run beside each other.
     balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=workers)
     region = true_region(design, accuracy)
     trial.checked((region.check,))
     runs, failures = simulated(design, accuracy, progress, workers=workers)
-    work = (
-        None
-        if trial is not AS_IT_IS and not failures
-        else work_of(design, accuracy, progress, _grinding(runs, failures))
-    )
+    work = None if only_checks and not failures else work_of(design, accuracy, progress, _grinding(runs, failures))
     arm, moved = _arm(design, failures, accuracy, progress, balanced)
     stays = _on_work(design, runs, accuracy, progress)
     given = () if facts.ensemble is None else facts.ensemble.given
@@ -132,24 +134,28 @@ MOST_SEARCHED = 2_000_000
 
 def proven(
     design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1, starts: str = FULL,
-    checked: Callable[[Iterable[Check]], None] = lambda _: None,
+    trial: Trial | None = None,
 ) -> StartFacts:  # fmt: skip
     """What the start cases of a design show: listed ones, and further ones if these pass at the drag given.
 
     Without an ensemble its balls cannot carry the imbalance. With one start or none nothing is proven: no check that
-    needs all start cases passes. `checked` is called with the checks that the listed ones decide.
+    needs all start cases passes.
     """
     if not _carries(design):
         return StartFacts(design, None)
     if starts != FULL:
         return StartFacts(design, simulate_first(design, accuracy) if starts == ONE else None, starts=starts)
     facts = StartFacts(design, first := simulate_members(design, accuracy, progress, workers))
-    checked((level_check(facts), *checks_of_starts(facts)))
+    trial = trial or Trial()
+    trial.work += first.work
+    trial.checked((level_check(facts), *checks_of_starts(facts)))
     if not facts.listed_pass:
         return facts
     if first.work > MOST_SEARCHED and not patience.given():
         return replace(facts, warnings=(NOT_SEARCHED,))
-    return replace(facts, searched=search(design, accuracy, progress, workers, first.given))
+    searched = search(design, accuracy, progress, workers, first.given)
+    trial.work += sum(run.work for run in searched.outcomes)
+    return replace(facts, searched=searched)
 
 
 def _carries(design: Design) -> bool:

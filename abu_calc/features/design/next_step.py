@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import Judgement, Trial, judge
-from abu_calc.features.design.start_rules import RULES
+from abu_calc.features.design.start_rules import LEVEL, RULES
 from abu_calc.features.design.start_search import loudness, slowness
 from abu_calc.features.design.verdict import WORDS
 from abu_calc.foundation import patience
@@ -37,7 +37,7 @@ MOST_TRIALS: Final = 24
 """Changes that are tried."""
 SHARE, LEAST_WORK = 1.0, 200_000
 """Evaluations that all trials may take, as a share of those of the file as it is, and at least."""
-REPEATED: Final = 3
+REPEATED: Final = 6
 """Start cases that fail as the file is, which run first with a change, the worst ones."""
 
 
@@ -66,7 +66,7 @@ class Change(Trial):
     """
 
     def __init__(self, before: Judgement, worse_than: int) -> None:
-        self.before, self.worse_than, self.work = before, worse_than, 0
+        self.before, self.worse_than = before, worse_than
         self.ranks = {_key(check): RANK.index(check.status) for check in before.checks}
 
     def checked(self, checks: Iterable[Check]) -> None:
@@ -77,11 +77,16 @@ class Change(Trial):
                 raise NotBetterError
 
     def repeated(self, design: Design, accuracy: float) -> None:
-        """Run the promised start cases that fail without the change; raise NotBetterError if one still does."""
+        """Run the start cases that fail without the change, or warn where all must pass; raise NotBetterError if one
+        still does.
+        """
         limits, level, count = design.case.table.limits, design.case.level_limit, design.autobalancer.ball_count
         drag = self.before.design.case.drag
-        bad = [run for run in self.before.outcomes if not run.holds(limits, level) and run.member.promised]
-        for run in sorted(bad, key=attrgetter("badness"), reverse=True)[:REPEATED]:
+        every = self.worse_than == RANK.index("warn")
+        bad = [run for run in self.before.outcomes if not run.holds(limits, level) and (every or run.member.promised)]
+        for run in sorted(bad, key=lambda run: (run.hanging, run.quiet_time_or_inf, run.level), reverse=True)[
+            :REPEATED
+        ]:
             member = replace(run.member, drag=run.member.drag * design.case.drag / drag if drag else design.case.drag)
             if member.angles and len(member.angles) != count:
                 continue
@@ -115,7 +120,6 @@ def next_step(machine: Machine, before: Judgement, accuracy: float, progress: Pr
                     variant_of(machine, ",".join(entries)).whole("size"), accuracy, told, workers, trial=trial
                 )
             best, rank = Tried(entries, after), RANK.index(worst(after.checks))
-            left -= sum(run.work for run in after.outcomes)
         except NotBetterError:
             tried.append(in_words(entries))
         except AbuError:  # the file refuses it
@@ -255,9 +259,10 @@ def proposals(before: Judgement) -> Iterator[Entries]:
                  key=lambda check: RANK.index(check.status))  # fmt: skip
     calculated = dict.fromkeys(check.overrides for check in bad if check.overrides)
     together = _together(*calculated)
-    of_starts = []
-    if {check.code for check in bad} & OF_STARTS and before.design.frequency.balancing_possible:
-        of_starts = [overrides(entries) for entries in changes_for_starts(before.facts)]
+    of_starts, codes = [], {check.code for check in bad}
+    if codes & OF_STARTS and before.design.frequency.balancing_possible:
+        loud = LEVEL.code in codes
+        of_starts = [overrides(entries) for entries in changes_for_starts(before.facts, loud=loud)]
     paired = (_together(entries, together) for entries in of_starts) if together else ()
     yield from dict.fromkeys(filter(None, chain(calculated, [together], of_starts, paired)))
 

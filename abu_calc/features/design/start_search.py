@@ -65,8 +65,7 @@ RARE: Final = 1e-3
 """Share of all starts that may take longer than permitted."""
 
 PARTS: Final = 4
-"""Parts of the designed set at most. One is run always, the others if rare starts seem late by the first, or for a
-runner-up that is taken because the first choice fails from a start."""
+"""Parts of the designed set at most. One is run always, the others if rare starts seem late by the first."""
 
 NEAR: Final = 1.5
 """Estimate of a rare settling time over that permitted, up to which more starts may lower it enough. On fifteen random
@@ -173,14 +172,10 @@ def search(
     progress: Progress = silent,
     workers: int = 1,
     listed: tuple[StartOutcome, ...] = (),
-    *,
-    every_part: bool = False,
 ) -> SearchResult:
     """The designed starts, and those near the worst of them. The same whatever the number of workers.
 
-    `listed`: outcomes of the listed starts at the drag given; `every_part`: whether all parts of the designed set are
-    run if none of the first is late. A design that was taken because another fails from a start has to show more: few
-    starts may happen to be well.
+    `listed`: outcomes of the listed starts at the drag given.
     """
 
     def run(starts: Sequence[Member]) -> tuple[StartOutcome, ...]:
@@ -190,7 +185,7 @@ def search(
     found, asked, limit = run(starts), len(starts), design.case.table.limits.longest_quiet_time
     none_late = max((slowness(each) for each in found if each.member.promised), default=math.inf) <= limit
     seems_late = limit < SearchResult(found, listed=listed).foreseen <= NEAR * limit
-    if none_late and (seems_late or every_part):
+    if none_late and seems_late:
         for part in range(1, PARTS):
             if not patience.over():
                 starts = list(design_part(design, part))
