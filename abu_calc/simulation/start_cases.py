@@ -1,12 +1,14 @@
 """Start cases of a machine: places of its balls, speed, temperature of the oil, side of the race eccentricity.
 
-`members` lists those that a design is judged by. `scene_switched_on` gives the scene of any one machine switched on.
+`members` lists those that a design is judged by. `scene_of_member` gives the scene of any one machine switched on.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final, Literal
+
+import numpy as np
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.formulas.suspension import Springs
@@ -14,7 +16,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
 from abu_calc.inputs.duty import Start as StartTable
-from abu_calc.simulation.scene_of_design import AHEAD, Start, running_up, scene_of_design
+from abu_calc.simulation.scene_of_design import Start, running_up, scene_of_design
 from abu_calc.sizing.case import EQUAL_SPEEDS, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.track import track
@@ -35,6 +37,10 @@ compiled once more.
 
 Axis = Literal["horizontal", "vertical"]
 
+Kind = Literal["bunched", "spread", "standstill", "run-up"]
+KINDS: Final[tuple[Kind, ...]] = ("bunched", "spread", "standstill", "run-up")
+"""Starts that are drawn: balls at rest in the race, touching or evenly round it; not turning at all; a run-up."""
+
 
 @dataclass(frozen=True)
 class Variation:
@@ -45,6 +51,8 @@ class Variation:
     friction_arm: float = 1.0
     natural_frequency: float = 1.0
     spindle_axis: Axis | None = None
+    ball_masses: tuple[float, ...] = ()
+    """Factors on the masses of the balls; empty: all balls have the same mass."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +81,7 @@ class Member:
     phases: tuple[float, ...] | None = None
     """Phases [rad] of the imbalances whose phase against the first one is unknown, on a spindle with two races."""
     turned: float = 0.0
-    """Angle [rad] by which the balls are further round than `start` says, on such a spindle."""
+    """Angle [rad] by which the balls are further round than `start` says."""
 
     @property
     def at_nominal(self) -> bool:
@@ -153,7 +161,7 @@ def idle_speed(case: Case) -> float | None:
 def scene_of_member(design: Design, member: Member) -> Scene:
     """The idle scene of a machine started so, with every effect its file has data for."""
     which = "swing-arm-idle" if member.on_arm else "run-up" if member.run_up else "idle"
-    scene = scene_of_design(_with(design, member), which, member.start, member.eccentricity)
+    scene = _scene(design, member, which)
     if member.varied.imbalance == 1:
         return scene
     # Quiet, at rest and balanced are judged by the imbalance of the file, however little there is.
@@ -162,7 +170,12 @@ def scene_of_member(design: Design, member: Member) -> Scene:
 
 def grinding_scene_of_member(design: Design, member: Member) -> Scene:
     """The scene of grinding with balls that start so, at full speed, with every effect its file has data for."""
-    return scene_of_design(_with(design, member), "grinding", member.start, member.eccentricity)
+    return _scene(design, member, "grinding")
+
+
+def _scene(design: Design, member: Member, which: str) -> Scene:
+    scene = scene_of_design(_with(design, member), which, member.start, member.eccentricity)
+    return turned(scene, member.turned, masses=member.varied.ball_masses)
 
 
 def _with(design: Design, member: Member) -> Design:
@@ -199,50 +212,11 @@ def ball_speed_rpm(design: Design, member: Member) -> float:
     return round(from_si(-member.lag * (member.speed or design.case.speed), "rpm"), 6)
 
 
-KINDS: Final = ("bunched", "spread", "standstill", "run-up")
-"""Starts that are drawn: balls at rest in the race, touching or evenly round it; not turning at all; a run-up."""
+def turned(scene: Scene, angle: float, drag_ratio: float = 1.0, masses: tuple[float, ...] = ()) -> Scene:
+    """A scene whose balls start further round by an angle [rad], in oil of another drag.
 
-
-@dataclass(frozen=True)
-class SwitchedOn:
-    """A start: one of KINDS, where the middle of the bunch (or the first of balls spread) lies, and the centre of the
-    race, both from the imbalance [rad].
+    `masses`: factors on the masses of the balls of each race; empty: the masses stay.
     """
-
-    kind: str = "bunched"
-    angle: float = AHEAD
-    eccentricity: float = OPPOSITE
-
-    def member(self, design: Design) -> Member:
-        """The same as one of those that every design is tried with."""
-        if self.kind == "run-up":
-            return replace(usual_run_up(design), eccentricity=self.eccentricity)
-        start = next(kind for kind in KINDS if kind == self.kind)
-        return Member(start, design.case.drag, 0.0, self.eccentricity, idle_speed(design.case))  # type: ignore[arg-type]
-
-
-def scene_switched_on(design: Design, start: SwitchedOn, lighter: Sequence[float] = ()) -> Scene:
-    """The idle scene of a machine switched on so, with every effect its file has data for.
-
-    `lighter`: the share by which each ball's mass is off that of the lot.
-    """
-    scene = scene_of_member(design, start.member(design))
-    races = tuple(
-        replace(
-            race,
-            start_angles=tuple(angle + start.angle - AHEAD for angle in race.start_angles),
-            ball_masses=tuple(
-                mass * (1 + off)
-                for mass, off in zip(race.ball_masses, lighter or (0.0,) * len(race.ball_masses), strict=True)
-            ),
-        )
-        for race in scene.races
-    )
-    return replace(scene, races=races)
-
-
-def turned(scene: Scene, angle: float, drag_ratio: float) -> Scene:
-    """A scene given outright, its balls started further round by an angle [rad], in oil of another drag."""
     races = tuple(
         replace(
             race,
@@ -250,6 +224,7 @@ def turned(scene: Scene, angle: float, drag_ratio: float) -> Scene:
                 math.remainder(each + angle, 2 * math.pi) if angle else each for each in race.start_angles
             ),
             drag=race.drag * drag_ratio,
+            ball_masses=tuple(np.multiply(race.ball_masses, masses or 1.0).tolist()),
         )
         for race in scene.races
     )

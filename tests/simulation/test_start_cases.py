@@ -1,6 +1,7 @@
 """Start cases of one machine: which there are, how they are called, and the scenes they make."""
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -9,11 +10,10 @@ from abu_calc.simulation.start_cases import (
     ALIKE,
     OPPOSITE,
     Member,
-    SwitchedOn,
+    Variation,
     idle_speed,
     members,
     scene_of_member,
-    scene_switched_on,
     turned,
     usual_run_up,
 )
@@ -75,15 +75,20 @@ def test_a_motor_runs_up_to_its_idle_speed() -> None:
 
 
 def test_balls_are_turned_from_their_usual_place() -> None:
-    usual, moved = (scene_switched_on(design(), SwitchedOn(angle=angle)).races[0] for angle in (0.0, 0.5))
-    assert [b - a for a, b in zip(usual.start_angles, moved.start_angles, strict=True)] == pytest.approx([0.5] * 4)
+    member = Member("bunched", 15.0)
+    usual, moved = (scene_of_member(design(), replace(member, turned=angle)).races[0] for angle in (0.0, 4.0))
+    turns = [(b - a) % math.tau for a, b in zip(usual.start_angles, moved.start_angles, strict=True)]
+    assert turns == pytest.approx([4.0] * 4)
 
 
 def test_unequal_balls_differ_by_their_share() -> None:
-    shares = (0.01, -0.02, 0.0, 0.03)
-    equal = scene_switched_on(design(), SwitchedOn("spread")).races[0].ball_masses
-    unequal = scene_switched_on(design(), SwitchedOn("spread"), shares).races[0].ball_masses
-    assert [b / a - 1 for a, b in zip(equal, unequal, strict=True)] == pytest.approx(shares)
+    factors = (1.01, 0.98, 1.0, 1.03)
+    varied = Variation(ball_masses=factors)
+    equal, unequal = (
+        scene_of_member(design(), Member("spread", 15.0, varied=each)).races[0].ball_masses
+        for each in (Variation(), varied)
+    )
+    assert [b / a for a, b in zip(equal, unequal, strict=True)] == pytest.approx(factors)
 
 
 def test_a_member_has_its_drag_and_speed() -> None:

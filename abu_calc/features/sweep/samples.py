@@ -9,8 +9,6 @@ from typing import Any, ClassVar, Final
 
 import numpy as np
 
-from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.features.design.study import size
@@ -23,25 +21,29 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.interruption import raise_pending
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneFile
 from abu_calc.inputs.variation import Variants
-from abu_calc.simulation.ensemble import WORK, outcome_of
+from abu_calc.simulation.ensemble import MORE, TOLERANCE, WORK, first_tolerance, integrated, run_of_start
 from abu_calc.simulation.ensemble_results import StartOutcome
 from abu_calc.simulation.residual_criteria import HALF, allowed_imbalance, allowed_of_scene, balances, slip
 from abu_calc.simulation.response import Response, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import scene_from
-from abu_calc.simulation.start_cases import OPPOSITE, SwitchedOn, scene_switched_on, turned
+from abu_calc.simulation.start_cases import OPPOSITE, Member, Variation, idle_speed, turned, usual_run_up
 from abu_calc.sizing.design import Design, built, with_worst
 from abu_calc.sizing.oil import drag_share
 
 LOT: Final = 0.5e-6
 """Diameters of balls of one lot differ by this much [m] (grade 20 of ISO 3290, by practice)."""
 
-TOLERANCE: Final = 0.02
-"""Tolerance of the one run of a sample, per accuracy asked for."""
+USUAL: Final = 0.01
+"""Accuracy at which the run of a sample has the tolerance of the first run of a start case."""
+
+START: Final = ("kind", "temperature_C", "angle_deg", "eccentricity_deg")
+"""Values of the start of a sample."""
 
 Values = Mapping[str, Any]
 
@@ -116,44 +118,48 @@ class Builds(SweepStudy):
     variants: Variants[MachineFile]
     design: Design
 
-    def _drag_at(self, table: MachineFile, temperature: float) -> float:
-        """Drag rate [1/s] with the oil at a temperature [°C]: by the oil of the file, or of an oil VG 46."""
-        assert table.autobalancer is not None
-        oil, given = self.design.case.oil, "rolling_drag_per_s" in table.autobalancer.model_fields_set
-        rate = self.design.case.drag if oil is not None and not given else table.autobalancer.rolling_drag_per_s
-        if oil is None:
-            return rate * drag_ratio(temperature)
-        return rate * drag_share(self.design.case, self.design.autobalancer, temperature)
-
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
         """One start of one machine."""
-        table = self.variants.table(self._in_file(values))
-        if (warm := values.get("start.temperature_C")) is not None and table.autobalancer is not None:
-            drag = self._drag_at(table, warm)
-            own = table.autobalancer.model_copy(update={"rolling_drag_per_s": drag})
-            table = table.model_copy(update={"autobalancer": own})
-        made, start = built(self.design, table), start_of(values)
+        made = built(self.design, self.variants.table(self._in_file(values)))
         lot = np.random.default_rng(seed).uniform(-LOT, LOT, made.autobalancer.ball_count)
-        lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
-        outcome = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
-        limits = table.limits
-        soon, low = outcome.in_time(limits), outcome.level <= limits.vibration_level_db
-        flags = outcome.balanced, not outcome.hanging, low, soon
-        return (
-            outcome.level, outcome.quiet_time, outcome.rest_time, outcome.settling_time,
-            from_si(outcome.residual, "um"), from_si(outcome.imbalance, "g_mm"),
-            made.autobalancer.capacity_ratio, *flags, all(flags),
-        )  # fmt: skip
+        masses = tuple((1 + 3 * lot / made.autobalancer.ball_diameter).tolist())
+        outcome = machine_started(made, started(made, values, masses), self.accuracy)
+        return numbers_of(outcome, made.case.table.limits, made.autobalancer.capacity_ratio)
 
 
-def start_of(values: Values) -> SwitchedOn:
-    """Start-up of a sample; values that do not vary are usual."""
-    angle, off = values.get("start.angle_deg"), values.get("start.eccentricity_deg")
-    return SwitchedOn(
-        values.get("start.kind", "bunched"),
-        AHEAD if angle is None else to_si(angle, "deg"),
-        OPPOSITE if off is None else to_si(off, "deg"),
-    )
+def started(design: Design, values: Values, masses: tuple[float, ...]) -> Member:
+    """The start case of a sample; values that do not vary are usual. `masses`: factors on those of the balls."""
+    kind, warm, angle, side = (values.get(f"start.{key}") for key in START)
+    case, drag = design.case, design.case.drag
+    if warm is not None:
+        drag *= drag_ratio(warm) if case.oil is None else drag_share(case, design.autobalancer, warm)
+    usual = usual_run_up(design) if kind == "run-up" else Member(kind or "bunched", drag, speed=idle_speed(case))
+    turned_by = 0.0 if angle is None else to_si(angle, "deg") - AHEAD
+    eccentricity, varied = OPPOSITE if side is None else to_si(side, "deg"), Variation(ball_masses=masses)
+    return replace(usual, drag=drag, eccentricity=eccentricity, turned=turned_by, varied=varied)
+
+
+def machine_started(design: Design, member: Member, accuracy: float) -> StartOutcome:
+    """One start of one machine, run as `abu size` does, but to its end. Raises NotTrustworthyError.
+
+    A run that ends early has the times of the whole run, but not its amplitude at the end.
+    """
+    outcome = run_of_start(design, member, accuracy, first_tolerance(design) * accuracy / USUAL, MORE * WORK).outcome
+    if outcome.balanced or outcome.hanging or outcome.imbalance > HALF * outcome.moved:
+        return outcome
+    # Only where it decides: the worst arrangement of balls that friction holds takes longer than all the rest.
+    return replace(outcome, allowed=allowed_imbalance(with_worst(design), outcome.moved))
+
+
+def numbers_of(outcome: StartOutcome, limits: Limits, capacity_ratio: float) -> tuple[float | None, ...]:
+    """Quantities of a machine switched on once, then which limits it meets."""
+    flags = (
+        outcome.balanced, not outcome.hanging, outcome.level <= limits.vibration_level_db, outcome.in_time(limits),
+    )  # fmt: skip
+    return (
+        outcome.level, outcome.quiet_time, outcome.rest_time, outcome.settling_time, from_si(outcome.residual, "um"),
+        from_si(outcome.imbalance, "g_mm"), capacity_ratio, *flags, all(flags),
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -188,27 +194,15 @@ class Scenes(SweepStudy):
         """One run."""
         scene = scene_from(self.variants.table(self._in_file(values)).scene)
         warm = values.get("start.temperature_C")
-        scene = turned(
-            scene, to_si(values.get("start.angle_deg", 0.0), "deg"), 1.0 if warm is None else drag_ratio(warm)
-        )
-        run = scene_once(scene, TOLERANCE * self.accuracy)
+        angle = to_si(values.get("start.angle_deg", 0.0), "deg")
+        scene = turned(scene, angle, 1.0 if warm is None else drag_ratio(warm))
+        run = scene_once(scene, TOLERANCE * self.accuracy / USUAL)
         response = run.response
         return (
             response.level, response.quiet_time, response.rest_time, response.settling_time,
             from_si(response.axis_amplitude, "mm"),
             from_si(response.residual_imbalance, "g_mm"), run.balanced, run.balanced,
         )  # fmt: skip
-
-
-def machine_started(design: Design, start: SwitchedOn, lighter: tuple[float, ...], tolerance: float) -> StartOutcome:
-    """One start of one machine, by one run with every effect there is data for. Raises NotTrustworthyError."""
-    scene, _ = with_parted_balls(scene_switched_on(design, start, lighter))
-    response = _response(scene, tolerance, WORK)
-    outcome = outcome_of(design, start.member(design), scene, response)
-    if outcome.balanced or outcome.hanging or outcome.imbalance > HALF * scene.imbalance:
-        return outcome
-    # Only where it decides: the worst arrangement of balls that friction holds takes longer than all the rest.
-    return replace(outcome, allowed=allowed_imbalance(with_worst(design), scene.imbalance))
 
 
 @dataclass(frozen=True)
@@ -223,17 +217,10 @@ class SceneOutcome:
 def scene_once(scene: Scene, tolerance: float) -> SceneOutcome:
     """One run of a scene. It balances as a machine does: see `balanced`. Raises NotTrustworthyError."""
     scene, _ = with_parted_balls(scene)
-    response = _response(scene, tolerance, MOST_EVALUATIONS)
+    response = evaluate(scene, integrated(scene, needed_times(scene), tolerance, MOST_EVALUATIONS)[0])
     slipping = slip(response, abs(response.final.speed) or scene.speed)
     balanced = balances(response.residual_imbalance, allowed_of_scene(scene, response.ball_angles), slipping)
     return SceneOutcome(response, slipping, balanced)
-
-
-def _response(scene: Scene, tolerance: float, work: int) -> Response:
-    equations = assemble(scene)
-    choice = choose(equations, "auto", tolerance)
-    run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(work))
-    return evaluate(scene, run)
 
 
 def _line(text: str) -> str:

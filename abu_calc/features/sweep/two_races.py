@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Final
 
 from abu_calc.features.design.study import size
 from abu_calc.features.sweep.columns import What, drag_ratio
-from abu_calc.features.sweep.samples import SweepStudy, Values
+from abu_calc.features.sweep.samples import SweepStudy, Values, numbers_of
 from abu_calc.features.two_races.case import TwoRaceCase, one_race_machine, read_case
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
 from abu_calc.features.two_races.start_cases import FIRST_TOLERANCE, race_centre, start, start_once, wheels_share
@@ -81,14 +81,7 @@ class TwoRaceBuilds(SweepStudy):
         run = start_once(made, member, self.accuracy, FIRST_TOLERANCE, MORE * WORK)
         if isinstance(run, Lost):
             raise NotTrustworthyError(run.reason)
-        limits = made.case.table.limits
-        flags = (
-            run.balanced, not run.hanging, run.level <= limits.vibration_level_db, run.in_time(limits),
-        )  # fmt: skip
-        return (
-            run.level, run.quiet_time, run.rest_time, run.settling_time, from_si(run.residual, "um"),
-            from_si(run.imbalance, "g_mm"), capacity_ratio(made, member), *flags, all(flags),
-        )  # fmt: skip
+        return numbers_of(run, made.case.table.limits, capacity_ratio(made, member))
 
 
 TIMES: Final = tuple(map(attrgetter, ("quiet_time_s", "rest_time_s", "settling_time_s")))

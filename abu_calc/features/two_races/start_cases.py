@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from itertools import cycle, islice
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,10 +51,8 @@ from abu_calc.simulation.residual_criteria import MARGIN, slip
 from abu_calc.simulation.response import amplitude_window, drift, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
-from abu_calc.simulation.start_cases import ALIKE, RUN_UP, Axis, Member, Variation
+from abu_calc.simulation.start_cases import ALIKE, KINDS, RUN_UP, Axis, Kind, Member, Variation
 
-Kind = Literal["bunched", "spread", "standstill", "run-up"]
-KINDS: Final[tuple[Kind, ...]] = ("bunched", "spread", "standstill", "run-up")
 DRAGS: Final = (1.0, 1 / 3, 3.0)
 """Factors on the viscous drag rate: oil as given, hot, cold."""
 OF_BAND: Final = 12

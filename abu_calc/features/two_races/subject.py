@@ -4,11 +4,12 @@ from typing import Final
 
 from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.choice import choose_both
-from abu_calc.features.two_races.start_cases import KINDS, scene_of
+from abu_calc.features.two_races.start_cases import scene_of
 from abu_calc.features.two_races.start_cases import start as start_of
 from abu_calc.formulas.balls import half_angle
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.start_cases import KINDS
 from abu_calc.simulation.subject import Subject
 
 SCENE: Final = "idle"

@@ -19,7 +19,6 @@ from abu_calc.features.two_races.contact import PressedWheel, ball_angles, conta
 from abu_calc.features.two_races.start_cases import (
     ACCURACY,
     DRAGS,
-    Kind,
     all_phases,
     scene_of,
     start,
@@ -34,7 +33,7 @@ from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.residual_criteria import SLIPPING
 from abu_calc.simulation.run_up_amplitude import without_balls
 from abu_calc.simulation.scene_of_file import in_order
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import Kind, Member
 
 Pressed = Literal["settled", "at once", "without"]
 OBSERVED: Final = 1 / 3

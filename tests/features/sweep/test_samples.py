@@ -1,5 +1,6 @@
 """Reasons of members without numbers: those that lie in the computer are no results; one run of a scene."""
 
+import math
 import sqlite3
 from dataclasses import replace
 from types import SimpleNamespace
@@ -9,10 +10,15 @@ import pytest
 
 import abu_calc
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
-from abu_calc.features.sweep.samples import Builds, scene_once
+from abu_calc.features.sweep.columns import drag_ratio
+from abu_calc.features.sweep.plan import asked, planned
+from abu_calc.features.sweep.samples import Builds, scene_once, started
 from abu_calc.simulation.residual_criteria import allowed_of_scene
+from abu_calc.simulation.start_cases import OPPOSITE, Variation
+from abu_calc.sizing import size
 from tests.dynamics.scenes import dimensionless
 from tests.features.sweep.conftest import Sweeps
+from tests.sizing.machines import PINNED, machine
 
 
 def reasons(sweeps: Sweeps) -> dict[int, str]:
@@ -91,6 +97,29 @@ def test_a_scene_above_its_resonance_balances_and_one_below_does_not() -> None:
     below = scene_once(dimensionless(0.5, 0.02, 0.02, 0.1, 0.2, (1.5, -1.7), 200.0), 1e-6)
     assert above.balanced and above.slip < 0.01 and above.response.residual_imbalance < 1e-4
     assert not below.balanced and 0.055 < below.response.residual_imbalance <= 0.06
+
+
+def test_values_of_a_sample_make_its_start_case() -> None:
+    """The middle of the bunch lies 20° ahead of the imbalance unless the sample says otherwise."""
+    driven, factors = size(machine(**PINNED, run_up={"time_s": 0.7})), (1.0, 1.01, 0.99, 1.0)
+    usual = started(driven, {}, factors)
+    assert (usual.start, usual.drag, usual.turned) == ("bunched", driven.case.drag, 0.0)
+    assert usual.eccentricity == OPPOSITE and usual.varied == Variation(ball_masses=factors)
+    values = {"start.temperature_C": 70.0, "start.angle_deg": 110.0, "start.eccentricity_deg": 90.0}
+    member = started(driven, {"start.kind": "run-up", **values}, factors)
+    assert member.run_up == 0.7 and member.turned == pytest.approx(math.pi / 2)
+    assert member.eccentricity == pytest.approx(math.pi / 2)
+    assert member.drag == pytest.approx(drag_ratio(70.0) * driven.case.drag)
+
+
+def test_a_sample_is_followed_until_its_balls_rest() -> None:
+    """A ball that lingers on the heavy side leaves it some time after the scene of the machine ends."""
+    grinder = abu_calc.read("avtovaz-707-305")
+    study = planned(grinder, asked(grinder, None, runs=300, seed=1, tolerances=True), 0.01).study
+    ((_, _, *values),), _ = study.rows((165,))
+    level, _, rest_time, *_ = values[len(study.sample.factors) :]
+    # By the scene alone it has no rest time, and 102 dB.
+    assert rest_time is not None and rest_time > 2.0 and level < 92.0
 
 
 def test_dry_friction_and_eccentricity_widen_what_is_allowed() -> None:
