@@ -7,7 +7,7 @@ import math
 import statistics
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from abu_calc.features.design.region import TrueRegion, true_region
 from abu_calc.features.design.start_rules import FULL, ONE, StartFacts, checks_of_starts, level_check
@@ -59,6 +59,11 @@ class Judgement:
         return design
 
     @property
+    def level_after(self) -> float | None:
+        """Idle level with the autobalancer at the loudest place [dB], as expected."""
+        return self.design.idle.worst.after
+
+    @property
     def outcomes(self) -> Iterator[StartOutcome]:
         """Every start case that was simulated."""
         yield from () if self.facts.ensemble is None else self.facts.ensemble.outcomes
@@ -76,7 +81,7 @@ class Trial:
     def checked(self, checks: Iterable[Check]) -> None:
         """Called with the checks that are known so far."""
 
-    def repeated(self, design: Design, accuracy: float) -> None:
+    def repeated(self, design: Any) -> None:
         """Called with the design before its start cases run."""
 
 
@@ -94,7 +99,7 @@ def judge(
     of_seats = tuple(check for bearing in seats for check in bearing.checks)
     design = size_design(tables)
     trial.checked((*design.checks, *of_seats))
-    trial.repeated(design, accuracy)
+    trial.repeated(design)
     facts = proven(design, accuracy, progress, workers, starts, trial)
     # The search for the true limits of the speed range and the scenes may run beside each other.
     balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=workers)

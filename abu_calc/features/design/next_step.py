@@ -5,15 +5,15 @@ Each change is a set of entries as `--set` takes them. It is followed literally:
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, islice
 from operator import attrgetter
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple, Protocol
 
 from abu_calc.features.design.changes import changes_for_starts
-from abu_calc.features.design.judgement import Judgement, Trial, judge
-from abu_calc.features.design.start_rules import LEVEL, RULES
+from abu_calc.features.design.judgement import Trial
+from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_search import loudness, slowness
 from abu_calc.features.design.verdict import WORDS
 from abu_calc.foundation import patience
@@ -22,13 +22,12 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.inputs.read_machine import Machine, variant_of
-from abu_calc.simulation.ensemble import MORE, WORK, first_tolerance, start_once
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.records import finite
+from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import PINS, SIMULATED, overrides
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.design import Design
 
 Entries = tuple[str, ...]
 """Entries of a file, each as one `--set` takes it."""
@@ -41,11 +40,38 @@ REPEATED: Final = 6
 """Start cases that fail as the file is, which run first with a change, the worst ones."""
 
 
+class Judged(Protocol):
+    """What a trial knows of a machine, with one race or two."""
+
+    @property
+    def facts(self) -> StartFacts:
+        """Design and start cases."""
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """All checks."""
+
+    @property
+    def outcomes(self) -> Iterator[StartOutcome]:
+        """Every start case that was simulated."""
+
+    @property
+    def level_after(self) -> float | None:
+        """Idle level with the autobalancer at the loudest place [dB]."""
+
+
+class Judge(NamedTuple):
+    """How a kind of machine is judged, and how one of its start cases is run."""
+
+    judged: Callable[[Machine, Progress, Trial], Judged]
+    once: Callable[[Any, Member], "StartOutcome | Lost"]
+
+
 class Tried(NamedTuple):
     """A change that was tried: its entries, and the machine with them as judged."""
 
     entries: Entries
-    after: Judgement
+    after: Judged
 
 
 class NextStep(NamedTuple):
@@ -65,8 +91,8 @@ class Change(Trial):
     `worse_than`: rank of the grade that the verdict has to excel.
     """
 
-    def __init__(self, before: Judgement, worse_than: int) -> None:
-        self.before, self.worse_than = before, worse_than
+    def __init__(self, before: Judged, worse_than: int, once: Callable[[Any, Member], StartOutcome | Lost]) -> None:
+        self.before, self.worse_than, self.once = before, worse_than, once
         self.ranks = {_key(check): RANK.index(check.status) for check in before.checks}
 
     def checked(self, checks: Iterable[Check]) -> None:
@@ -76,21 +102,19 @@ class Change(Trial):
             if check.requested and (rank <= self.worse_than or rank < self.ranks.get(_key(check), PASS)):
                 raise NotBetterError
 
-    def repeated(self, design: Design, accuracy: float) -> None:
+    def repeated(self, design: Any) -> None:
         """Run the start cases that fail without the change, or warn where all must pass; raise NotBetterError if one
         still does.
         """
-        limits, level, count = design.case.table.limits, design.case.level_limit, design.autobalancer.ball_count
-        drag = self.before.design.case.drag
-        every = self.worse_than == RANK.index("warn")
+        limits, drag, old = design.case.table.limits, design.case.drag, self.before.facts.design.case.drag
+        level, every = limits.vibration_level_db, self.worse_than == RANK.index("warn")
         bad = [run for run in self.before.outcomes if not run.holds(limits, level) and (every or run.member.promised)]
-        for run in sorted(bad, key=lambda run: (run.hanging, run.quiet_time_or_inf, run.level), reverse=True)[
-            :REPEATED
-        ]:
-            member = replace(run.member, drag=run.member.drag * design.case.drag / drag if drag else design.case.drag)
-            if member.angles and len(member.angles) != count:
+        bad.sort(key=lambda run: (run.hanging, run.quiet_time_or_inf, run.level), reverse=True)
+        for run in bad[:REPEATED]:
+            member = replace(run.member, drag=run.member.drag * drag / old if old else drag)
+            if member.angles and len(member.angles) != design.autobalancer.ball_count:
                 continue
-            again = start_once(design, member, accuracy, first_tolerance(design), MORE * WORK, early_end=True)
+            again = self.once(design, member)
             self.work += again.work
             if not isinstance(again, StartOutcome) or not again.holds(limits, level):
                 raise NotBetterError
@@ -103,22 +127,22 @@ def _key(check: Check) -> tuple[str, str]:
     return check.code, check.name
 
 
-def next_step(machine: Machine, before: Judgement, accuracy: float, progress: Progress, workers: int) -> NextStep:
+def next_step(
+    machine: Machine, before: Judged, proposals: Iterable[Entries], judge: Judge, progress: Progress
+) -> NextStep:
     """The first change with which all checks pass, else the one with the best verdict of those tried.
 
     It costs nothing where nothing is wrong. Where something is, all trials together take as long as the file as it is.
     """
     best, rank, tried = None, RANK.index(worst(before.checks)), list[str]()
     left = max(SHARE * sum(run.work for run in before.outcomes), LEAST_WORK)
-    for entries in islice(proposals(before), MOST_TRIALS):
+    for entries in islice(proposals, MOST_TRIALS):
         if rank == PASS or left <= 0 or patience.over():
             break
-        trial, told = Change(before, rank), within(progress, f"with {in_words(entries)}")
+        trial, told = Change(before, rank, judge.once), within(progress, f"with {in_words(entries)}")
         try:
             with trials.left_out():
-                after = judge(
-                    variant_of(machine, ",".join(entries)).whole("size"), accuracy, told, workers, trial=trial
-                )
+                after = judge.judged(variant_of(machine, ",".join(entries)), told, trial)
             best, rank = Tried(entries, after), RANK.index(worst(after.checks))
         except NotBetterError:
             tried.append(in_words(entries))
@@ -133,9 +157,15 @@ def in_words(entries: Entries) -> str:
 
     >>> in_words(("oil.grade=VG 100", "oil.fill_ml=1", "autobalancer.ball_count=4"))
     'oil.grade = VG 100 and oil.fill_ml = 1'
+    >>> in_words(("autobalancer.0.max_width_mm=40", "autobalancer.1.max_width_mm=40"))
+    'max_width_mm = 40 in both races'
     """
     other = [entry for entry in entries if entry.partition("=")[0] not in PINNED]
-    *first, last = (entry.removeprefix("autobalancer.").replace("=", " = ", 1) for entry in other or entries)
+    shown = [entry.removeprefix("autobalancer.").replace("=", " = ", 1) for entry in other or entries]
+    of_both = [entry[2:] for entry in shown if entry.startswith("0.") and f"1.{entry[2:]}" in shown]
+    alone = [entry for entry in shown if entry[2:] not in of_both]
+    both = [*of_both[:-1], *(f"{entry} in both races" for entry in of_both[-1:])]
+    *first, last = *alone, *both
     return f"{', '.join(first)} and {last}" if first else last
 
 
@@ -145,13 +175,13 @@ class Number(NamedTuple):
     path: str
     name: str
     unit: str
-    of: Callable[[Judgement], float | None]
+    of: Callable[[Judged], float | None]
 
 
-def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False) -> Callable[[Judgement], float | None]:
+def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False) -> Callable[[Judged], float | None]:
     """The largest of the listed or of the further start cases; None for one that never is, or without any."""
 
-    def largest(judged: Judgement) -> float | None:
+    def largest(judged: Judged) -> float | None:
         facts = judged.facts
         starts = (facts.searched if further else facts.ensemble) or Ensemble(0.0, (), ())
         return finite(max(map(value, starts.outcomes), default=math.inf))
@@ -159,8 +189,8 @@ def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False)
     return largest
 
 
-def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judgement], float | None]:
-    return lambda judged: value(judged.design.autobalancer)
+def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judged], float | None]:
+    return lambda judged: value(judged.facts.design.autobalancer) if hasattr(judged.facts.design, "choice") else None
 
 
 NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
@@ -169,7 +199,7 @@ NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
         Number("autobalancer.mass_fraction", "the share of the mass", "", _number(attrgetter("mass_fraction"))),
     ),
     "ABU401": (
-        Number("vibration.level_after_db", "the expected level", "dB", lambda judged: judged.design.idle.worst.after),
+        Number("vibration.level_after_db", "the expected level", "dB", attrgetter("level_after")),
         Number("ensemble.level_db.worst", "the loudest start case", "dB", _of_starts(attrgetter("level"))),
         Number("ensemble.further_starts.level_db", "the loudest further start case", "dB",
                _of_starts(loudness, further=True)),
@@ -183,7 +213,7 @@ NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
 """Numbers by which checks are decided."""
 
 
-def _moved(check: Check, before: Judgement, after: Judgement) -> tuple[Number, float | None, float] | None:
+def _moved(check: Check, before: Judged, after: Judged) -> tuple[Number, float | None, float] | None:
     """The number that breaks the limit of a check and keeps it with a change, before and after; None: there is none."""
     for number in NUMBERS.get(check.code, ()):
         old, new = number.of(before), number.of(after)
@@ -193,7 +223,7 @@ def _moved(check: Check, before: Judgement, after: Judgement) -> tuple[Number, f
     return None
 
 
-def promise(before: Judgement, step: NextStep) -> dict[str, str | float | None] | None:
+def promise(before: Judged, step: NextStep) -> dict[str, str | float | None] | None:
     """What the change moves: the path of a number of the result that breaks a limit, from what and to what.
 
     By the first check that decides the verdict; where no such number does, the word of the verdict. None: no change.
@@ -210,9 +240,9 @@ def promise(before: Judgement, step: NextStep) -> dict[str, str | float | None] 
 PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 
-def actions(before: Judgement, step: NextStep) -> tuple[Check, ...]:
+def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
-    first, checks = "", list[Check]()
+    first, checks = None, list[Check]()
     for check in before.checks:
         if check.status == "pass" or not check.requested:
             checks.append(check)
@@ -223,8 +253,8 @@ def actions(before: Judgement, step: NextStep) -> tuple[Check, ...]:
             if after is None or RANK.index(after.status) > RANK.index(check.status):
                 action = _action(check, before, step.best)
         elif action is None:
-            action = f"See the action of {first}." if first else _no_change(step)
             first = first or check.code
+            action = _no_change(step) if check.code == first else f"See the action of {first}."
         checks.append(check.with_action(action))
     return tuple(checks)
 
@@ -232,10 +262,16 @@ def actions(before: Judgement, step: NextStep) -> tuple[Check, ...]:
 def _no_change(step: NextStep) -> str:
     if not step.without_success:
         return "No change of the file was found that mends this."
-    return f"No change was found with which the machine suits. Tried: {'; '.join(step.without_success)}."
+    tried, more = step.without_success[:TOLD], len(step.without_success) - TOLD
+    also = f"; and {more} more" if more > 0 else ""
+    return f"No change was found with which the machine suits. Tried: {'; '.join(tried)}{also}."
 
 
-def _action(check: Check, before: Judgement, best: Tried) -> Action:
+TOLD: Final = 6
+"""Changes without success that are told."""
+
+
+def _action(check: Check, before: Judged, best: Tried) -> Action:
     """The change with what it does to the number that decides this check, and to all other checks."""
     left = dict.fromkeys(each.code for each in best.after.checks if each.requested and each.status != "pass")
     then = f"Then {' and '.join(left)} still warn{'s' * (len(left) == 1)}." if left else "All checks then pass."
@@ -245,32 +281,37 @@ def _action(check: Check, before: Judgement, best: Tried) -> Action:
     elif found is not None:
         number, old, new = found
         text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
-    oil, rate = best.after.design.case.oil, ""
+    oil, rate = getattr(best.after.facts.design.case, "oil", None), ""
     if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
         rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"
     return Action(f"Set {in_words(best.entries)}{rate}: {text} ({SIMULATED}). {then}", best.entries)
 
 
-def proposals(before: Judgement) -> Iterator[Entries]:
+def proposals(before: Judged) -> Iterator[Entries]:
     """Changes that are worth a trial, without repetition: those of the checks that do not pass, each and all together,
     then those for start cases, each by itself and with these.
     """
     bad = sorted((check for check in before.checks if check.requested and check.status != "pass"),
                  key=lambda check: RANK.index(check.status))  # fmt: skip
     calculated = dict.fromkeys(check.overrides for check in bad if check.overrides)
-    together = _together(*calculated)
     of_starts, codes = [], {check.code for check in bad}
-    if codes & OF_STARTS and before.design.frequency.balancing_possible:
+    if codes & OF_STARTS and before.facts.design.frequency.balancing_possible:
         loud = LEVEL.code in codes
         of_starts = [overrides(entries) for entries in changes_for_starts(before.facts, loud=loud)]
-    paired = (_together(entries, together) for entries in of_starts) if together else ()
-    yield from dict.fromkeys(filter(None, chain(calculated, [together], of_starts, paired)))
+    yield from together([*calculated], of_starts)
+
+
+def together(calculated: Sequence[Entries], of_starts: Sequence[Entries]) -> Iterator[Entries]:
+    """Changes of either kind, each alone, those calculated as one, and those for start cases with these as one."""
+    whole = _as_one(*calculated)
+    paired = (_as_one(entries, whole) for entries in of_starts) if whole else ()
+    yield from dict.fromkeys(filter(None, chain(calculated, [whole], of_starts, paired)))
 
 
 OF_STARTS: Final = frozenset(rule.code for rule in RULES)
 
 
-def _together(*changes: Entries) -> Entries:
+def _as_one(*changes: Entries) -> Entries:
     """Several changes as one; none if they set a key to different values."""
     entries = tuple(dict.fromkeys(chain.from_iterable(changes)))
     return entries if len({entry.partition("=")[0] for entry in entries}) == len(entries) else ()

@@ -59,7 +59,7 @@ class StartFacts:
     starts: str = FULL
     unsimulated: Finding = UNCARRIED
     """What is known without start cases."""
-    advice: Callable[[str, Grade], Action | str] | None = None
+    advice: Callable[[str, Grade], Action | str | None] | None = None
     """Action of a check that is not passed, by its code and status."""
     warnings: tuple[str, ...] = ()
 

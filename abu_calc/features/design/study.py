@@ -8,8 +8,8 @@ from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
-from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, judge
-from abu_calc.features.design.next_step import NextStep, actions, next_step, promise
+from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, Trial, judge
+from abu_calc.features.design.next_step import Judge, NextStep, actions, next_step, promise, proposals
 from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
@@ -46,6 +46,7 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun
+from abu_calc.simulation.ensemble import MORE, WORK, first_tolerance, start_once
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SimulatedScene
@@ -53,6 +54,7 @@ from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
+from abu_calc.simulation.start_cases import Member
 from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.parts.housing_parts import HousingParts
@@ -244,7 +246,9 @@ def size(
         threads = processors() if workers is None else workers
         judged = judge(tables, accuracy, progress, threads, starts)
         design, facts, whole = judged.design, judged.facts, starts == FULL
-        step = next_step(machine, judged, accuracy, progress, threads) if whole else NextStep(None)
+        step = NextStep(None)
+        if whole:
+            step = next_step(machine, judged, proposals(judged), _judge(accuracy, threads), progress)
         further = () if facts.searched is None else facts.searched.outcomes
         gaps = meanwhile(data_gaps, design, facts.ensemble if whole else None, further, accuracy, workers=threads)
         work, loads = judged.work, None
@@ -319,6 +323,20 @@ def size(
         starts=Starts(None if facts.ensemble is None else (design, facts.ensemble, accuracy), facts.searched),
         parts=design.construction.parts,
     )
+
+
+def _judge(accuracy: float, workers: int) -> Judge:
+    """How a change of a machine with one race is tried."""
+
+    def judged(machine: Machine, progress: Progress, trial: Trial) -> Judgement:
+        """As `size` judges it."""
+        return judge(machine.whole("size"), accuracy, progress, workers, trial=trial)
+
+    def once(design: Design, member: Member) -> StartOutcome | Lost:
+        """One start case."""
+        return start_once(design, member, accuracy, first_tolerance(design), MORE * WORK, early_end=True)
+
+    return Judge(judged, once)
 
 
 def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, file: str) -> Verdict:

@@ -5,11 +5,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
-from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.records import OneRace, TwoRaceVibration
 from abu_calc.formulas.two_races import two_races_balance
-from abu_calc.foundation.checks import Action, Check, Finding, coded, verdict
+from abu_calc.foundation.checks import Check, Finding, coded, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import Ensemble
@@ -64,10 +63,7 @@ def stability_check(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> 
     )  # fmt: skip
 
 
-NO_OTHER_MAKE = "No larger ball, room, share of mass, or truer race that was tried helps. Reduce the imbalances."
-
-
-def capacity_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator[Check]:
+def capacity_checks(design: TwoRaceDesign) -> Iterator[Check]:
     """ABU201 for each race: its balls carry the required capacity times the margin."""
     for number, race in enumerate(design.races, 1):
         table = design.case.table.autobalancer[number - 1]
@@ -78,20 +74,18 @@ def capacity_checks(design: TwoRaceDesign, action: Action | None = None) -> Iter
             f"{race.design.autobalancer.ball_count} balls must carry the required capacity of the worst phase times "
             f"the margin {table.capacity_margin:g}", from_si(race.design.autobalancer.capacity, "g_mm"),
             from_si(needed, "g_mm"), "g·mm",
-            None if passed else action or NO_OTHER_MAKE,
-            "least", of=f"race {number}",
+            bound="least", of=f"race {number}",
         )  # fmt: skip
 
 
-def race_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator[Check]:
-    """Checks of each race by itself; their actions were tried on one race, so `action` of both takes their place."""
+def race_checks(design: TwoRaceDesign) -> Iterator[Check]:
+    """Checks of each race by itself, without the actions of one race."""
     for number, race in enumerate(design.races, 1):
         for check in race.design.checks:
-            bare = replace(check, name=f"{check.name}, race {number}", remedy=None, overrides=())
-            yield bare if check.status == "pass" else bare.with_action(action or NO_OTHER_MAKE)
+            yield replace(check, name=f"{check.name}, race {number}", remedy=None, overrides=())
 
 
-def mass_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator[Check]:
+def mass_checks(design: TwoRaceDesign) -> Iterator[Check]:
     """ABU203 for each autobalancer: its share of the mass of the machine."""
     machine = design.case.table.machine.mass_kg
     for number, (race, table) in enumerate(zip(design.races, design.case.table.autobalancer, strict=True), 1):
@@ -100,21 +94,14 @@ def mass_checks(design: TwoRaceDesign, action: Action | None = None) -> Iterator
         yield coded(
             "ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",
             100 * share, 100 * table.max_mass_fraction, "%",
-            None if passed else action or NO_OTHER_MAKE,
             of=f"race {number}",
         )  # fmt: skip
 
 
-NO_QUIETER = "No smaller eccentricity, friction, or other drag rate that was tried helps. Balance the wheels."
-
-
-def level_checks(
-    design: TwoRaceDesign, vibration: TwoRaceVibration, ensemble: Ensemble | None, action: Action | None = None
-) -> Iterator[Check]:
+def level_checks(design: TwoRaceDesign, vibration: TwoRaceVibration, ensemble: Ensemble | None) -> Iterator[Check]:
     """ABU401 and ABU402: levels of the loudest place against the limit, and against those without autobalancers.
 
-    `action`: one that was tried and brings all start cases below the limit. Where start cases gave no answer, what
-    would pass is not evaluated.
+    Where start cases gave no answer, what would pass is not evaluated.
     """
     limit = design.case.table.limits.vibration_level_db
     if vibration.level_after_db is None or ensemble is None:
@@ -131,7 +118,6 @@ def level_checks(
             "ABU401", verdict(passed, safe),
             "Level at the loudest place with the autobalancers, loudest start case at the given drag rate"
             + ("" if safe else f"; in any oil {loudest:.1f} dB"), given, limit, "dB",
-            None if passed and safe else action or NO_QUIETER,
         )  # fmt: skip
     if lost:
         yield coded("ABU402", "not-done", partly, remedy="See ABU701.")
@@ -144,22 +130,9 @@ def level_checks(
     )  # fmt: skip
 
 
-NOTHING = "No drag rate and no larger ball that were tried help."
-OTHERWISE = {
-    "ABU701": f"{NOTHING} Run farther above the critical speeds.",
-    "ABU702": f"{NOTHING} Permit a longer quiet time.",
-    "ABU704": f"{NOTHING} Run up faster, or farther above the critical speeds.",
-}
 LONGER = "Allow some minutes: --patience 600 (not tried)."
-"""Actions where no change that was tried helps, and where start cases gave no answer."""
+"""Action where start cases gave no answer."""
 
 
 BELOW: Final = Finding("not-done", "Not simulated below a critical speed", action="See ABU101.")
-
-
-def start_checks(design: TwoRaceDesign, ensemble: Ensemble | None, action: Action | None) -> Iterator[Check]:
-    """Checks of the start cases; `action`: one that was tried and makes all of them pass."""
-    return checks_of_starts(StartFacts(
-        design, ensemble, unsimulated=BELOW,
-        advice=lambda code, status: LONGER if status == "not-done" else action or OTHERWISE[code],
-    ))  # fmt: skip
+"""What is known of start cases where none runs."""

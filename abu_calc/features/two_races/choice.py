@@ -62,11 +62,10 @@ class TwoRaceDesign:
         return self.bare.rotor.mass + sum(race.design.autobalancer.mass for race in self.races)
 
 
-def choose_both(case: TwoRaceCase, *, advised: bool = True) -> TwoRaceDesign:
+def choose_both(case: TwoRaceCase) -> TwoRaceDesign:
     """Balls and races for the worst phases; the larger of the two balls serves both races.
 
-    `advised`: whether changes are tried where a race breaks a limit. Raises InputError if no ball fits the room of a
-    race.
+    Raises InputError if no ball fits the room of a race.
     """
     masses, ball = (0.0, 0.0), None
     with left_out():
@@ -81,8 +80,6 @@ def choose_both(case: TwoRaceCase, *, advised: bool = True) -> TwoRaceDesign:
             if (first, second) == masses:
                 break
             masses = (first, second)
-    if advised and any(check.status != "pass" for race in races for check in race.design.checks):
-        races = _both(loaded, ball)
     return TwoRaceDesign(case.carrying(masses), case, races)
 
 

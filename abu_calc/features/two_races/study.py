@@ -1,69 +1,43 @@
 """Study behind `abu size` of a machine with two races: sizing, stability, start cases, checks."""
 
-import statistics
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from typing import Final, cast
+from typing import Final
 
-from abu_calc.dynamics.stability.verdict import stability
+from abu_calc.features.design.judgement import Trial
+from abu_calc.features.design.next_step import Judge, actions, next_step, promise
 from abu_calc.features.design.records import Eccentricity, Section
 from abu_calc.features.design.verdict import Verdict, benefit
-from abu_calc.features.two_races.advice import missed, quieter_change, sturdier_change, tried_change
-from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, read_case
-from abu_calc.features.two_races.checks import (
-    SpeedStability,
-    capacity_checks,
-    level_checks,
-    mass_checks,
-    race_checks,
-    region_check,
-    stability_check,
-    start_checks,
-)
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.two_races.advice import proposals
+from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs
+from abu_calc.features.two_races.checks import SpeedStability
+from abu_calc.features.two_races.choice import TwoRaceDesign
+from abu_calc.features.two_races.judgement import TwoRaceJudgement, balances, judge
 from abu_calc.features.two_races.places import arms
 from abu_calc.features.two_races.records import (
     OneRace,
-    PlaceOnSpindleLevel,
     TwoRaceAutobalancer,
     TwoRaceEnsemble,
     TwoRaceFrequency,
     TwoRaceResponse,
     TwoRaceRunUp,
     TwoRaceSizeResult,
-    TwoRaceVibration,
 )
 from abu_calc.features.two_races.run_up import run_up_amplitudes
-from abu_calc.features.two_races.start_cases import (
-    ACCURACY,
-    TwoRaceOutcome,
-    all_phases,
-    ensemble_of,
-    level_of,
-    stability_scene,
-)
-from abu_calc.formulas.balls import half_angle
+from abu_calc.features.two_races.start_cases import ACCURACY, FIRST_TOLERANCE, start_once
 from abu_calc.formulas.two_races import (
-    PlacedImbalance,
-    mode_margin,
-    one_race_limit,
-    one_race_resultant,
     two_races_balance,
 )
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Action, Check
-from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.ensemble_results import Ensemble
+from abu_calc.simulation.ensemble import MORE, WORK
+from abu_calc.simulation.ensemble_results import Lost, StartOutcome
 from abu_calc.simulation.result import Provenance
-from abu_calc.sizing.actions import SIMULATED
+from abu_calc.simulation.start_cases import Member
 
-ONE_RACE_PLACES: Final = 9
-"""Places of a single race that are tried between both races."""
-UNTRIED: Final = Action("No change was tried, since start cases gave no answer or the time of --patience was over.")
 RUN_UP_ACCURACY: Final = 0.01
 """Accuracy of the run-up that is drawn."""
 RESPONSE_TO: Final = 1.1
@@ -84,33 +58,30 @@ def size_two_races(
     table = machine.two_races
     if table is None:
         raise InputError("this file has one race", remedy="Use `abu size FILE`.")
-    with machine.located():
-        design = choose_both(read_case(table))
-    speeds = dict.fromkeys((*design.case.speed_range, design.case.speed))
-    above = all(two_races_balance(design.case.rotor, speed) for speed in speeds)
-    judged = tuple(_stability(design, speed) for speed in speeds) if above else ()
     accuracy, threads = max(accuracy, ACCURACY), processors() if workers is None else workers
-    ensemble = ensemble_of(design, accuracy, progress, threads) if above else None
-    one, vibration = _one_race(design), _vibration(design.case, ensemble)
-    late, loud = _advice(design, ensemble, accuracy, progress, threads)
-    checks = (
-        region_check(design, one),
-        *stability_check(design, judged),
-        *_made(design),
-        *level_checks(design, vibration, ensemble, loud),
-        *start_checks(design, ensemble, late),
-    )
+    with machine.located():
+        judged = judge(table, accuracy, progress, threads)
+        step = next_step(machine, judged, proposals(judged), _judge(accuracy, threads), progress)
+    design, ensemble, one, vibration = judged.facts.design, judged.facts.ensemble, judged.one_race, judged.vibration
+    checks = actions(judged, step)
     many, limit = None if ensemble is None else TwoRaceEnsemble.of(ensemble), table.limits.vibration_level_db
     quiet = None if many is None else many.quiet_time_s.typical
     told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
     return TwoRaceSizeResult(
         title=table.machine.name,
-        verdict=Verdict.of(checks, told, machine.file or None, _simulated_change(checks)),
+        verdict=Verdict.of(
+            checks,
+            told,
+            machine.file or None,
+            () if step.best is None else step.best.entries,
+            promise(judged, step),
+            incurable=step.best is None and not patience.over(),
+        ),
         checks=checks,
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
-        frequency=_frequency(design, judged, above),
+        frequency=_frequency(design, judged.stability),
         imbalances_g_mm=tuple(from_si(abs(wheel.imbalance), "g_mm") for wheel in design.case.wheels),
         required_capacity_g_mm=from_si(design.races[0].need, "g_mm"),
         autobalancer=TwoRaceAutobalancer.of_race(design, 0),
@@ -125,9 +96,20 @@ def size_two_races(
     )
 
 
-def _simulated_change(checks: Sequence[Check]) -> tuple[str, ...]:
-    """Entries of the first change that was simulated; one that was calculated alone may leave another check failing."""
-    return next((check.overrides for check in checks if check.overrides and SIMULATED in (check.remedy or "")), ())
+def _judge(accuracy: float, workers: int) -> Judge:
+    """How a change of a machine with two races is tried."""
+
+    def judged(machine: Machine, progress: Progress, trial: Trial) -> TwoRaceJudgement:
+        """As `size_two_races` judges it."""
+        assert machine.two_races is not None
+        return judge(machine.two_races, accuracy, progress, workers, trial)
+
+    def once(design: TwoRaceDesign, member: Member) -> StartOutcome | Lost:
+        """One start case."""
+        work = MORE * WORK if member.run_up else WORK
+        return start_once(design, member, accuracy, FIRST_TOLERANCE, work, early_end=True)
+
+    return Judge(judged, once)
 
 
 def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
@@ -164,89 +146,8 @@ def _off(case: TwoRaceCase) -> float:
     return case.eccentricity * arms([held.place for held in case.places], case.races)
 
 
-def _advice(
-    design: TwoRaceDesign, ensemble: Ensemble | None, accuracy: float, progress: Progress, workers: int
-) -> tuple[Action | None, Action | None]:
-    """Changes that were tried: one if a start case is late or does not balance, one if a start case is too loud."""
-    if ensemble is None or not ensemble.outcomes:
-        return None, None
-    if ensemble.lost or patience.over():
-        return UNTRIED, UNTRIED
-    limits = design.case.table.limits
-    late = any(not run.balanced or not run.in_time(limits) for run in ensemble.outcomes)
-    loud = any(run.level > limits.vibration_level_db for run in ensemble.outcomes)
-    return (
-        tried_change(design, ensemble, accuracy, progress, workers) if late else None,
-        quieter_change(design, ensemble, accuracy, progress, workers) if loud else None,
-    )
-
-
-def _made(design: TwoRaceDesign) -> Iterator[Check]:
-    """Checks of what is made: capacity, the races by themselves, mass; a change is tried if one does not pass."""
-    action = sturdier_change(design) if missed(design) and not patience.over() else None
-    yield from (*capacity_checks(design, action), *race_checks(design, action), *mass_checks(design, action))
-
-
-def _stability(design: TwoRaceDesign, speed: float) -> SpeedStability:
-    """The sufficient rule for every forward whirl; where it does not hold, eigenvalues at phases of the imbalances."""
-    case = design.case
-    balls = [PlacedImbalance(place, mass) for place, mass in zip(case.races, design.ball_masses, strict=True)]
-    modes = case.rotor.forward_modes(speed)
-    slower = [mode for mode in modes if mode.frequency < speed]
-    margins = [mode_margin(mode, balls, speed, drag, case.inertia_factor) for mode in slower for drag in case.drags]
-    if margins and len(slower) == len(modes) and all(margin.holds for margin in margins):
-        return SpeedStability(speed, True, None)
-    growths: list[float] = []
-    for phases in all_phases(case):
-        scene = replace(stability_scene(design, phases), speed=speed)
-        abu = design.races[0].design.autobalancer
-        try:
-            found = stability(scene, half_angle(abu.ball_diameter / 2, abu.pitch_radius))
-        except NotTrustworthyError as error:
-            return SpeedStability(speed, None, None, str(error).splitlines()[0])
-        if found.growth_rate is None:
-            return SpeedStability(speed, found.stable, None, found.reason or "")
-        growths.append(found.growth_rate)
-    return SpeedStability(speed, max(growths) < 0, max(growths))
-
-
-def _vibration(case: TwoRaceCase, ensemble: Ensemble | None) -> TwoRaceVibration:
-    """Levels at every place: without autobalancers at the worst of the phases, with them over the start cases."""
-    runs = () if ensemble is None else cast("tuple[TwoRaceOutcome, ...]", ensemble.outcomes)
-    given = [run for run in runs if run.balanced and run.member.at_nominal]
-    rows = []
-    for index, held in enumerate(case.places):
-        without = sum(abs(case.rotor.whirl(held.place, [wheel], case.speed)) for wheel in case.wheels)
-        if not case.unknown_phases:
-            without = abs(case.rotor.whirl(held.place, case.turned(()), case.speed))
-        medians = [run.displacements[index] for run in given]
-        rows.append(
-            PlaceOnSpindleLevel(
-                name=held.name,
-                level_before_db=level_of(without, case.speed),
-                level_after_db=level_of(statistics.median(medians), case.speed) if medians else None,
-                level_after_worst_db=_largest(
-                    [level_of(run.displacements[index], run.member.speed or case.speed) for run in runs]
-                ),
-            )
-        )
-    before = max(row.level_before_db for row in rows)
-    after = _largest([row.level_after_db for row in rows])
-    return TwoRaceVibration(
-        level_before_db=before,
-        level_after_db=after,
-        level_after_worst_db=_largest([row.level_after_worst_db for row in rows]),
-        reduction_db=None if after is None else before - after,
-        handles=tuple(rows),
-    )
-
-
-def _largest(values: Sequence[float | None]) -> float | None:
-    return max((value for value in values if value is not None), default=None)
-
-
-def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability], above: bool) -> TwoRaceFrequency:
-    case = design.case
+def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> TwoRaceFrequency:
+    case, above = design.case, balances(design)
     critical = case.rotor.critical_speeds()
     below = [speed for speed in critical if speed < min(case.speed_range)]
     region = "supercritical" if above else "between" if below else "subcritical"
@@ -259,36 +160,6 @@ def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability], above: b
         balancing_possible=above,
         stable=None if not states or None in states else all(states),
         growth_rate_per_s=max(growths) if growths else None,
-    )
-
-
-def _one_race(design: TwoRaceDesign) -> OneRace | None:
-    """The single race between both races that leaves the least at the loudest place; None if none balances."""
-    case = design.bare
-    # The autobalancer's own mass h at its place z_r adds h to M and h·z_r² to J': together 2·h in the limit to z_r.
-    own = max(race.design.autobalancer.mass for race in design.races)
-    limit = one_race_limit(replace(case.rotor, mass=case.rotor.mass + 2 * own), case.speed)
-    tried: list[tuple[float, float]] = []
-    first, second = case.races
-    for step in range(ONE_RACE_PLACES):
-        place = first + (second - first) * step / (ONE_RACE_PLACES - 1)
-        if not case.rotor.receptance(place, place, case.speed).real < 0 or (limit and abs(place) > limit):
-            continue
-        loudest = 0.0
-        for phases in all_phases(case):
-            wheels = case.turned((0.0, *phases) if all(angle is None for angle in case.angles) else phases)
-            whole = [*wheels, PlacedImbalance(place, one_race_resultant(case.rotor, place, wheels, case.speed))]
-            loudest = max([loudest, *(abs(case.rotor.whirl(held.place, whole, case.speed)) for held in case.places)])
-        tried.append((loudest, place))
-    if not tried:
-        return None
-    rest, place = min(tried)
-    level = level_of(rest + case.eccentricity, case.speed)
-    return OneRace(
-        plane_mm=from_si(place, "mm"),
-        level_db=level,
-        limit_to_place_mm=None if limit is None else from_si(limit, "mm"),
-        enough=level <= case.table.limits.vibration_level_db,
     )
 
 
