@@ -70,10 +70,10 @@ def judge(
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
     trial = trial or Trial()
     design = choose_both(read_case(table))
-    one = _one_race(design)
     made = *capacity_checks(design), *race_checks(design), *mass_checks(design)
+    trial.checked((region_check(design, None), *made))
+    one = _one_race(design)
     region = region_check(design, one)
-    trial.checked((region, *made))
     above, speeds = balances(design), dict.fromkeys((*design.case.speed_range, design.case.speed))
     judged = tuple(_stability(design, speed) for speed in speeds) if above else ()
     stable = tuple(stability_check(design, judged))
@@ -82,12 +82,17 @@ def judge(
     ensemble = ensemble_of(design, accuracy, progress, workers) if above else None
     trial.work += 0 if ensemble is None else ensemble.work
     vibration = _vibration(design.case, ensemble)
-    facts = StartFacts(
-        design, ensemble, unsimulated=BELOW, advice=lambda _, status: LONGER if status == "not-done" else None
-    )
+    facts = facts_of(design, ensemble)
     checks = region, *stable, *made, *level_checks(design, vibration, ensemble), *checks_of_starts(facts)
     trial.checked(checks)
     return TwoRaceJudgement(facts, judged, one, vibration, checks)
+
+
+def facts_of(design: TwoRaceDesign, ensemble: Ensemble | None) -> StartFacts:
+    """What the start cases show; None below a critical speed, where none runs."""
+    return StartFacts(
+        design, ensemble, unsimulated=BELOW, advice=lambda _, status: LONGER if status == "not-done" else None
+    )
 
 
 def balances(design: TwoRaceDesign) -> bool:
