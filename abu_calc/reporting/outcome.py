@@ -117,11 +117,18 @@ def document(outcome: Outcome) -> dict[str, Any]:
         "abu": _head(outcome.command, outcome.provenance),
         "input": outcome.provenance.input,
         "status": outcome.status,
-        "checks": [asdict(check) for check in outcome.checks],
+        "checks": [asdict(check) | {"change": _change(check.overrides)} for check in outcome.checks],
         "result": outcome.result,
         "model": outcome.model,
         "warnings": list(outcome.warnings),
     }
+
+
+def _change(entries: tuple[str, ...]) -> dict[str, object] | None:
+    """Everything that an action replaces, by key path; None where it replaces nothing."""
+    from abu_calc.inputs.reading.overrides import parse_override
+
+    return {override.key: override.value for override in map(parse_override, entries)} if entries else None
 
 
 def error_document(command: str, error: BaseException) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from typing import Annotated, ClassVar
 
 import pytest
@@ -63,8 +64,16 @@ def test_the_envelope_holds_what_the_result_holds_and_no_input_without_a_file() 
     assert made["input"] is None and made["warnings"] == ["careful"] and made["result"] == {"mass_g": 240.5}
     assert made["checks"] == [
         {"code": "ABU201", "name": "capacity", "status": "pass", "message": "enough", "value": 2.0, "limit": 1.0,
-         "unit": "g·mm", "remedy": None, "bound": "least", "overrides": ()}
+         "unit": "g·mm", "remedy": None, "bound": "least", "overrides": (), "change": None}
     ]  # fmt: skip
+
+
+def test_an_action_is_told_with_everything_that_it_replaces() -> None:
+    entries = ("oil.grade=VG 100", "run_up.time_s=0.5", "machine.speed_range_rpm=[3000,6000]")
+    made = document(sample(replace(check("fail"), overrides=entries)))
+    assert made["checks"][0]["change"] == {
+        "oil.grade": "VG 100", "run_up.time_s": 0.5, "machine.speed_range_rpm": [3000, 6000]
+    }  # fmt: skip
 
 
 def test_a_command_without_a_study_has_its_notes_for_warnings() -> None:
