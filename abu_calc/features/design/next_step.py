@@ -242,7 +242,8 @@ PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
-    first, checks = None, list[Check]()
+    bad = [check for check in before.checks if check.requested and check.status != "pass" and not check.remedy]
+    first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
     for check in before.checks:
         if check.status == "pass" or not check.requested:
             checks.append(check)
@@ -253,8 +254,8 @@ def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
             if after is None or RANK.index(after.status) > RANK.index(check.status):
                 action = _action(check, before, step.best)
         elif action is None:
-            first = first or check.code
-            action = _no_change(step) if check.code == first else f"See the action of {first}."
+            known = first is None or check.code == first.code
+            action = _no_change(step) if known or first is None else f"See the action of {first.code}."
         checks.append(check.with_action(action))
     return tuple(checks)
 

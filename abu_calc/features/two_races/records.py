@@ -1,15 +1,19 @@
 """Result of `abu size` for a machine with two races: fields of the JSON document."""
 
+from collections.abc import Iterator
 from typing import Annotated, ClassVar, Self
 
+from abu_calc.features.design.band import NEW_WHEEL, BandRow
 from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
 from abu_calc.features.design.starts import Spread
 from abu_calc.features.design.verdict import Verdict
+from abu_calc.features.two_races.case import TwoRaceCase
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import Ensemble
 from abu_calc.simulation.result import Result
+from abu_calc.sizing.case import UNKNOWN_OIL
 
 
 @record
@@ -93,9 +97,10 @@ class TwoRaceEnsemble(Record):
     rest_time_s: Annotated[Spread, Quantity("rest time", "t_r")]
     settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
     slowest: Annotated[str | None, Quantity("slowest start case")]
+    band: tuple[BandRow, ...]
 
     @classmethod
-    def of(cls, ensemble: Ensemble) -> Self:
+    def of(cls, ensemble: Ensemble, case: TwoRaceCase) -> Self:
         """Record of an ensemble."""
         slowest = max(ensemble.outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
         return cls.read(
@@ -107,7 +112,22 @@ class TwoRaceEnsemble(Record):
             rest_time_s=Spread.of(ensemble, lambda outcome: outcome.rest_time_or_inf),
             settling_time_s=Spread.of(ensemble, lambda outcome: outcome.settling_time_or_inf),
             slowest=None if slowest is None else slowest.member.name,
+            band=tuple(two_race_band(case)),
         )
+
+
+def two_race_band(case: TwoRaceCase) -> Iterator[BandRow]:
+    """Values of the file that the start cases vary: promised are eccentricities and imbalances, usual is the oil."""
+    for race, table in enumerate(case.table.autobalancer):
+        yield BandRow(
+            key=f"autobalancer.{race}.race_eccentricity_mm", low=0.0, high=table.race_eccentricity_mm, promised=True
+        )
+    for number, wheel in enumerate(case.wheels):
+        most = from_si(abs(wheel.imbalance), "g_mm")
+        yield BandRow(key=f"wheel.{number}.imbalance_g_mm", low=NEW_WHEEL * most, high=most, promised=True)
+    for race, drag in enumerate(case.drags):
+        low, high = min(UNKNOWN_OIL) * drag, max(UNKNOWN_OIL) * drag
+        yield BandRow(key=f"autobalancer.{race}.rolling_drag_per_s", low=low, high=high, promised=False)
 
 
 @record

@@ -52,9 +52,8 @@ from abu_calc.simulation.response import amplitude_window, drift, evaluate, need
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.start_cases import ALIKE, KINDS, RUN_UP, Axis, Kind, Member, Variation
+from abu_calc.sizing.case import UNKNOWN_OIL
 
-DRAGS: Final = (1.0, 1 / 3, 3.0)
-"""Factors on the viscous drag rate: oil as given, hot, cold."""
 OF_BAND: Final = 12
 """Start cases of machines within what the file promises."""
 PHASES: Final = (0.0, math.pi / 2, math.pi, 3 * math.pi / 2)
@@ -103,7 +102,7 @@ def start_cases(design: TwoRaceDesign) -> Iterator[Member]:
     turned = all_phases(design.case)
     few = turned[:: max(1, len(turned) // 2)]
     for speed in (None, *speed_ends(design.case)):
-        for drag in dict.fromkeys(factor * design.case.drag for factor in DRAGS):
+        for drag in dict.fromkeys(factor * design.case.drag for factor in UNKNOWN_OIL):
             given = drag == design.case.drag
             for phases in turned if given and speed is None else few:
                 for kind in KINDS:

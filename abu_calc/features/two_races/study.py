@@ -64,7 +64,10 @@ def size_two_races(
         step = next_step(machine, judged, proposals(judged), _judge(accuracy, threads), progress)
     design, ensemble, one, vibration = judged.facts.design, judged.facts.ensemble, judged.one_race, judged.vibration
     checks = actions(judged, step)
-    many, limit = None if ensemble is None else TwoRaceEnsemble.of(ensemble), table.limits.vibration_level_db
+    many, limit = (
+        None if ensemble is None else TwoRaceEnsemble.of(ensemble, design.case),
+        table.limits.vibration_level_db,
+    )
     quiet = None if many is None else many.quiet_time_s.typical
     told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
     return TwoRaceSizeResult(

@@ -18,7 +18,6 @@ from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.contact import PressedWheel, ball_angles, contact_of, resultants_at_work
 from abu_calc.features.two_races.start_cases import (
     ACCURACY,
-    DRAGS,
     all_phases,
     scene_of,
     start,
@@ -34,6 +33,7 @@ from abu_calc.simulation.residual_criteria import SLIPPING
 from abu_calc.simulation.run_up_amplitude import without_balls
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.start_cases import Kind, Member
+from abu_calc.sizing.case import UNKNOWN_OIL
 
 Pressed = Literal["settled", "at once", "without"]
 OBSERVED: Final = 1 / 3
@@ -203,7 +203,7 @@ def work_cases(design: TwoRaceDesign, wheel: PressedWheel) -> tuple[WorkCase, ..
     turned, given = all_phases(design.case), design.case.drag
     spread = [start(design, "spread", phases) for phases in turned]
     few = spread[:: max(1, len(turned) // 2)]
-    oils = [replace(each, drag=factor * given, promised=False) for factor in DRAGS[1:] for each in few]
+    oils = [replace(each, drag=factor * given, promised=False) for factor in UNKNOWN_OIL[1:] for each in few]
     early = [start(design, kind, phases) for kind in EARLY for phases in turned]
     return (
         *(WorkCase(wheel, "without", each) for each in spread),
