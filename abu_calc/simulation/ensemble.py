@@ -77,12 +77,16 @@ ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
 
 
+Once = Callable[..., "StartOutcome | Lost"]
+"""One start of a machine, as `start_once` runs it."""
+
+
 class Runner(NamedTuple):
     """How one start of a machine is run, as `start_once` does it, which integrator all its starts ask for, and the work
     after which no further start is begun.
     """
 
-    once: Callable[..., "StartOutcome | Lost"]
+    once: Once
     integrator: Callable[[Any, Member, float, float], str]
     most: int = MOST_MORE
 
@@ -97,18 +101,20 @@ class StartRun(NamedTuple):
 
 def simulate_members(
     design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1,
-    shares: tuple[float, ...] | None = None, doubtful: float | None = None,
+    shares: tuple[float, ...] | None = None, doubtful: float | None = None, once: "Once | None" = None,
 ) -> Ensemble:  # fmt: skip
     """Every start once, at these shares of the drag given; None: those of working, hot and cold oil.
 
     Those that decide a check run again at a tighter tolerance, and the worse of both counts. `doubtful` [1/s]: the drag
     below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. A start
-    whose work did not suffice gets more. The outcome does not depend on how many run side by side.
+    whose work did not suffice gets more. The outcome does not depend on how many run side by side. `once` takes the
+    place of `start_once`.
     """
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
     starts, oil = list(members(design, doubtful, shares)), design.case.oil
-    ensemble = simulate_starts(design, starts, accuracy, first_tolerance(design), progress, workers)
+    runner = Runner(once or start_once, integrator_for)
+    ensemble = simulate_starts(design, starts, accuracy, first_tolerance(design), progress, workers, runner)
     return ensemble if oil is None else replace(ensemble, temperatures=oil.temperatures)
 
 

@@ -22,7 +22,7 @@ from abu_calc.foundation.parallel import meanwhile
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, not_simulated, simulated
-from abu_calc.simulation.ensemble import simulate_first, simulate_members
+from abu_calc.simulation.ensemble import Once, simulate_first, simulate_members, start_once
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
@@ -71,12 +71,11 @@ class Judgement:
 
 
 class Trial:
-    """What ends a judgement early, of a change that is tried; of the file as it is nothing does.
+    """What ends a judgement early, of a change that is tried; of the file as it is nothing does."""
 
-    `work`: evaluations of the start cases so far.
-    """
-
-    work = 0
+    def guarded(self, once: Once) -> Once:
+        """How a start is run, by how it usually is."""
+        return once
 
     def checked(self, checks: Iterable[Check]) -> None:
         """Called with the checks that are known so far."""
@@ -150,17 +149,16 @@ def proven(
         return StartFacts(design, None)
     if starts != FULL:
         return StartFacts(design, simulate_first(design, accuracy) if starts == ONE else None, starts=starts)
-    facts = StartFacts(design, first := simulate_members(design, accuracy, progress, workers))
     trial = trial or Trial()
-    trial.work += first.work
+    once = trial.guarded(start_once)
+    first = simulate_members(design, accuracy, progress, workers, once=once)
+    facts = StartFacts(design, first)
     trial.checked((level_check(facts), *checks_of_starts(facts)))
     if not facts.listed_pass:
         return facts
     if first.work > MOST_SEARCHED and not patience.given():
         return replace(facts, warnings=(NOT_SEARCHED,))
-    searched = search(design, accuracy, progress, workers, first.given)
-    trial.work += sum(run.work for run in searched.outcomes)
-    return replace(facts, searched=searched)
+    return replace(facts, searched=search(design, accuracy, progress, workers, first.given, once))
 
 
 def _carries(design: Design) -> bool:

@@ -22,9 +22,9 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.inputs.read_machine import Machine, variant_of
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
+from abu_calc.simulation.ensemble import Once
+from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
 from abu_calc.simulation.records import finite
-from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import PINS, SIMULATED, overrides
 from abu_calc.sizing.balls import Candidate
@@ -34,7 +34,7 @@ Entries = tuple[str, ...]
 
 MOST_TRIALS: Final = 24
 """Changes that are tried."""
-SHARE, LEAST_WORK = 1.0, 200_000
+SHARE, LEAST_WORK = 1.0, 600_000
 """Evaluations that all trials may take, as a share of those of the file as it is, and at least."""
 REPEATED: Final = 6
 """Start cases that fail as the file is, which run first with a change, the worst ones."""
@@ -61,10 +61,10 @@ class Judged(Protocol):
 
 
 class Judge(NamedTuple):
-    """How a kind of machine is judged, and how one of its start cases is run."""
+    """How a kind of machine is judged, and how one of its start cases is run; `closer`: at a tighter tolerance."""
 
     judged: Callable[[Machine, Progress, Trial], Judged]
-    once: Callable[[Any, Member], "StartOutcome | Lost"]
+    once: Once
 
 
 class Tried(NamedTuple):
@@ -91,9 +91,31 @@ class Change(Trial):
     `worse_than`: rank of the grade that the verdict has to excel.
     """
 
-    def __init__(self, before: Judged, worse_than: int, once: Callable[[Any, Member], StartOutcome | Lost]) -> None:
-        self.before, self.worse_than, self.once = before, worse_than, once
+    def __init__(self, before: Judged, worse_than: int, once: Once) -> None:
+        self.before, self.worse_than, self.once, self.work = before, worse_than, once, 0
         self.ranks = {_key(check): RANK.index(check.status) for check in before.checks}
+        self.every = worse_than == RANK.index("warn")
+
+    def guarded(self, once: Once) -> Once:
+        """The same, that ends the trial with the first start case that does not hold as it has to."""
+
+        def guard(design: Any, *given: Any, **more: Any) -> StartOutcome | Lost:
+            """Count the work, and raise NotBetterError for a start case that fails."""
+            outcome = once(design, *given, **more)
+            self.work += outcome.work
+            if self._holds(outcome, design):
+                return outcome
+            decides = self.every or (outcome.member.promised and outcome.member.drag == design.case.drag)
+            if decides and not self._holds(self.once(design, outcome.member, closer=True), design):
+                raise NotBetterError
+            return outcome
+
+        return guard
+
+    def _holds(self, outcome: StartOutcome | Lost, design: Any) -> bool:
+        """True if a start case keeps the limits, or gave no answer, which checks judge."""
+        limits = design.case.table.limits
+        return isinstance(outcome, Lost) or outcome.holds(limits, limits.vibration_level_db + SLACK)
 
     def checked(self, checks: Iterable[Check]) -> None:
         """Raise NotBetterError for a check that is worse than before, or as bad as the verdict may not be."""
@@ -107,17 +129,14 @@ class Change(Trial):
         still does.
         """
         limits, drag, old = design.case.table.limits, design.case.drag, self.before.facts.design.case.drag
-        level, every = limits.vibration_level_db, self.worse_than == RANK.index("warn")
-        bad = [run for run in self.before.outcomes if not run.holds(limits, level) and (every or run.member.promised)]
+        level, once = limits.vibration_level_db, self.guarded(self.once)
+        bad = [run for run in self.before.outcomes if not run.holds(limits, level)]
+        bad = [run for run in bad if self.every or run.member.promised]
         bad.sort(key=lambda run: (run.hanging, run.quiet_time_or_inf, run.level), reverse=True)
         for run in bad[:REPEATED]:
             member = replace(run.member, drag=run.member.drag * drag / old if old else drag)
-            if member.angles and len(member.angles) != design.autobalancer.ball_count:
-                continue
-            again = self.once(design, member)
-            self.work += again.work
-            if not isinstance(again, StartOutcome) or not again.holds(limits, level):
-                raise NotBetterError
+            if not member.angles or len(member.angles) == design.autobalancer.ball_count:
+                once(design, member)
 
 
 PASS: Final = RANK.index("pass")
@@ -306,7 +325,11 @@ def together(calculated: Sequence[Entries], of_starts: Sequence[Entries]) -> Ite
     """Changes of either kind, each alone, those calculated as one, and those for start cases with these as one."""
     whole = _as_one(*calculated)
     paired = (_as_one(entries, whole) for entries in of_starts) if whole else ()
-    yield from dict.fromkeys(filter(None, chain(calculated, [whole], of_starts, paired)))
+    known = set[frozenset[str]]()
+    for entries in filter(None, chain(calculated, [whole], of_starts, paired)):
+        if frozenset(entries) not in known:
+            known.add(frozenset(entries))
+            yield entries
 
 
 OF_STARTS: Final = frozenset(rule.code for rule in RULES)

@@ -46,7 +46,7 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun
-from abu_calc.simulation.ensemble import MORE, WORK, first_tolerance, start_once
+from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK, first_tolerance, start_once
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SimulatedScene
@@ -332,9 +332,10 @@ def _judge(accuracy: float, workers: int) -> Judge:
         """As `size` judges it."""
         return judge(machine.whole("size"), accuracy, progress, workers, trial=trial)
 
-    def once(design: Design, member: Member) -> StartOutcome | Lost:
+    def once(design: Design, member: Member, *, closer: bool = False) -> StartOutcome | Lost:
         """One start case."""
-        return start_once(design, member, accuracy, first_tolerance(design), MORE * WORK, early_end=True)
+        tolerance = (TIGHTER if closer else 1.0) * first_tolerance(design)
+        return start_once(design, member, accuracy, tolerance, MORE * WORK, early_end=True)
 
     return Judge(judged, once)
 

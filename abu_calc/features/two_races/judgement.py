@@ -22,7 +22,14 @@ from abu_calc.features.two_races.checks import (
 )
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.records import OneRace, PlaceOnSpindleLevel, TwoRaceVibration
-from abu_calc.features.two_races.start_cases import TwoRaceOutcome, all_phases, ensemble_of, level_of, stability_scene
+from abu_calc.features.two_races.start_cases import (
+    TwoRaceOutcome,
+    all_phases,
+    ensemble_of,
+    level_of,
+    stability_scene,
+    start_once,
+)
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.two_races import (
     PlacedImbalance,
@@ -79,8 +86,7 @@ def judge(
     stable = tuple(stability_check(design, judged))
     trial.checked(stable)
     trial.repeated(design)
-    ensemble = ensemble_of(design, accuracy, progress, workers) if above else None
-    trial.work += 0 if ensemble is None else ensemble.work
+    ensemble = ensemble_of(design, accuracy, progress, workers, trial.guarded(start_once)) if above else None
     vibration = _vibration(design.case, ensemble)
     facts = facts_of(design, ensemble)
     checks = region, *stable, *made, *level_checks(design, vibration, ensemble), *checks_of_starts(facts)

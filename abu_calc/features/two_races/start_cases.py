@@ -41,6 +41,7 @@ from abu_calc.simulation.ensemble import (
     TIGHTER,
     TOLERANCE,
     WORK,
+    Once,
     Runner,
     integrated,
     simulate_starts,
@@ -303,10 +304,12 @@ TWO_RACES: Final = Runner(start_once, _integrator, MOST_MORE // 6)
 """An evaluation with two races takes three to four times as long as its balls alone say."""
 
 
-def ensemble_of(design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int) -> Ensemble:
+def ensemble_of(
+    design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int, once: Once = start_once
+) -> Ensemble:
     """All start cases, each once; those that decide a check once more at a tighter tolerance."""
     starts = list(start_cases(design))
-    return simulate_starts(design, starts, accuracy, FIRST_TOLERANCE, progress, workers, TWO_RACES)
+    return simulate_starts(design, starts, accuracy, FIRST_TOLERANCE, progress, workers, TWO_RACES._replace(once=once))
 
 
 def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samples, work: int) -> TwoRaceOutcome:

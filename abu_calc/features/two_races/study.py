@@ -33,7 +33,7 @@ from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.ensemble import MORE, WORK
+from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK
 from abu_calc.simulation.ensemble_results import Lost, StartOutcome
 from abu_calc.simulation.result import Provenance
 from abu_calc.simulation.start_cases import Member
@@ -107,10 +107,11 @@ def _judge(accuracy: float, workers: int) -> Judge:
         assert machine.two_races is not None
         return judge(machine.two_races, accuracy, progress, workers, trial)
 
-    def once(design: TwoRaceDesign, member: Member) -> StartOutcome | Lost:
+    def once(design: TwoRaceDesign, member: Member, *, closer: bool = False) -> StartOutcome | Lost:
         """One start case."""
         work = MORE * WORK if member.run_up else WORK
-        return start_once(design, member, accuracy, FIRST_TOLERANCE, work, early_end=True)
+        tolerance = (TIGHTER if closer else 1.0) * FIRST_TOLERANCE
+        return start_once(design, member, accuracy, tolerance, work, early_end=True)
 
     return Judge(judged, once)
 
