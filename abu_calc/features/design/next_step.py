@@ -251,7 +251,8 @@ PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
-    bad = [check for check in before.checks if check.requested and check.status != "pass" and not check.remedy]
+    bad = [check for check in before.checks
+           if check.requested and check.status != "pass" and (check.overrides or not check.remedy)]  # fmt: skip
     first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
     for check in before.checks:
         if check.status == "pass" or not check.requested:
