@@ -41,9 +41,9 @@ def design(**given: Any) -> Design:
     return size(machine(**tables))
 
 
-def proposed(design: Design, *starts: StartOutcome) -> list[dict[str, Any]]:
+def proposed(design: Design, *starts: StartOutcome, loud: bool = False) -> list[dict[str, Any]]:
     """All that is proposed if the start cases end like this."""
-    return list(changes_for_starts(StartFacts(design, Ensemble(design.case.drag, starts, ()))))
+    return list(changes_for_starts(StartFacts(design, Ensemble(design.case.drag, starts, ())), loud=loud))
 
 
 def start(design: Design, share: float = 1.0, run_up: float = 0.0, **changed: float | None) -> StartOutcome:
@@ -163,6 +163,15 @@ def test_the_damping_of_springs_is_doubled() -> None:
     assert more_damping(machine_of("hands-called-chaotic")) is None
 
 
+def test_truer_races_come_first_if_start_cases_are_too_loud() -> None:
+    made = design()
+    keys = {"autobalancer.race_eccentricity_mm", "autobalancer.rolling_friction_mm"}
+    truer = [bool(keys & entries.keys()) for entries in proposed(made, start(made, level=120.0), loud=True)]
+    assert any(truer) and truer == sorted(truer, reverse=True)
+    last = [bool(keys & entries.keys()) for entries in proposed(made, start(made, **LATE))]
+    assert sum(last) == sum(truer) and last == sorted(last)
+
+
 @pytest.mark.parametrize("changed", [LATE, STALLED, {"level": 120.0}])
 def test_the_file_takes_every_change_and_none_is_the_machine_as_it_is(changed: dict[str, float]) -> None:
     made = design(run_up=(("time_s", 1.0),))
@@ -172,7 +181,7 @@ def test_the_file_takes_every_change_and_none_is_the_machine_as_it_is(changed: d
 
 
 def test_without_start_cases_nothing_is_proposed() -> None:
-    assert list(changes_for_starts(StartFacts(design(), None))) == []
+    assert list(changes_for_starts(StartFacts(design(), None), loud=True)) == []
 
 
 @pytest.mark.parametrize("drag", [pytest.param(4.0, marks=pytest.mark.slow), pytest.param(6.0, marks=pytest.mark.hard)])
@@ -181,6 +190,6 @@ def test_a_temporary_speed_reduction_lets_balls_that_stall_catch_up(drag: float)
     found = machine_of("hanging-balls", **PINNED["hanging-balls"], rolling_drag_per_s=drag)
     first = StartFacts(found, simulate_members(found, shares=(1.0,), doubtful=ALL))
     assert first.ensemble is not None and first.ensemble.hanging and not first.listed_pass
-    (slow,) = of(list(changes_for_starts(first)), "run_up.pause_speed_rpm")
+    (slow,) = of(list(changes_for_starts(first, loud=False)), "run_up.pause_speed_rpm")
     slowed = followed(found, slow)
     assert StartFacts(slowed, simulate_members(slowed, shares=(1.0,), doubtful=ALL)).listed_pass

@@ -12,22 +12,26 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.design import judgement, next_step
-from abu_calc.features.design.judgement import judge
+from abu_calc.features.design import judgement
+from abu_calc.features.design import next_step as module
+from abu_calc.features.design.judgement import Trial, judge
 from abu_calc.features.design.next_step import (
     LEAST_WORK,
     NUMBERS,
     REPEATED,
     Change,
+    Judge,
     NextStep,
     NotBetterError,
     Tried,
     actions,
+    next_step,
     promise,
     proposals,
 )
 from abu_calc.foundation.checks import RANK, Check, Grade, OptionalCheck
-from abu_calc.foundation.progress import silent
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing import size
@@ -55,11 +59,11 @@ def judged(
     run = outcome(level=level, quiet_time=quiet)
     balls = SimpleNamespace(capacity=1e-6 * capacity, capacity_ratio=capacity / 100, mass_fraction=share)
     design = SimpleNamespace(
-        idle=SimpleNamespace(worst=SimpleNamespace(after=level)), autobalancer=balls,
-        case=SimpleNamespace(oil=None), frequency=SimpleNamespace(balancing_possible=True),
+        autobalancer=balls, case=SimpleNamespace(oil=None), choice=None,
+        frequency=SimpleNamespace(balancing_possible=True),
     )  # fmt: skip
-    facts = SimpleNamespace(ensemble=Ensemble(DRAG, (run,), ()), searched=None)
-    return SimpleNamespace(checks=checks, outcomes=(SimpleNamespace(work=work),), design=design, facts=facts)
+    facts = SimpleNamespace(design=design, ensemble=Ensemble(DRAG, (run,), ()), searched=None)
+    return SimpleNamespace(checks=checks, outcomes=(SimpleNamespace(work=work),), facts=facts, level_after=level)
 
 
 FAILS: dict[str, Grade] = {"ABU701": "fail", "ABU702": "pass"}
@@ -69,23 +73,25 @@ MOVES_IT: dict[str, Grade] = {"ABU701": "pass", "ABU702": "warn"}
 BRINGS_ANOTHER: dict[str, Grade] = {**PASSES, "ABU703": "warn"}
 
 
-def searched(
-    monkeypatch: pytest.MonkeyPatch, before: Any, after: list[Mapping[str, Grade]], work: int = 0
-) -> tuple[NextStep, list[float]]:
+def searched(before: Any, after: list[Mapping[str, Grade]], work: int = 0) -> tuple[NextStep, list[float]]:
     """The next step if the changes of the drag rate lead to these grades, and the drag rates that were judged."""
     calls = list[float]()
 
-    def judged_with(tables: Any, *_: object, trial: Change) -> Any:
-        calls.append(drag := tables.autobalancer.rolling_drag_per_s)
+    def judged_with(given: Machine, _: Progress, trial: Trial) -> Any:
+        calls.append(drag := given.whole("size").autobalancer.rolling_drag_per_s)
         other = judged(after[int(drag) - 1])
         trial.work += work
         trial.checked(other.checks)
         return other
 
-    monkeypatch.setattr(next_step, "judge", judged_with)
-    tried = [(f"{KEY}={1 + k}",) for k in range(len(after))]
-    monkeypatch.setattr(next_step, "proposals", lambda _: [(f"{KEY}=-1",), *tried])
-    return next_step.next_step(abu_calc.read(BASE), before, 0.01, silent, 1), calls
+    refused, tried = (f"{KEY}=-1",), [(f"{KEY}={1 + k}",) for k in range(len(after))]
+    judge_by = Judge(judged_with, never)
+    return next_step(abu_calc.read(BASE), before, [refused, *tried], judge_by, silent), calls
+
+
+def never(_: object, member: Member) -> StartOutcome:
+    """No start case is run alone."""
+    raise AssertionError(member)
 
 
 @pytest.mark.parametrize(
@@ -104,14 +110,14 @@ def searched(
     ],
 )
 def test_a_change_is_taken_if_the_verdict_gets_better_and_no_check_worse(
-    monkeypatch: pytest.MonkeyPatch, before: dict[str, Grade], after: list[dict[str, Grade]], best: int | None,
+    before: dict[str, Grade], after: list[dict[str, Grade]], best: int | None,
     calls: int,
 ) -> None:  # fmt: skip
     """The first with which all checks pass ends the search; one that only warns is taken if no other passes.
 
     Nothing is tried for a machine that passes. What the file refuses, a negative drag rate, counts as not tried.
     """
-    step, tried = searched(monkeypatch, judged(before), after)
+    step, tried = searched(judged(before), after)
     assert (None if step.best is None else step.best.entries) == (None if best is None else (f"{KEY}={best}",))
     assert tried == [1.0 + k for k in range(calls)]
     if best is None:
@@ -120,17 +126,15 @@ def test_a_change_is_taken_if_the_verdict_gets_better_and_no_check_worse(
 
 def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
     before = judged(FAILS)
-    Change(before, RANK.index("fail")).checked([OptionalCheck("ABU407", "handles", "fail", "no direction")])
+    Change(before, RANK.index("fail"), never).checked([OptionalCheck("ABU407", "handles", "fail", "no direction")])
     with pytest.raises(NotBetterError):
-        Change(before, RANK.index("fail")).checked([Check("ABU407", "handles", "warn", "…")])
+        Change(before, RANK.index("fail"), never).checked([Check("ABU407", "handles", "warn", "…")])
 
 
 @pytest.mark.parametrize(("given", "tried"), [(0, 2), (5 * LEAST_WORK, 9)])
-def test_all_trials_take_no_more_work_than_the_file_as_it_is(
-    monkeypatch: pytest.MonkeyPatch, given: int, tried: int
-) -> None:
+def test_all_trials_take_no_more_work_than_the_file_as_it_is(given: int, tried: int) -> None:
     """The trial that exceeds it is the last."""
-    step, calls = searched(monkeypatch, judged(FAILS, work=given), [FAILS] * 20, work=int(0.6 * LEAST_WORK))
+    step, calls = searched(judged(FAILS, work=given), [FAILS] * 20, work=int(0.6 * LEAST_WORK))
     assert len(calls) == len(step.without_success) == tried and step.best is None
 
 
@@ -151,26 +155,33 @@ def test_changes_of_checks_that_do_not_contradict_go_together(
     """What fails comes first; then those for start cases, by themselves and with all of these; none twice."""
     grades: dict[str, Grade] = {"ABU401": "warn", "ABU202": "fail", "ABU201": "pass"}
     for_starts = {"e.f": 3.0, "g.h": 4.0}
-    monkeypatch.setattr(next_step, "changes_for_starts", lambda _: [for_starts, for_starts])
+    monkeypatch.setattr(module, "changes_for_starts", lambda *_, **__: [for_starts, for_starts])
     starts = ("e.f=3", "g.h=4")
     with_all = [] if not expected else [tuple(dict.fromkeys((*starts, *expected[-1])))]
     if entries == {"ABU202": ("a.b=1",), "ABU401": ("a.b=2",)}:
         with_all = []
     before = judged(grades, entries=entries)
     assert list(proposals(before)) == [*expected, starts, *with_all]
-    before.design.frequency.balancing_possible = False
+    before.facts.design.frequency.balancing_possible = False
     assert list(proposals(before)) == expected
     of_others = judged({**grades, "ABU401": "pass"}, entries=entries)
     assert starts not in list(proposals(of_others)), "a start case decides none of the checks that fail"
 
 
-def test_without_a_change_the_first_check_lists_what_was_tried() -> None:
-    """The others point to it; the action that an entry makes is not printed, since it was tried without success."""
-    before = judged({"ABU201": "pass", "ABU401": "fail", "ABU702": "fail"}, entries={"ABU401": ("a.b=1",)})
-    passed, first, second = actions(before, NextStep(None, ("a.b = 1", "c.d = 2 and e.f = 3")))
-    assert first.remedy == "No change was found with which the machine suits. Tried: a.b = 1; c.d = 2 and e.f = 3."
-    assert second.remedy == "See the action of ABU401."
-    assert passed == before.checks[0] and first.overrides == second.overrides == ()
+@pytest.mark.parametrize("with_entries", [(), ("ABU401",), ("ABU103", "ABU401", "ABU702")])
+def test_without_a_change_one_check_lists_what_was_tried(with_entries: tuple[str, ...]) -> None:
+    """One that fails; the others point to it. An action that entries make is not printed: they were tried."""
+    grades: dict[str, Grade] = {"ABU103": "warn", "ABU201": "pass", "ABU401": "fail", "ABU702": "fail"}
+    before = judged(grades, entries=dict.fromkeys(with_entries, ("a.b=1",)))
+    checks = {check.code: check for check in actions(before, NextStep(None, ("a.b = 1", "c.d = 2 and e.f = 3")))}
+    (listing,) = (check for check in checks.values() if "Tried" in (check.remedy or ""))
+    assert listing.remedy == "No change was found with which the machine suits. Tried: a.b = 1; c.d = 2 and e.f = 3."
+    assert listing.status == "fail" and checks.pop("ABU201") == before.checks[1]
+    others = {check.remedy for check in checks.values() if check is not listing}
+    assert others == {f"See the action of {listing.code}."} and not any(check.overrides for check in checks.values())
+
+
+def test_an_action_that_no_entry_makes_stays() -> None:
     own = judged({"ABU401": "fail"})
     own.checks = (replace(own.checks[0], remedy="Specify machine.length_mm."),)
     assert [check.remedy for check in actions(own, NextStep(None))] == ["Specify machine.length_mm."]
@@ -228,25 +239,32 @@ def pinned() -> Design:
     return size(machine(**PINNED))
 
 
-def test_the_worst_start_cases_that_fail_are_repeated_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    """At the drag rate of the change, as far from it as before; not those that place other balls."""
+def test_the_worst_start_cases_that_fail_are_repeated_first() -> None:
+    """At the drag rate of the change, as far from it as before; not those that place other balls.
+
+    What is not promised only where nothing may warn.
+    """
     design, ran = pinned(), list[Member]()
     drag = design.case.drag
-    bad = [outcome(Member("spread", share * drag), quiet_time=1.1 + share) for share in (0.5, 1.0, 2.0, 3.0, 4.0)]
+    shares = [0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
+    bad = [outcome(Member("spread", share * drag, promised=share != 6.0), quiet_time=1.1 + share) for share in shares]
     placed = outcome(Member("placed", drag, angles=(0.0, 1.0, 2.0)), quiet_time=9.0)
-    before: Any = SimpleNamespace(checks=(), outcomes=(outcome(Member("behind", drag)), *bad, placed), design=design)
+    outcomes = (outcome(Member("behind", drag)), *bad, placed)
+    before: Any = SimpleNamespace(checks=(), outcomes=outcomes, facts=SimpleNamespace(design=design))
     thicker = replace(design, case=replace(design.case, drag=3 * drag))
 
-    def repeated(result: Callable[[Member], StartOutcome | Lost]) -> Change:
+    def repeated(result: Callable[[Member], StartOutcome | Lost], grade: Grade = "fail") -> Change:
         ran.clear()
-        monkeypatch.setattr(next_step, "start_once", lambda _, member, *__, **___: ran.append(member) or result(member))
-        trial = Change(before, RANK.index("fail"))
-        trial.repeated(thicker, 0.01)
+        trial = Change(before, RANK.index(grade), lambda _, member: ran.append(member) or result(member))
+        trial.repeated(thicker)
         return trial
 
     trial = repeated(lambda member: replace(outcome(member), work=7))
-    assert REPEATED - 1 <= len(ran) <= REPEATED and trial.work == 7 * len(ran)
-    assert {member.drag for member in ran} <= {3 * run.member.drag for run in bad} and len(set(ran)) == len(ran)
+    worst = sorted(bad, key=lambda run: -run.quiet_time_or_inf)
+    promised = [3 * run.member.drag for run in worst if run.member.promised]
+    assert [member.drag for member in ran] == pytest.approx(promised[: REPEATED - 1]) and trial.work == 7 * len(ran)
+    repeated(outcome, "warn")
+    assert [member.drag for member in ran] == pytest.approx([3 * run.member.drag for run in worst[: REPEATED - 1]])
     for still_bad in (outcome(quiet_time=1.01), Lost(bad[0].member, "no answer", 1)):
         with pytest.raises(NotBetterError):
             repeated(lambda _, still_bad=still_bad: still_bad)  # type: ignore[misc]
@@ -259,9 +277,9 @@ def test_a_trial_ends_before_further_start_cases_where_a_listed_one_warns(monkey
     late = Ensemble(drag, (outcome(Member("spread", drag)), outcome(Member("spread", drag / 3), quiet_time=1.5)), ())
     monkeypatch.setattr(judgement, "simulate_members", lambda *_: late)
     monkeypatch.setattr(judgement, "search", lambda *_: pytest.fail("further start cases were simulated"))
-    before: Any = SimpleNamespace(checks=(), outcomes=(), design=pinned())
+    before: Any = SimpleNamespace(checks=(), outcomes=())
     with pytest.raises(NotBetterError):
-        judge(tables, 0.01, silent, 1, trial=Change(before, RANK.index("warn")))
+        judge(tables, 0.01, silent, 1, trial=Change(before, RANK.index("warn"), never))
 
 
 def at(document: Mapping[str, Any], path: str) -> Any:
@@ -334,7 +352,7 @@ def test_the_next_command_keeps_its_promise(text: str, word: str, keys: list[str
     verdict = before["result"]["verdict"]
     assert verdict["word"] == word and after is not None and after["result"]["verdict"]["word"] == "suits"
     entries = [entry.partition("=")[0] for entry in shlex.split(verdict["next"])[4::2]]
-    assert entries[: len(keys)] == keys and set(entries[len(keys) :]) == {f"autobalancer.{pin}" for pin in PINS}
+    assert sorted(entries) == sorted([*keys, *(f"autobalancer.{pin}" for pin in PINS)])
     told = verdict["promise"]
     assert at(before["result"], told["path"]) == told["from"] and told["to"] is not None
     assert math.isclose(at(after["result"], told["path"]), told["to"], rel_tol=1e-9)
