@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import Final
 
 from abu_calc.formulas.oil import (
@@ -29,6 +30,7 @@ FACTOR: Final = 3.0
 """Factor by which the drag rate is uncertain, up and down: the shares of a partly wetted ball are reasoned, and the
 coefficients for a ball on a wall differ by 1.6 between sources."""
 RATE_KEY: Final = "rolling_drag_per_s"
+_depth = lru_cache(maxsize=64)(oil_depth)
 
 
 def oil_drag(case: Case, candidate: Candidate) -> OilDrag | None:
@@ -58,7 +60,7 @@ def oil_drag(case: Case, candidate: Candidate) -> OilDrag | None:
             found=f"{oil.fill_ml:g} ml",
             allowed=f"at most {most * 1e6:.3g} ml",
         )
-    depth = oil_depth(fill, race, case.speed_range[0])
+    depth = _depth(fill, race, case.speed_range[0])
     at_40 = oil.viscosity_at_40
 
     def state(temperature: float) -> OilState:
@@ -102,7 +104,7 @@ def _by_fill(oil: Oil, case: Case, candidate: Candidate, race: OilRace) -> Itera
     ]
     for fill in (share * oil.fill_ml * 1e-6 for share in FILLS):
         if fill <= race.volume(race.most):
-            depth = oil_depth(fill, race, case.speed_range[0])
+            depth = _depth(fill, race, case.speed_range[0])
             yield fill, tuple(_rate(oil, candidate, depth, viscosity, oil.slip_m_per_s) for viscosity in viscosities)
 
 

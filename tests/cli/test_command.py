@@ -166,7 +166,7 @@ def test_a_crash_is_a_bug_with_status_3(monkeypatch: pytest.MonkeyPatch) -> None
         raise ZeroDivisionError("by design")
 
     monkeypatch.delenv("ABU_DEBUG", raising=False)
-    monkeypatch.setattr("abu_calc.features.design.study.size_design", crash)
+    monkeypatch.setattr("abu_calc.features.design.judgement.size_design", crash)
     seen = abu("size", "msh-230", "--json")
     assert seen.status == 3 and seen.document["error"]["kind"] == "bug" and "Traceback" not in seen.err
 
@@ -175,7 +175,7 @@ def test_an_interruption_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch, tmp_
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("abu_calc.features.design.study.size_design", interrupt)
+    monkeypatch.setattr("abu_calc.features.design.judgement.size_design", interrupt)
     output = tmp_path / "design.json"
     seen = abu("size", "msh-230", "--output", str(output))
     assert seen.status == INTERRUPTED and "Interrupted" in seen.err and not output.exists()

@@ -109,11 +109,10 @@ def _other_oils(facts: StartFacts) -> Iterator[dict[str, object]]:
     assert ensemble is not None
     bad = [run.member.drag for run in ensemble.outcomes if not run.holds(limits, case.level_limit)]
     more, less = bool(ensemble.hanging) or max(bad, default=case.drag) < case.drag, min(bad, default=0.0) > case.drag
+    oils = [(entries, drag) for entries, drag in usual_oils(case, design.autobalancer)
+            if not ((more and drag < case.drag) or (less and drag > case.drag))]  # fmt: skip
     for index in FLAT:
-        oils = [(entries, drag) for entries, drag in usual_oils(case, design.autobalancer)
-                if entries["oil.viscosity_index"] == index]  # fmt: skip
-        kept = (entries for entries, drag in oils if not ((more and drag < case.drag) or (less and drag > case.drag)))
-        yield from islice(kept, MOST_OILS)
+        yield from islice((entries for entries, _ in oils if entries["oil.viscosity_index"] == index), MOST_OILS)
     if "rolling_drag_per_s" in case.autobalancer.model_fields_set:
         for drag in other_drags(case.drag, only_more=more):
             if not (less and drag > case.drag):

@@ -21,6 +21,7 @@ from abu_calc.foundation.checks import RANK, Action, Check, worst
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, within
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
@@ -189,12 +190,16 @@ def in_words(entries: Entries) -> str:
 
 
 class Number(NamedTuple):
-    """A number of the result that decides a check: its path, its name and unit, and how it is read."""
+    """A number of the result that decides a check: its path, its name and unit, and how it is read.
+
+    `per`: the check's value over it.
+    """
 
     path: str
     name: str
     unit: str
     of: Callable[[Judged], float | None]
+    per: float = 1.0
 
 
 def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False) -> Callable[[Judged], float | None]:
@@ -213,9 +218,12 @@ def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judged], fl
 
 
 NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
-    "ABU201": (Number("autobalancer.capacity_ratio", "the capacity ratio", "", _number(attrgetter("capacity_ratio"))),),
+    "ABU201": (
+        Number("autobalancer.capacity_g_mm", "the capacity", "g·mm",
+               _number(lambda candidate: from_si(candidate.capacity, "g_mm"))),
+    ),
     "ABU203": (
-        Number("autobalancer.mass_fraction", "the share of the mass", "", _number(attrgetter("mass_fraction"))),
+        Number("autobalancer.mass_fraction", "the share of the mass", "", _number(attrgetter("mass_fraction")), 100.0),
     ),
     "ABU401": (
         Number("vibration.level_after_db", "the expected level", "dB", attrgetter("level_after")),
@@ -236,8 +244,9 @@ def _moved(check: Check, before: Judged, after: Judged) -> tuple[Number, float |
     """The number that breaks the limit of a check and keeps it with a change, before and after; None: there is none."""
     for number in NUMBERS.get(check.code, ()):
         old, new = number.of(before), number.of(after)
-        limit = check.limit if number.unit else 1.0
-        if limit is not None and new is not None and new <= limit and (old is None or old > limit):
+        limit, sign = (check.limit or 0.0) / number.per, 1 if check.bound == "most" else -1
+        kept = [value is not None and sign * value <= sign * limit for value in (old, new)]
+        if check.limit is not None and new is not None and kept == [False, True]:
             return number, old, new
     return None
 
@@ -261,7 +270,8 @@ PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
-    bad = [check for check in before.checks if check.requested and check.status != "pass" and not check.remedy]
+    bad = [check for check in before.checks
+           if check.requested and check.status != "pass" and (check.overrides or not check.remedy)]  # fmt: skip
     first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
     for check in before.checks:
         if check.status == "pass" or not check.requested:

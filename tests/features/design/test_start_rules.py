@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 
-from abu_calc.features.design.start_rules import StartFacts, TriedChange, checks_of_starts, level_check
+from abu_calc.features.design.start_rules import StartFacts, checks_of_starts, level_check
 from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
 from abu_calc.simulation.start_cases import ALIKE, Member
@@ -29,29 +29,39 @@ def outcome(member: Member | None = None, **changed: float | None) -> StartOutco
     return StartOutcome(member or Member("bunched", DRAG), **{**given, **changed})  # type: ignore[arg-type]
 
 
-def by_code(
-    *outcomes: StartOutcome, lost: tuple[Lost, ...] = (), mended: tuple[StartOutcome, ...] = ()
-) -> dict[str, Check]:
-    """Checks by code; `mended`: outcomes with three times the drag rate."""
-    before = Ensemble(DRAG, outcomes, lost)
-    change = TriedChange(design().autobalancer, before, {"autobalancer.rolling_drag_per_s": 30.0},
-                         Ensemble(3 * DRAG, mended, ())) if mended else None  # fmt: skip
-    return {check.code: check for check in checks_of_starts(StartFacts(design(), before, change=change))}
+def by_code(*outcomes: StartOutcome, lost: tuple[Lost, ...] = ()) -> dict[str, Check]:
+    """Checks by code."""
+    return {check.code: check for check in checks_of_starts(StartFacts(design(), Ensemble(DRAG, outcomes, lost)))}
 
 
 def test_the_worst_start_stands_beside_its_limit() -> None:
-    good = outcome(Member("spread", 3 * DRAG), quiet_time=0.25, imbalance=2e-5)
-    bad = outcome(Member("spread", DRAG), imbalance=4e-5, quiet_time=1.5)
-    checks = by_code(outcome(), bad, mended=(good, good))
-    balance = checks["ABU701"]
+    balance = by_code(outcome(), outcome(Member("spread", DRAG), imbalance=4e-5, quiet_time=1.5))["ABU701"]
     assert (balance.status, balance.value, balance.limit) == ("fail", pytest.approx(40.0), pytest.approx(30.0))
     assert "1 of 2 start cases balance. 1 does not: spread, given drag rate 10 1/s" in balance.message
-    assert balance.remedy == (
-        "Set rolling_drag_per_s = 30: the largest imbalance left by a start case falls from 40.0 to 20.0 g·mm "
-        "(simulated). All 2 start cases, at the given drag rate, then pass."
-    )
-    assert balance.overrides[0] == "autobalancer.rolling_drag_per_s=30" and "ball_count=4" in balance.overrides[1]
-    assert checks["ABU702"].remedy == "See the action of ABU701."
+    assert balance.remedy is None, "what helps is told by the change that was tried"
+
+
+@pytest.mark.parametrize(
+    ("changed", "passes"),
+    [
+        ({}, True),
+        ({"level": 109.0, "quiet_time": 1.0}, True),
+        ({"level": 109.01}, False),
+        ({"quiet_time": 1.01}, False),
+        ({"imbalance": 4e-5}, False),
+        ({"rest_time": 1.01}, False),
+    ],
+)
+def test_listed_start_cases_pass_by_those_at_the_given_drag_rate(changed: dict[str, float], passes: bool) -> None:
+    limited = size(machine(**PINNED, limits={"rest_time_s": 1.0}))
+    for drag in (DRAG, 3 * DRAG):
+        bad = outcome(Member("spread", drag), **changed)
+        facts = StartFacts(limited, Ensemble(DRAG, (outcome(), bad), ()))
+        assert facts.listed_pass is (passes or drag != DRAG)
+        facts = StartFacts(limited, Ensemble(DRAG, (outcome(),), (Lost(bad.member, "no answer", 1),)))
+        assert facts.listed_pass is (drag != DRAG)
+    late = StartFacts(design(), Ensemble(DRAG, (outcome(rest_time=1.01),), ()))
+    assert late.listed_pass, "rest counts only if the file limits it"
 
 
 def test_only_the_first_start_case_is_named() -> None:

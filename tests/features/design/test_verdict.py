@@ -49,15 +49,26 @@ def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
 
 
 def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> None:
-    late = Check(
-        "ABU702", "quiet time", "fail", "late", 1.25, 1.0, "s", "Set … (simulated).", overrides=("a.b=2", 'c.d="x y"')
-    )
-    verdict = Verdict.of([LEVEL, late], "", "my machine.toml")
+    late = Check("ABU702", "quiet time", "fail", "late", 1.25, 1.0, "s", "Set … (simulated).", overrides=("e.f=3",))
+    moved = {"path": "ensemble.quiet_time_s.worst", "from": 1.25, "to": 0.5}
+    verdict = Verdict.of([LEVEL, late], "", "my machine.toml", ("a.b=2", 'c.d="x y"'), moved)
     assert verdict.sentence == "The machine does not suit, for this check fails: quiet time (1.25 s, at most 1 s)."
     creeps = Check("ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further: 1 of 72 still creeps", 0.1, 1.0, "s")
     assert "quiet time (Further: 1 of 72 still creeps)" in Verdict.of([creeps], "", None).sentence
     assert verdict.next is not None
     assert shlex.split(verdict.next) == ["abu", "size", "my machine.toml", "--set", "a.b=2", "--set", 'c.d="x y"']
+    assert verdict.promise == moved
+    plain = Verdict.of([LEVEL], "It helps.", "my machine.toml", ("a.b=2",), moved)
+    assert (plain.next, plain.promise) == (None, None), "nothing is mended of what suits"
+
+
+def test_what_no_change_mends_is_told_so() -> None:
+    """Of a failure alone: a machine that warns suits."""
+    told = "No change of the file was found that mends it."
+    for grade in ("pass", "warn", "fail", "not-done"):
+        check = Check("ABU702", "quiet time", grade, "late", 1.25, 1.0, "s")
+        verdict = Verdict.of([check], "It helps.", None, incurable=True)
+        assert verdict.sentence.endswith(told) is (grade == "fail") and verdict.next is None
 
 
 def test_what_the_autobalancer_does_in_a_sentence() -> None:
