@@ -7,6 +7,7 @@ that are slowest today are simulated again.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Annotated, Final, NamedTuple, Self
 
 from abu_calc.features.design.changes import design_with
@@ -175,7 +176,10 @@ def quiet_time_with(design: Design, start: StartOutcome, entries: Mapping[str, o
     if other is None:
         return math.nan
     try:
-        run = run_of_start(other, start.member, accuracy, first_tolerance(other), early_end=True)
+        member = replace(
+            start.member, drag=other.case.drag if start.member.drag == design.case.drag else start.member.drag
+        )
+        run = run_of_start(other, member, accuracy, first_tolerance(other), early_end=True)
         return run.outcome.quiet_time_or_inf
     except NotTrustworthyError:
         return math.nan

@@ -106,8 +106,9 @@ class Change(Trial):
             self.work += outcome.work
             if self._holds(outcome, design):
                 return outcome
-            decides = self.every or (outcome.member.promised and outcome.member.drag == design.case.drag)
-            if decides and not self._holds(self.once(design, outcome.member, closer=True), design):
+            if (self.every or outcome.member.promised) and not self._holds(
+                self.once(design, outcome.member, closer=True), design
+            ):
                 raise NotBetterError
             return outcome
 

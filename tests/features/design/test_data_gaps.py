@@ -1,6 +1,5 @@
 """Assumed values of a file: which are listed, and that following one end gives the numbers told."""
 
-import math
 from dataclasses import replace
 
 import pytest
@@ -66,15 +65,15 @@ def test_following_one_end_gives_the_numbers_told(machine: Machine, sized: SizeR
     assert len(same) == SLOWEST and gap.quiet_time_s[end] == pytest.approx(max(same), rel=0.02)
 
 
-def test_drag_rates_have_the_quiet_times_of_the_start_cases(sized: SizeResult) -> None:
-    gap, many = gap_of(sized, "rolling_drag_per_s"), sized.ensemble
-    assert many is not None and gap.usual_range == (5.0, 45.0)
-    slowest = tuple(
-        max(math.inf if row.quiet_time_s is None else row.quiet_time_s
-            for row in many.settling_by_start if row.drag_per_s == drag)
-        for drag in gap.usual_range
-    )  # fmt: skip
-    assert gap.quiet_time_s == slowest and gap.level_db[0] == gap.level_db[1] == sized.vibration.level_after_db
+def test_drag_rates_are_those_of_usual_oils(machine: Machine, sized: SizeResult) -> None:
+    """From a quarter to ten times; the same start cases, with the oil so hot as the given one of another machine."""
+    gap = gap_of(sized, "rolling_drag_per_s")
+    assert gap.usual_range == (3.75, 150.0) and gap.level_db[0] == gap.level_db[1] == sized.vibration.level_after_db
+    for end, rate in enumerate(gap.usual_range):
+        thin = changed(machine.changed({"autobalancer.rolling_drag_per_s": rate}), sized)
+        assert thin.ensemble is not None and gap.quiet_time_s is not None
+        at_rate = [row.quiet_time_s for row in thin.ensemble.settling_by_start if row.drag_per_s == rate]
+        assert gap.quiet_time_s[end] == pytest.approx(max(map(float, filter(None, at_rate))), rel=0.02)
 
 
 @pytest.mark.hard
@@ -86,7 +85,7 @@ def test_the_value_that_decides_the_verdict_is_first(machine: Machine, sized: Si
     strict = changed(machine.changed({"limits.quiet_time_s": 0.6}), sized).data_gaps
     drag = next(gap for gap in strict if gap.key == "autobalancer.rolling_drag_per_s")
     low, high = drag.quiet_time_s or (None, None)
-    assert low is not None and high is not None and 1.0 > low > 0.6 > high
+    assert low is not None and high is not None and low > 0.6 > high
     decide = [{gap.key.partition(".")[2] for gap in gaps if gap.decides} for gaps in (sized.data_gaps, strict)]
     assert decide == [{"race_eccentricity_mm"}, {"race_eccentricity_mm", "rolling_drag_per_s"}]
     for gaps in (sized.data_gaps, strict):
