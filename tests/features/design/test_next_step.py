@@ -255,11 +255,12 @@ def test_the_worst_start_cases_that_fail_are_repeated_first() -> None:
 
     def repeated(result: Callable[[Member], StartOutcome | Lost], grade: Grade = "fail") -> Change:
         ran.clear()
-        trial = Change(
-            before,
-            RANK.index(grade),
-            lambda _, member, closer=False: result(member) if closer else ran.append(member) or result(member),
-        )
+
+        def once(_: object, member: Member, *, closer: bool = False) -> StartOutcome | Lost:
+            ran.extend([] if closer else [member])
+            return result(member)
+
+        trial = Change(before, RANK.index(grade), once)
         trial.repeated(thicker)
         return trial
 
