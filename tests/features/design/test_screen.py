@@ -145,9 +145,9 @@ def test_each_case_has_its_number_its_limit_and_its_grade(sized: SizeResult) -> 
 
 @pytest.mark.slow
 def test_a_case_beyond_its_limit_points_to_its_action() -> None:
-    """The expected level with a race that is not true is above a limit of 108 dB; the number of its action stands below,
-    with what it changes. Friction alone would hold the balls at 116.4 dB on a vertical spindle: that is told, and judged
-    by none.
+    """The expected level is above a limit of 108 dB; the number of its action stands below, with what it changes.
+
+    Friction alone would hold the balls at 116.4 dB on a vertical spindle: that is told, and judged by none.
     """
     entries = "machine.spindle_axis=vertical", "limits.vibration_level_db=108", "autobalancer.race_eccentricity_mm=0.03"
     lines = once("size", "avtovaz-707-222", *(part for entry in entries for part in ("--set", entry))).out
