@@ -38,8 +38,8 @@ def same(result: Result, *arguments: str) -> None:
     document = abu(*arguments, "--json").document
     assert without_clock(result.to_dict()) == without_clock(document["result"])
     assert (result.status, list(result.warnings)) == (document["status"], document["warnings"])
-    told = [{key: value for key, value in check.items() if key != "change"} for check in document["checks"]]
-    assert [as_plain(vars(check)) for check in result.checks] == told
+    checks = [{key: value for key, value in check.items() if key != "change"} for check in document["checks"]]
+    assert [as_plain(vars(check)) for check in result.checks] == checks
     assert result.model.to_dict().keys() == document["model"].keys()
     assert result.provenance.input == document["input"]
 

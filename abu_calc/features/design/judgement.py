@@ -95,11 +95,11 @@ def judge(
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
     only_checks, trial = trial is not None, trial or Trial()
     seats = _seats(tables)
-    of_seats = tuple(check for bearing in seats for check in bearing.checks)
     design = size_design(tables)
-    trial.checked((*design.checks, *of_seats))
+    trial.checked((*design.checks, *_of(seats)))
     trial.repeated(design)
     facts = proven(design, accuracy, progress, workers, starts, trial)
+    seats = _with_lives(seats, design, facts.ensemble, tables)
     # The search for the true limits of the speed range and the scenes may run beside each other.
     balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=workers)
     region = true_region(design, accuracy)
@@ -118,13 +118,11 @@ def judge(
     )  # fmt: skip
     of_arm = () if arm is None else arm.checks  # that of the balanced state last
     checks = (
-        *design.checks_before, level_check(facts), *design.checks_behind, *of_arm[:-1], *of_seats, *of_arm[-1:],
+        *design.checks_before, level_check(facts), *design.checks_behind, *of_arm[:-1], *_of(seats), *of_arm[-1:],
         *stays, region.check, *checks_of_starts(facts), *lost,
     )  # fmt: skip
     trial.checked(checks)
-    return Judgement(
-        facts, _with_lives(seats, design, facts.ensemble, tables), region, arm, moved, runs, failures, work, checks
-    )
+    return Judgement(facts, seats, region, arm, moved, runs, failures, work, checks)
 
 
 NOT_SEARCHED = (
@@ -173,6 +171,11 @@ def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
     from abu_calc.features.seats.seats import seat_bearings
 
     return seat_bearings(tables.bearing)
+
+
+def _of(seats: "tuple[BearingSeats, ...]") -> Iterator[Check]:
+    """Checks of the seats."""
+    return (check for bearing in seats for check in bearing.checks)
 
 
 def _with_lives(
