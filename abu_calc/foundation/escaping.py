@@ -55,3 +55,21 @@ def _toml_escape(code: int) -> str:
     if 0xD800 <= code < 0xE000:  # half a character: TOML has no word for it
         return "?"
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def shell_word(text: str) -> str:
+    """A text as one word of a command line, for bash, PowerShell and the Windows prompt alike: in double quotes.
+
+    >>> shell_word("machine.toml"), shell_word("oil.grade=VG 100")
+    ('machine.toml', '"oil.grade=VG 100"')
+
+    A text with signs that double quotes do not protect in bash gets single ones.
+    """
+    if text and not _NEEDS_QUOTES.search(text):
+        return text
+    import shlex
+
+    return shlex.quote(text) if any(sign in text for sign in '"$`\\!') else f'"{text}"'
+
+
+_NEEDS_QUOTES: Final = re.compile(r"[^\w@%+=:,./-]")

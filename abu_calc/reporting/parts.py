@@ -4,11 +4,11 @@ Levels stand as instruments show them, and measured ones beside predicted ones.
 """
 
 import re
-import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
 from abu_calc.foundation.checks import RANK, Check, Grade
+from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Record, quantities
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.text import shown as exact
@@ -36,7 +36,7 @@ def of_scene(scene: str) -> str:
 
 def file_of(result: Result) -> str:
     """File or preset of a result as a command line names it; FILE if there is none."""
-    return shlex.quote(result.provenance.file) if result.provenance.file else "FILE"
+    return shell_word(result.provenance.file) if result.provenance.file else "FILE"
 
 
 def facts(record: Record, *names: str) -> Facts:
@@ -124,7 +124,7 @@ def paste_lines(overrides: Sequence[str]) -> list[Paragraph]:
     """
     lines = list[str]()
     for entry in overrides:
-        option = f"--set {shlex.quote(entry)}"
+        option = f"--set {shell_word(entry)}"
         for k, line in enumerate(lines):
             if len(line) + len(option) < PASTED:
                 lines[k] += f" {option}"
@@ -216,7 +216,7 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
 
 def options_of(provenance: Provenance) -> str:
     """The replaced entries of a result as options of a command, each after a space."""
-    return "".join(f" --set {shlex.quote(entry.replace(' = ', '=', 1))}" for entry in replaced_entries(provenance))
+    return "".join(f" --set {shell_word(entry.replace(' = ', '=', 1))}" for entry in replaced_entries(provenance))
 
 
 def replaced_entries(provenance: Provenance) -> list[str]:

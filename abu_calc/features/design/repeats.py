@@ -1,11 +1,11 @@
 """Start cases that decide checks, and the options of `abu simulate` that repeat them."""
 
 from collections.abc import Iterator
-from shlex import quote
 from typing import Annotated
 
 from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.design.start_search import SearchResult
+from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
@@ -31,7 +31,7 @@ def repeated(outcome: StartOutcome, design: Design) -> str:
             sets.append(f"start.speeds_rpm={[ball_speed_rpm(design, member)] * len(member.angles)}")
     scene = "--scene run-up " if member.run_up else f"--start {member.start} " if not member.angles else ""
     scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
-    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {quote(entry)}' for entry in sets)}"
+    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {shell_word(entry)}' for entry in sets)}"
 
 
 def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
@@ -54,7 +54,7 @@ def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
     if varied.friction_arm != 1:
         yield "autobalancer.rolling_friction_mm", f"{from_si(varied.friction_arm * case.friction_arm, 'mm'):.10g}"
     if varied.spindle_axis is not None:
-        yield "machine.spindle_axis", f'"{varied.spindle_axis}"'
+        yield "machine.spindle_axis", varied.spindle_axis
     given = case.table.suspension.frequencies
     if varied.natural_frequency != 1 and given is not None:
         values = ", ".join(f"{varied.natural_frequency * each:.10g}" for each in given)

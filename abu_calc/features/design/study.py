@@ -261,7 +261,7 @@ def size(
     checks = actions(judged, step) if whole else judged.checks
     return SizeResult(
         title=tables.machine.name,
-        verdict=_verdict(judged, checks, step, machine.file),
+        verdict=_verdict(judged, checks, step, Provenance.of(machine)),
         checks=checks,
         warnings=merged(
             *facts.warnings,
@@ -340,7 +340,7 @@ def _judge(accuracy: float, workers: int) -> Judge:
     return Judge(judged, once)
 
 
-def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, file: str) -> Verdict:
+def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading: Provenance) -> Verdict:
     """The verdict with what the autobalancer does at the loudest place, and the change that mends the machine."""
     design, ensemble, quiet = judged.design, judged.facts.ensemble, None
     levels = design.idle.worst
@@ -349,9 +349,7 @@ def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, file: s
     told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
     entries = () if step.best is None else step.best.entries
     sought = judged.facts.starts == FULL and not patience.over()
-    return Verdict.of(
-        checks, told, file or None, entries, promise(judged, step), incurable=sought and step.best is None
-    )
+    return Verdict.of(checks, told, reading, entries, promise(judged, step), incurable=sought and step.best is None)
 
 
 def merged(*warnings: str) -> tuple[str, ...]:

@@ -1,11 +1,13 @@
 """Verdict of a design in one word and one sentence: whether the machine suits, and what decides it."""
 
-import shlex
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Self
 
 from abu_calc.foundation.checks import Check, Grade, worst
+from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.reporting.parts import replaced_entries
+from abu_calc.simulation.result import Provenance
 
 WORDS: Final[dict[Grade, str]] = {
     "pass": "suits", "warn": "suits-but", "fail": "does-not-suit", "not-done": "not-known"
@@ -35,10 +37,12 @@ class Verdict(Record):
 
     @classmethod
     def of(
-        cls, checks: Sequence[Check], benefit: str, file: str | None, entries: Sequence[str] = (),
+        cls, checks: Sequence[Check], benefit: str, reading: Provenance, entries: Sequence[str] = (),
         promise: Mapping[str, str | float | None] | None = None, *, incurable: bool = False,
     ) -> Self:  # fmt: skip
         """Verdict of these checks: those of the worst grade decide; `benefit`: a sentence if all pass.
+
+        `reading`: the file, with the entries that a command replaces already, which the next one replaces, too.
 
         `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: whether none was found.
         """
@@ -50,8 +54,14 @@ class Verdict(Record):
         sentence = f"{SENTENCES[grade]}, for {VERBS[grade][len(deciding) > 1]}: {reasons}."
         if incurable and grade == "fail":
             sentence += " No change of the file was found that mends it."
-        words = ["abu", "size", file or "FILE", *(word for entry in entries for word in ("--set", entry))]
-        return cls(word=WORDS[grade], sentence=sentence, next=shlex.join(words) if entries else None, promise=promise)
+        step = None
+        if entries:
+            changed = {entry.partition("=")[0] for entry in entries}
+            given = (entry.replace(" = ", "=", 1) for entry in replaced_entries(reading))
+            kept = (entry for entry in given if entry.partition("=")[0] not in changed)
+            options = (f"--set {shell_word(entry)}" for entry in (*kept, *entries))
+            step = " ".join(["abu size", shell_word(reading.file or "FILE"), *options])
+        return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise)
 
 
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:

@@ -1,7 +1,6 @@
 """Attractors of a scene as a result: kinds, shares of starts, ball speeds, levels, examples that can be rerun."""
 
 import math
-import shlex
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
@@ -21,6 +20,7 @@ from abu_calc.features.stability.attractor_search import ALIKE_LEVEL, ALIKE_SPEE
 from abu_calc.features.stability.attractor_starts import touching
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, level_from_velocity
@@ -246,24 +246,24 @@ def _asked(subject: Subject, command: str) -> Iterator[str]:
     """A command with the subject's file, scene and replaced entries."""
     reading = subject.reading
     assert reading is not None
-    yield f"abu {command} {shlex.quote(reading.file)}"
+    yield f"abu {command} {shell_word(reading.file)}"
     if isinstance(reading, Machine) and subject.scene.name != "idle":
         yield f"--scene {subject.scene.name}"
     for override in reading.overrides:
-        yield f"--set {shlex.quote(f'{override.key}={_toml(override.value)}')}"
+        yield f"--set {shell_word(f'{override.key}={_toml(override.value)}')}"
 
 
 def _parts(subject: Subject, end: EndState) -> Iterator[str]:
     """Options of `abu simulate` that give a start, its effects and its duration."""
     first, angles, speeds = 0, end.start.angles_deg, end.start.speeds_rpm
     if subject.design is not None:
-        yield f"--set {shlex.quote(f'start.angles_deg={_toml(angles)}')}"
-        yield f"--set {shlex.quote(f'start.speeds_rpm={_toml(speeds)}')}"
+        yield f"--set {shell_word(f'start.angles_deg={_toml(angles)}')}"
+        yield f"--set {shell_word(f'start.speeds_rpm={_toml(speeds)}')}"
     else:
         for index, race in enumerate(subject.scene.races):
             own = slice(first, first + len(race.ball_masses))
-            yield f"--set {shlex.quote(f'scene.race[{index}].start_angles_deg={_toml(angles[own])}')}"
-            yield f"--set {shlex.quote(f'scene.race[{index}].start_speeds_rpm={_toml(speeds[own])}')}"
+            yield f"--set {shell_word(f'scene.race[{index}].start_angles_deg={_toml(angles[own])}')}"
+            yield f"--set {shell_word(f'scene.race[{index}].start_speeds_rpm={_toml(speeds[own])}')}"
             first = own.stop
     for name in _always(subject.scene):
         yield f"--with {name}"

@@ -75,7 +75,7 @@ def size_two_races(
         verdict=Verdict.of(
             checks,
             told,
-            machine.file or None,
+            Provenance.of(machine),
             () if step.best is None else step.best.entries,
             promise(judged, step),
             incurable=step.best is None and not patience.over(),

@@ -7,6 +7,7 @@ import pytest
 import abu_calc
 from abu_calc.features.design.verdict import Verdict, benefit
 from abu_calc.foundation.checks import Check, Grade, OptionalCheck
+from abu_calc.simulation.result import Provenance
 from tests.remembered import recalled
 
 LEVEL = Check("ABU401", "idle level", "pass", "Loudest start case. It is loud", 104.0, 109.0, "dB")
@@ -14,7 +15,7 @@ LEVEL = Check("ABU401", "idle level", "pass", "Loudest start case. It is loud", 
 
 def of_grades(*grades: Grade) -> Verdict:
     checks = [Check("ABU702", f"check {k}", grade, f"reason {k}. And more") for k, grade in enumerate(grades)]
-    return Verdict.of(checks, "It helps.", None)
+    return Verdict.of(checks, "It helps.", Provenance.today())
 
 
 @pytest.mark.parametrize(
@@ -45,20 +46,22 @@ def test_the_worst_grade_decides(grades: tuple[Grade, ...], word: str, sentence:
 
 def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
     optional = OptionalCheck("ABU407", "vibration at handles", "not-done", "no direction")
-    assert Verdict.of([LEVEL, optional], "It helps.", None).word == "suits"
+    assert Verdict.of([LEVEL, optional], "It helps.", Provenance.today()).word == "suits"
 
 
 def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> None:
     late = Check("ABU702", "quiet time", "fail", "late", 1.25, 1.0, "s", "Set … (simulated).", overrides=("e.f=3",))
     moved = {"path": "ensemble.quiet_time_s.worst", "from": 1.25, "to": 0.5}
-    verdict = Verdict.of([LEVEL, late], "", "my machine.toml", ("a.b=2", 'c.d="x y"'), moved)
+    reading = Provenance.today("my machine.toml", overrides=(("a.b", 1), ("x.y", 2)))
+    verdict = Verdict.of([LEVEL, late], "", reading, ("a.b=2", 'c.d="x y"'), moved)
     assert verdict.sentence == "The machine does not suit, for this check fails: quiet time (1.25 s, at most 1 s)."
     creeps = Check("ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further: 1 of 72 still creeps", 0.1, 1.0, "s")
-    assert "quiet time (Further: 1 of 72 still creeps)" in Verdict.of([creeps], "", None).sentence
+    assert "quiet time (Further: 1 of 72 still creeps)" in Verdict.of([creeps], "", Provenance.today()).sentence
     assert verdict.next is not None
-    assert shlex.split(verdict.next) == ["abu", "size", "my machine.toml", "--set", "a.b=2", "--set", 'c.d="x y"']
+    replaced = ["--set", "x.y=2", "--set", "a.b=2", "--set", 'c.d="x y"']
+    assert shlex.split(verdict.next) == ["abu", "size", "my machine.toml", *replaced], "and what was replaced before"
     assert verdict.promise == moved
-    plain = Verdict.of([LEVEL], "It helps.", "my machine.toml", ("a.b=2",), moved)
+    plain = Verdict.of([LEVEL], "It helps.", Provenance.today("my machine.toml"), ("a.b=2",), moved)
     assert (plain.next, plain.promise) == (None, None), "nothing is mended of what suits"
 
 
@@ -67,7 +70,7 @@ def test_what_no_change_mends_is_told_so() -> None:
     told = "No change of the file was found that mends it."
     for grade in ("pass", "warn", "fail", "not-done"):
         check = Check("ABU702", "quiet time", grade, "late", 1.25, 1.0, "s")
-        verdict = Verdict.of([check], "It helps.", None, incurable=True)
+        verdict = Verdict.of([check], "It helps.", Provenance.today(), incurable=True)
         assert verdict.sentence.endswith(told) is (grade == "fail") and verdict.next is None
 
 
