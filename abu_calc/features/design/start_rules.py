@@ -241,7 +241,9 @@ def _settles(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     elif (rested := LAST_AT_REST.worst(ensemble.given)) is not None and rested.rest_time is not None:
         allowed = "" if math.isinf(longest) else f" (limit {longest:g} s)"
         sentences.append(f"The balls rest after {rested.rest_time:#.3g} s at the latest{allowed}")
-    return Finding(status, ". ".join(sentences), None if late is None else late.quiet_time, limit, "s", advise(status))
+    decides = latest if status == "warn" and latest and latest.quiet_time_or_inf > limit else late
+    value = None if decides is None else decides.quiet_time
+    return Finding(status, ". ".join(sentences), value, limit, "s", advise(status))
 
 
 def _none_stalls(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:

@@ -74,10 +74,15 @@ def benefit(place: str, before: float | None, after: float | None, limit: float,
 
 
 def _reason(check: Check) -> str:
-    """Name of a check with its value and limit; if the value keeps the limit, with what its message says last."""
+    """Name of a check with its value and limit; if the value keeps the limit, with what its message says first.
+
+    What it says of further start cases stands last, and decides where it is said.
+    """
     value, limit = check.value, check.limit
     kept = value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit)
     if kept:
-        return f"{check.name} ({check.message.split('. ')[-1].rstrip('.')})"
+        first = check.message.split(". ")[0]
+        further = next((text for text in check.message.split(". ") if text.startswith("Further start cases")), None)
+        return f"{check.name} ({(further or first).rstrip('.')})"
     unit = f" {check.unit}" if check.unit else ""
     return f"{check.name} ({value:.4g}{unit}, at {check.bound} {limit:.4g}{unit})"

@@ -25,17 +25,17 @@ def of_grades(*grades: Grade) -> Verdict:
         (
             ("pass", "warn", "pass"),
             "suits-but",
-            "The machine suits with a reservation, for this check warns: check 1 (And more).",
+            "The machine suits with a reservation, for this check warns: check 1 (reason 1).",
         ),
         (
             ("warn", "not-done", "pass"),
             "not-known",
-            "Whether the machine suits is not known, for this check is not evaluated: check 1 (And more).",
+            "Whether the machine suits is not known, for this check is not evaluated: check 1 (reason 1).",
         ),
         (
             ("not-done", "fail", "warn", "fail"),
             "does-not-suit",
-            "The machine does not suit, for these checks fail: check 1 (And more); check 3 (And more).",
+            "The machine does not suit, for these checks fail: check 1 (reason 1); check 3 (reason 3).",
         ),
     ],
 )
@@ -55,8 +55,13 @@ def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> N
     reading = Provenance.today("my machine.toml", overrides=(("a.b", 1), ("x.y", 2)))
     verdict = Verdict.of([LEVEL, late], "", reading, ("a.b=2", 'c.d="x y"'), moved)
     assert verdict.sentence == "The machine does not suit, for this check fails: quiet time (1.25 s, at most 1 s)."
-    creeps = Check("ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further: 1 of 72 still creeps", 0.1, 1.0, "s")
-    assert "quiet time (Further: 1 of 72 still creeps)" in Verdict.of([creeps], "", Provenance.today()).sentence
+    creeps = Check(
+        "ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further start cases: 1 of 72 still creeps. More", 0.1, 1.0, "s"
+    )
+    assert (
+        "quiet time (Further start cases: 1 of 72 still creeps)"
+        in Verdict.of([creeps], "", Provenance.today()).sentence
+    )
     assert verdict.next is not None
     replaced = ["--set", "x.y=2", "--set", "a.b=2", "--set", 'c.d="x y"']
     assert shlex.split(verdict.next) == ["abu", "size", "my machine.toml", *replaced], "and what was replaced before"
