@@ -372,3 +372,11 @@ def test_a_machine_below_its_resonance_gets_no_change(tmp_path: Path) -> None:
     assert after is None and (verdict["word"], verdict["next"], verdict["promise"]) == ("does-not-suit", None, None)
     assert verdict["sentence"].endswith("No change of the file was found that mends it.")
     assert not any("Set " in (check["remedy"] or "") for check in before["checks"])
+
+
+@pytest.mark.slow
+def test_workers_change_nothing_of_the_next_step() -> None:
+    """Starts that run beside the one that ends a trial count no work, or all of it."""
+    machine = abu_calc.read(str(Path(__file__).parents[2] / "machines" / "hanging-balls.toml"))
+    alone, beside = (abu_calc.size(machine, workers=workers).verdict for workers in (1, 3))
+    assert alone == beside and alone.next is not None
