@@ -78,17 +78,19 @@ ALWAYS = ("dry_rolling_friction", "ball_contact")
 
 
 Once = Callable[..., "StartOutcome | Lost"]
-"""One start of a machine, as `start_once` runs it."""
+Watch = Callable[[Any, "StartOutcome | Lost"], None]
+"""One start of a machine, as `start_once` runs it; and what looks at the outcomes of a design in their order."""
 
 
 class Runner(NamedTuple):
-    """How one start of a machine is run, as `start_once` does it, which integrator all its starts ask for, and the work
-    after which no further start is begun.
+    """How one start of a machine is run, as `start_once` does it, which integrator all its starts ask for, the work
+    after which no further start is begun, and what looks at each outcome in turn and may end all by raising.
     """
 
     once: Once
     integrator: Callable[[Any, Member, float, float], str]
     most: int = MOST_MORE
+    watch: "Watch | None" = None
 
 
 class StartRun(NamedTuple):
@@ -101,19 +103,19 @@ class StartRun(NamedTuple):
 
 def simulate_members(
     design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1,
-    shares: tuple[float, ...] | None = None, doubtful: float | None = None, once: "Once | None" = None,
+    shares: tuple[float, ...] | None = None, doubtful: float | None = None, watch: "Watch | None" = None,
 ) -> Ensemble:  # fmt: skip
     """Every start once, at these shares of the drag given; None: those of working, hot and cold oil.
 
     Those that decide a check run again at a tighter tolerance, and the worse of both counts. `doubtful` [1/s]: the drag
     below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. A start
-    whose work did not suffice gets more. The outcome does not depend on how many run side by side. `once` takes the
-    place of `start_once`.
+    whose work did not suffice gets more. The outcome does not depend on how many run side by side. `watch`
+    looks at each.
     """
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
     starts, oil = list(members(design, doubtful, shares)), design.case.oil
-    runner = Runner(once or start_once, integrator_for)
+    runner = Runner(start_once, integrator_for, watch=watch)
     ensemble = simulate_starts(design, starts, accuracy, first_tolerance(design), progress, workers, runner)
     return ensemble if oil is None else replace(ensemble, temperatures=oil.temperatures)
 
@@ -398,7 +400,7 @@ def every_start(
 
     `run_up_work`: work that a run-up may take; None: as much as any start.
     """
-    once, integrator, _ = runner or Runner(start_once, integrator_for)
+    once, integrator, _, watch = runner or Runner(start_once, integrator_for)
     wanted = integrator(design, starts[0][0], accuracy, tolerance) if starts else "auto"
     long = work if run_up_work is None else run_up_work
     tasks = [
@@ -406,7 +408,11 @@ def every_start(
         for start, early_end in starts
     ]
 
-    return side_by_side(once, tasks, workers, counted(progress, "idle: {} of {} starts", len(tasks)))
+    with closing(side_by_side(once, tasks, workers, counted(progress, "idle: {} of {} starts", len(tasks)))) as runs:
+        for outcome in runs:
+            if watch is not None:
+                watch(design, outcome)
+            yield outcome
 
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> StartOutcome:

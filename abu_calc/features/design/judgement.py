@@ -22,8 +22,8 @@ from abu_calc.foundation.parallel import meanwhile
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, not_simulated, simulated
-from abu_calc.simulation.ensemble import Once, simulate_first, simulate_members, start_once
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.ensemble import simulate_first, simulate_members
+from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 
@@ -73,9 +73,8 @@ class Judgement:
 class Trial:
     """What ends a judgement early, of a change that is tried; of the file as it is nothing does."""
 
-    def guarded(self, once: Once) -> Once:
-        """How a start is run, by how it usually is."""
-        return once
+    def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
+        """Called with each outcome of its start cases, in their order."""
 
     def checked(self, checks: Iterable[Check]) -> None:
         """Called with the checks that are known so far."""
@@ -148,15 +147,14 @@ def proven(
     if starts != FULL:
         return StartFacts(design, simulate_first(design, accuracy) if starts == ONE else None, starts=starts)
     trial = trial or Trial()
-    once = trial.guarded(start_once)
-    first = simulate_members(design, accuracy, progress, workers, once=once)
+    first = simulate_members(design, accuracy, progress, workers, watch=trial.seen)
     facts = StartFacts(design, first)
     trial.checked((level_check(facts), *checks_of_starts(facts)))
     if not facts.listed_pass:
         return facts
     if first.work > MOST_SEARCHED and not patience.given():
         return replace(facts, warnings=(NOT_SEARCHED,))
-    return replace(facts, searched=search(design, accuracy, progress, workers, first.given, once))
+    return replace(facts, searched=search(design, accuracy, progress, workers, first.given, trial.seen))
 
 
 def _carries(design: Design) -> bool:

@@ -35,8 +35,8 @@ Entries = tuple[str, ...]
 
 MOST_TRIALS: Final = 24
 """Changes that are tried."""
-SHARE, LEAST_WORK = 1.0, 600_000
-"""Evaluations that all trials may take, as a share of those of the file as it is, and at least."""
+LEAST_WORK: Final = 1_000_000
+"""Evaluations that all trials may take at least; else as many as the file as it is, the last one half as many more."""
 REPEATED: Final = 6
 """Start cases that fail as the file is, which run first with a change, the worst ones."""
 
@@ -86,33 +86,32 @@ class NotBetterError(Exception):
     """A change leads to no better verdict, or makes a check worse."""
 
 
+class TooLongError(Exception):
+    """A trial takes more work than is left: nothing is known of the change."""
+
+
 class Change(Trial):
     """A trial of one change of a machine: it ends as soon as the verdict cannot be better, or a check gets worse.
 
-    `worse_than`: rank of the grade that the verdict has to excel.
+    `worse_than`: rank of the grade that the verdict has to excel; `once`: how one start is run; `most`: the
+    evaluations that it may take.
     """
 
-    def __init__(self, before: Judged, worse_than: int, once: Once) -> None:
-        self.before, self.worse_than, self.once, self.work = before, worse_than, once, 0
+    def __init__(self, before: Judged, worse_than: int, once: Once, most: float = math.inf) -> None:
+        self.before, self.worse_than, self.once, self.most, self.work = before, worse_than, once, most, 0
         self.ranks = {_key(check): RANK.index(check.status) for check in before.checks}
         self.every = worse_than == RANK.index("warn")
 
-    def guarded(self, once: Once) -> Once:
-        """The same, that ends the trial with the first start case that does not hold as it has to."""
-
-        def guard(design: Any, *given: Any, **more: Any) -> StartOutcome | Lost:
-            """Count the work, and raise NotBetterError for a start case that fails."""
-            outcome = once(design, *given, **more)
-            self.work += outcome.work
-            if self._holds(outcome, design):
-                return outcome
-            if (self.every or outcome.member.promised) and not self._holds(
-                self.once(design, outcome.member, closer=True), design
-            ):
+    def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
+        """Raise NotBetterError for the first start case that does not hold as it has to."""
+        self.work += outcome.work
+        if self.work > self.most:
+            raise TooLongError
+        decides = self.every or outcome.member.promised
+        if decides and not self._holds(outcome, design):
+            closer = self.once(design, outcome.member, closer=True)
+            if not self._holds(closer, design):
                 raise NotBetterError
-            return outcome
-
-        return guard
 
     def _holds(self, outcome: StartOutcome | Lost, design: Any) -> bool:
         """True if a start case keeps the limits, or gave no answer, which checks judge."""
@@ -131,14 +130,14 @@ class Change(Trial):
         still does.
         """
         limits, drag, old = design.case.table.limits, design.case.drag, self.before.facts.design.case.drag
-        level, once = limits.vibration_level_db, self.guarded(self.once)
+        level = limits.vibration_level_db
         bad = [run for run in self.before.outcomes if not run.holds(limits, level)]
         bad = [run for run in bad if self.every or run.member.promised]
         bad.sort(key=lambda run: (run.hanging, run.quiet_time_or_inf, run.level), reverse=True)
         for run in bad[:REPEATED]:
             member = replace(run.member, drag=run.member.drag * drag / old if old else drag)
             if not member.angles or len(member.angles) == design.autobalancer.ball_count:
-                once(design, member)
+                self.seen(design, self.once(design, member))
 
 
 PASS: Final = RANK.index("pass")
@@ -156,17 +155,20 @@ def next_step(
     It costs nothing where nothing is wrong. Where something is, all trials together take as long as the file as it is.
     """
     best, rank, tried = None, RANK.index(worst(before.checks)), list[str]()
-    left = max(SHARE * sum(run.work for run in before.outcomes), LEAST_WORK)
+    work = max(sum(run.work for run in before.outcomes), LEAST_WORK)
+    left = math.inf if patience.given() else work
     for entries in islice(proposals, MOST_TRIALS):
         if rank == PASS or left <= 0 or patience.over():
             break
-        trial, told = Change(before, rank, judge.once), within(progress, f"with {in_words(entries)}")
+        trial, told = Change(before, rank, judge.once, left + work / 2), within(progress, f"with {in_words(entries)}")
         try:
             with trials.left_out():
                 after = judge.judged(variant_of(machine, ",".join(entries)), told, trial)
             best, rank = Tried(entries, after), RANK.index(worst(after.checks))
         except NotBetterError:
             tried.append(in_words(entries))
+        except TooLongError:
+            pass
         except AbuError:  # the file refuses it
             continue
         left -= trial.work

@@ -24,8 +24,8 @@ from abu_calc.simulation.ensemble import (
     MORE,
     TIGHTER,
     WORK,
-    Once,
     Runner,
+    Watch,
     every_start,
     first_tolerance,
     integrator_for,
@@ -173,15 +173,15 @@ def search(
     progress: Progress = silent,
     workers: int = 1,
     listed: tuple[StartOutcome, ...] = (),
-    once: Once = start_once,
+    watch: Watch | None = None,
 ) -> SearchResult:
     """The designed starts, and those near the worst of them. The same whatever the number of workers.
 
-    `listed`: outcomes of the listed starts at the drag given; `once`: how a start is run.
+    `listed`: outcomes of the listed starts at the drag given; `watch`: looks at each outcome.
     """
 
     def run(starts: Sequence[Member]) -> tuple[StartOutcome, ...]:
-        return _run(design, starts, accuracy, progress, workers, once)
+        return _run(design, starts, accuracy, progress, workers, watch)
 
     starts = list(design_part(design, 0))
     found, asked, limit = run(starts), len(starts), design.case.table.limits.longest_quiet_time
@@ -349,10 +349,13 @@ def neighbours(member: Member) -> Iterator[Member]:
 
 
 def _run(
-    design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int, once: Once
+    design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int, watch: Watch | None
 ) -> tuple[StartOutcome, ...]:
     """Outcomes of the start cases that gave an answer. When balls rest decides nothing beside listed ones."""
-    early, runner = [(start, True) for start in starts], Runner(partial(once, to_rest=False), integrator_for)
+    early, runner = (
+        [(start, True) for start in starts],
+        Runner(partial(start_once, to_rest=False), integrator_for, watch=watch),
+    )
     answers = every_start(
         design, early, accuracy, first_tolerance(design), within(progress, "further"), workers, runner=runner
     )

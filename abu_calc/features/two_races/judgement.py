@@ -28,7 +28,6 @@ from abu_calc.features.two_races.start_cases import (
     ensemble_of,
     level_of,
     stability_scene,
-    start_once,
 )
 from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.two_races import (
@@ -86,7 +85,7 @@ def judge(
     stable = tuple(stability_check(design, judged))
     trial.checked(stable)
     trial.repeated(design)
-    ensemble = ensemble_of(design, accuracy, progress, workers, trial.guarded(start_once)) if above else None
+    ensemble = ensemble_of(design, accuracy, progress, workers, trial.seen) if above else None
     vibration = _vibration(design.case, ensemble)
     facts = facts_of(design, ensemble)
     checks = region, *stable, *made, *level_checks(design, vibration, ensemble), *checks_of_starts(facts)

@@ -41,8 +41,8 @@ from abu_calc.simulation.ensemble import (
     TIGHTER,
     TOLERANCE,
     WORK,
-    Once,
     Runner,
+    Watch,
     integrated,
     simulate_starts,
 )
@@ -305,11 +305,13 @@ TWO_RACES: Final = Runner(start_once, _integrator, MOST_MORE // 6)
 
 
 def ensemble_of(
-    design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int, once: Once = start_once
+    design: TwoRaceDesign, accuracy: float, progress: Progress, workers: int, watch: Watch | None = None
 ) -> Ensemble:
     """All start cases, each once; those that decide a check once more at a tighter tolerance."""
     starts = list(start_cases(design))
-    return simulate_starts(design, starts, accuracy, FIRST_TOLERANCE, progress, workers, TWO_RACES._replace(once=once))
+    return simulate_starts(
+        design, starts, accuracy, FIRST_TOLERANCE, progress, workers, TWO_RACES._replace(watch=watch)
+    )
 
 
 def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samples, work: int) -> TwoRaceOutcome:
