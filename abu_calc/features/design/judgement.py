@@ -94,8 +94,9 @@ def judge(
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
     only_checks, trial = trial is not None, trial or Trial()
     seats = _seats(tables)
+    trial.checked(_of(seats))
     design = size_design(tables)
-    trial.checked((*design.checks, *_of(seats)))
+    trial.checked(design.checks)
     trial.repeated(design)
     facts = proven(design, accuracy, progress, workers, starts, trial)
     seats = _with_lives(seats, design, facts.ensemble, tables)

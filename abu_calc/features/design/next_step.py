@@ -24,7 +24,7 @@ from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
-from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
+from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import PINS, SIMULATED, overrides
@@ -206,12 +206,12 @@ class Number(NamedTuple):
 
 
 def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False) -> Callable[[Judged], float | None]:
-    """The largest of the listed or of the further start cases; None for one that never is, or without any."""
+    """The largest of the listed or of the further start cases; None for one that never is, NaN without any."""
 
     def largest(judged: Judged) -> float | None:
         facts = judged.facts
-        starts = (facts.searched if further else facts.ensemble) or Ensemble(0.0, (), ())
-        return finite(max(map(value, starts.outcomes), default=math.inf))
+        starts = facts.searched if further else facts.ensemble
+        return math.nan if starts is None else finite(max(map(value, starts.outcomes), default=math.inf))
 
     return largest
 
@@ -249,7 +249,8 @@ def _moved(check: Check, before: Judged, after: Judged) -> tuple[Number, float |
         old, new = number.of(before), number.of(after)
         limit, sign = (check.limit or 0.0) / number.per, 1 if check.bound == "most" else -1
         kept = [value is not None and sign * value <= sign * limit for value in (old, new)]
-        if check.limit is not None and new is not None and kept == [False, True]:
+        known = check.limit is not None and not (old is not None and math.isnan(old))
+        if known and new is not None and kept == [False, True]:
             return number, old, new
     return None
 
