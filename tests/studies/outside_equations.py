@@ -430,8 +430,33 @@ def _rests(p, rev, wide, quiet, means, squares, angles, slipped):  # type: ignor
 
 
 @njit
+def _calm(p, rev, wide, calm, squares, angles):  # type: ignore[no-untyped-def]
+    """True if each mean square of velocity stays below `calm` and does not grow, and no ball moves by 0.3 rad."""
+    for k in range(p.balls):
+        if abs(angles[rev, k] - angles[rev - wide, k]) > 0.3:
+            return False
+    for j in range(len(p.places)):
+        for axis in range(2):
+            first = second = 0.0
+            for back in range(wide):
+                square = squares[rev - back, j, axis]
+                if square > 16 * calm:
+                    return False
+                if back < wide // 2:
+                    second += square
+                else:
+                    first += square
+            if second > 1.01 * first:
+                return False
+    return True
+
+
+@njit
 def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, sums, angles, slipped):  # type: ignore[no-untyped-def]
     """Integrate y from t = 0 until all rests; `span` [s]: full speed, least time at it, latest end, window of looking.
+
+    `quiet` [m²/s²]: a mean square that falls below the first number need not be steady; a run that stays below the
+    second and grows no louder is calm and ends, though its balls still creep.
 
     From `full` [s] on, 16 times a revolution: |imbalance left| and its time. For each revolution its mean, the sums of
     the squares of velocity, of the velocities and of their moments, the ball angles at its end. Returns samples and
@@ -476,7 +501,10 @@ def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, sums,
                 angles[rev, k] = y[nq + 1 + k] - y[nq]
                 slipped[rev, k] = w.anchor[k, 2]
             late = rev >= wide and t - full > least and rev % 5 == 0
-            if late and _rests(p, rev, wide, quiet, means, squares, angles, slipped):
+            if late and (
+                _calm(p, rev, wide, quiet[1], squares, angles)
+                or _rests(p, rev, wide, quiet[0], means, squares, angles, slipped)
+            ):
                 rev += 1
                 break
             rev += 1
