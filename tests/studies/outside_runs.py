@@ -16,7 +16,7 @@ import numpy as np
 from tests.studies.outside_equations import Machine, run, workspace
 
 GRAVITY: Final = 9.80665
-STEPS, COARSE = 208, 64
+STEPS, COARSE = 208, 48
 """In a revolution; multiples of 16. A coarse run that comes near a limit is repeated."""
 NEAR, NEAR_DB = 0.85, 1.0
 """Shares of a limit, and dB below one, from which a run is near it."""
