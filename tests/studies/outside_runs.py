@@ -227,8 +227,9 @@ def band_starts(
         else:
             start = _anywhere(machine, "motor" in file, "", rng)
             if not is_usual:
-                turning = machine.speed * float(rng.choice([0.0, 1.0, 1.0]))
-                start = replace(start, speeds=(turning,) * machine.balls)
+                turning = float(rng.choice([0.0, 1.0, 1.0]))
+                speeds = (turning * machine.speed,) * machine.balls
+                start = replace(start, speeds=speeds, kind=f"anywhere, turning at {turning:.2f}")
             if rng.random() < 0.5:
                 middle = rng.uniform(0, math.tau)
                 together = tuple(middle + (j - (machine.balls - 1) / 2) * machine.gap * 1.0001
