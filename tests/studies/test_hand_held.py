@@ -62,15 +62,17 @@ def test_named_starts_stand_where_their_names_say() -> None:
 
 
 def test_counts() -> None:
-    broken_run = {"band": "usual", "why": "late"}
+    broken_run = {"band": "usual", "worse wheel": True, "why": "late", "quiet": 1.2, "level": -9.0}
     passing = {
         "status": "pass", "axis": "horizontal", "balls": 4, "checks": [], "broken": [broken_run], "repeated": 4,
-        "runs": {"promised": 267, "usual": 133, "fine": 2}, "otherwise": 0, "unconfirmed": 1,
+        "runs": {"promised": 267, "usual": 133, "fine": 2, "worse wheel": 50}, "otherwise": 0, "unconfirmed": 1,
     }  # fmt: skip
     other = {"status": "by dynamics", "checks": [], "holds": True}
     found = summary([passing, passing | {"balls": 5, "broken": []}, other, {"status": "left out"}])
     assert (found["sized"], found["pass"], found["horizontal_with_four_balls"]) == (3, 2, 1)
-    assert found["usual"] == {"runs": 266, "broken": 1, "share": 1 / 266, "machines": 1}
+    counts = {"runs": 266, "broken": 1, "share": 1 / 266, "machines": 1}
+    assert found["usual"] == counts | {"never quiet": 0, "slowest": 1.2, "loudest": -9.0}
+    assert (found["worse wheel"]["runs"], found["worse wheel"]["broken"]) == (100, 1)
     assert found["promised"]["broken"] == 0 and found["decisive"] == {"machines": 1, "hold": 1}
 
 
