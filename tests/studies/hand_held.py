@@ -31,7 +31,7 @@ from tests.studies.random_machines import held_text
 
 CODES: Final = {"ABU401", "ABU701", "ABU702", "ABU704"}
 """Checks by dynamics."""
-PROMISED, USUAL, CONTROL, STRICT = 267, 133, 100, 40
+PROMISED, USUAL, CONTROL, STRICT = 267, 133, 100, 88
 """Runs of a machine over either band; each how manieth is repeated; machines that warn or fail."""
 MOST_OTHERS: Final = 100
 """Machines that are not horizontal with four balls."""
