@@ -227,8 +227,64 @@ def _solved(p, S, b, given, x):  # type: ignore[no-untyped-def]
 
 
 @njit
+def _plane(p, y, given, pace, w, out):  # type: ignore[no-untyped-def]
+    """`rates` of a machine that moves in a plane at a given speed: the same equations in closed form, in scalars."""
+    nq, n, m, R = len(p.stiffness), p.balls, p.ball_mass, p.pitch
+    v = nq + 1 + n
+    phi, rate = y[nq], y[v + nq]
+    for i in range(v):
+        out[i] = y[v + i]
+    for i in range(nq):
+        force = 0.0
+        for j in range(nq):
+            force -= p.stiffness[i, j] * y[j] + p.damping[i, j] * y[v + j]
+        out[v + i] = force if i < 2 else force / p.nodes[i - 2]
+    c, s = math.cos(phi), math.sin(phi)
+    co, so = math.cos(p.offset_angle) * p.offset, math.sin(p.offset_angle) * p.offset
+    square = rate * rate
+    # Acceleration of the race's centre against the machine.
+    gx = -square * (co * c - so * s) - given * (co * s + so * c)
+    gy = -square * (co * s + so * c) + given * (co * c - so * s)
+    roll, one = p.rolling * m, 1.0 / (m * R * R * (1.0 + p.rolling))
+    x = out[v] + p.imbalance * (square * c + s * given) - n * m * gx
+    z = out[v + 1] + p.imbalance * (square * s - c * given) - n * m * gy
+    a, b, e = p.mass[0, 0] + n * m, p.mass[0, 1], p.mass[1, 1] + n * m
+    mr, roller = m * R, roll * (R + p.ball_radius) * R * given
+    for k in range(n):
+        c, s, own = math.cos(y[nq + 1 + k]), math.sin(y[nq + 1 + k]), y[v + nq + 1 + k]
+        r = mr * (s * gx - c * (gy + p.gravity)) - mr * R * p.drag * (own - rate) + roller
+        swing, share = mr * own * own, mr * r * one
+        x += swing * c + share * s
+        z += swing * s - share * c
+        a -= mr * mr * one * s * s
+        b += mr * mr * one * s * c
+        e -= mr * mr * one * c * c
+        w.cs[k, 0], w.cs[k, 1], w.cs[k, 2] = c, s, r
+    over = 1.0 / (a * e - b * b)
+    X, Z = (x * e - z * b) * over, (z * a - x * b) * over
+    if p.friction > 0.0:
+        fx, fy = gx + X, gy + Z + p.gravity
+        for k in range(n):
+            c, s, own = w.cs[k, 0], w.cs[k, 1], y[v + nq + 1 + k]
+            most = mr * p.friction * abs(R * own * own - c * fx - s * fy)
+            w.anchor[k, 1] = most * one / (pace * pace)
+            bent = y[nq + 1 + k] - phi - w.anchor[k, 0]
+            moment = min(max(pace * (pace * bent + own - rate) / one, -most), most)
+            w.cs[k, 2] -= moment
+            x -= mr * s * moment * one
+            z += mr * c * moment * one
+        X, Z = (x * e - z * b) * over, (z * a - x * b) * over
+    out[v], out[v + 1], out[v + nq] = X, Z, given
+    for k in range(n):
+        out[v + nq + 1 + k] = (w.cs[k, 2] + mr * (w.cs[k, 1] * X - w.cs[k, 0] * Z)) * one
+
+
+@njit
 def rates(p, y, given, pace, w, out):  # type: ignore[no-untyped-def]
     """y' of y = (q, q'); `given`: Ω' of a rotor that no motor drives; `pace` [1/s]: frequency of the bristles."""
+    if p.core == 2 and p.stall == 0.0:
+        _plane(p, y, given, pace, w, out)
+        return
     nc, nq, n, m, R = p.core, len(p.stiffness), p.balls, p.ball_mass, p.pitch
     v = nq + 1 + n
     for i in range(v):
@@ -430,8 +486,33 @@ def _rests(p, rev, wide, quiet, means, squares, angles, slipped):  # type: ignor
 
 
 @njit
+def _calm(p, rev, wide, calm, squares, angles):  # type: ignore[no-untyped-def]
+    """True if each mean square of velocity stays below `calm` and does not grow, and no ball moves by 0.3 rad."""
+    for k in range(p.balls):
+        if abs(angles[rev, k] - angles[rev - wide, k]) > 0.3:
+            return False
+    for j in range(len(p.places)):
+        for axis in range(2):
+            first = second = 0.0
+            for back in range(wide):
+                square = squares[rev - back, j, axis]
+                if square > 16 * calm:
+                    return False
+                if back < wide // 2:
+                    second += square
+                else:
+                    first += square
+            if second > 1.01 * first:
+                return False
+    return True
+
+
+@njit
 def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, sums, angles, slipped):  # type: ignore[no-untyped-def]
     """Integrate y from t = 0 until all rests; `span` [s]: full speed, least time at it, latest end, window of looking.
+
+    `quiet` [m²/s²]: a mean square that falls below the first number need not be steady; a run that stays below the
+    second and grows no louder is calm and ends, though its balls still creep.
 
     From `full` [s] on, 16 times a revolution: |imbalance left| and its time. For each revolution its mean, the sums of
     the squares of velocity, of the velocities and of their moments, the ball angles at its end. Returns samples and
@@ -476,7 +557,10 @@ def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, sums,
                 angles[rev, k] = y[nq + 1 + k] - y[nq]
                 slipped[rev, k] = w.anchor[k, 2]
             late = rev >= wide and t - full > least and rev % 5 == 0
-            if late and _rests(p, rev, wide, quiet, means, squares, angles, slipped):
+            if late and (
+                _calm(p, rev, wide, quiet[1], squares, angles)
+                or _rests(p, rev, wide, quiet[0], means, squares, angles, slipped)
+            ):
                 rev += 1
                 break
             rev += 1

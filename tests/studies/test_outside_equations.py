@@ -116,6 +116,22 @@ def test_drag_and_friction_take_their_power(p: Machine) -> None:
     assert 0.5 * most < rubbed < 2 * most
 
 
+@pytest.mark.parametrize("friction", [0.0, 3e-4])
+def test_the_equations_in_a_plane_are_the_general_ones(friction: float) -> None:
+    """A motor that accelerates a flywheel of 1e12 kg m² by 7 rad/s² does as a given acceleration does."""
+    p = PLANAR._replace(friction=friction, mass=np.array(((5.0, 0.3), (0.3, 6.0))))
+    driven = p._replace(inertia=1e12, stall=7e12 / (1 - p.speed / p.no_load))
+    y = somewhere(p)
+    found = []
+    for one in (p, driven):
+        w, slope = workspace(p), np.zeros_like(y)
+        w.anchor[:, 0] = y[3:6] - y[2] + (0.0, 1e-7, -1e-3)
+        rates(one, y, 7.0, 2e4, w, slope)
+        found.append((slope, w.anchor))
+    assert found[0][0] == pytest.approx(found[1][0], rel=1e-9, abs=1e-6)
+    assert found[0][1] == pytest.approx(found[1][1], rel=1e-9)
+
+
 def test_balls_bounce_by_restitution_and_no_momentum_is_made() -> None:
     """On a free machine: e of the speed of approach comes back, linear momentum and that about the axis stay."""
     p = free(PLANAR)._replace(stiffness=np.zeros((2, 2)), imbalance=0.0, offset=0.0, balls=2)

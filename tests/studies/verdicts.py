@@ -10,12 +10,12 @@ band that file and drawing promise, 40 within the usual one. Runs that exceed a 
 The file has one line of JSON for each machine; machines that are in it already are not done again.
 """
 
-import hashlib
 import json
 import sys
 import tempfile
 import tomllib
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -24,11 +24,12 @@ import abu_calc
 from tests.benchmarks.measuring import keep, machine
 from tests.studies.outside_equations import COMPILED
 from tests.studies.outside_runs import (
-    Ending,
     Start,
     band_starts,
     broken,
-    ended,
+    coarse_run,
+    fine_run,
+    near,
     quiet_limit,
     starts,
     with_motor,
@@ -36,12 +37,8 @@ from tests.studies.outside_runs import (
 from tests.studies.random_machines import FAMILIES, family_of, machine_text
 
 CODES = "ABU401", "ABU701", "ABU702", "ABU704"
-WHOLE = 2.9
-"""Quiet times permitted: nearly as long as runs last at most."""
 ENOUGH = 200
 """Machines, the least for a record."""
-EDITION = 4
-"""Of the outside equations and starts: another one runs all machines again."""
 
 
 @dataclass(frozen=True)
@@ -94,9 +91,10 @@ def tried(seed: int, family: str, text: str, codes: tuple[str, ...], result: dic
     limits, how, slowest, loudest = file["limits"], [], 0.0, -200.0
     limit, permitted = quiet_limit(limits), limits["vibration_level_db"]
     runs, bad = Counter[str](), Counter[str]()
-    for k, (start, kind, seen) in enumerate(endings(seed, file, result)):
-        # What seems to break a limit is followed to its end: a run may have ended while a vibration was dying out.
-        ending = ended(start, result, limit, least=WHOLE, permitted=permitted) if broken(seen, limits) else seen
+    for k, (start, kind) in enumerate(begun(file, result, seed)):
+        ending = coarse_run(start, result, limits)
+        if near(start, ending, limits):
+            ending = fine_run(start, result, limits)
         runs[kind] += 1
         slowest = max(slowest, ending.quiet / limit)
         loudest = max(loudest, ending.level - permitted)
@@ -121,26 +119,13 @@ def tried(seed: int, family: str, text: str, codes: tuple[str, ...], result: dic
 OF_FILE, PROMISED, USUAL = "file", "promised", "usual"
 
 
-def endings(seed: int, file: dict[str, Any], result: dict[str, Any]) -> list[tuple[Start, str, Ending]]:
-    """Every start, of which kind its machine is, and what it came to.
-
-    Runs of the same machine, design and equations are not repeated.
-    """
-    limits, begun = file["limits"], [(with_motor(start, file), OF_FILE) for start in starts(file, result, seed)]
+def begun(file: dict[str, Any], result: dict[str, Any], seed: int) -> Iterator[tuple[Start, str]]:
+    """Every start, and of which kind its machine is."""
+    for start in starts(file, result, seed):
+        yield with_motor(start, file), OF_FILE
     if "swing_arm" not in file:
-        begun += [(with_motor(start, file), PROMISED if promised else USUAL)
-                  for start, promised in band_starts(file, result, seed)]  # fmt: skip
-    parts = [result[key] for key in ("autobalancer", "imbalance_g_mm", "effective_mass_kg", "accuracy_budget")]
-    key = hashlib.sha256(json.dumps([EDITION, file, parts, result.get("idle_speed_rpm")]).encode()).hexdigest()
-    kept = Path(tempfile.gettempdir()) / "outside-runs" / f"{key}.json"
-    if kept.exists():
-        known = json.loads(kept.read_text())
-        return [(start, kind, Ending(*numbers)) for (start, kind), numbers in zip(begun, known, strict=True)]
-    time, level = quiet_limit(limits), limits["vibration_level_db"]
-    found = [(start, kind, ended(start, result, time, level, permitted=level)) for start, kind in begun]
-    kept.parent.mkdir(exist_ok=True)
-    kept.write_text(json.dumps([list(asdict(ending).values()) for *_, ending in found]))
-    return found
+        for start, promised in band_starts(file, result, seed):
+            yield with_motor(start, file), PROMISED if promised else USUAL
 
 
 def summary(verdicts: list[Verdict]) -> dict[str, Any]:
@@ -216,7 +201,9 @@ def main() -> None:
     print(json.dumps(cases["summary"]), json.dumps(cases["families"]), sep="\n")
     if count >= ENOUGH:
         what = "machines that pass without a warning, switched on by equations written outside the product"
-        print(keep("verdicts", what, "python -m tests.studies.verdicts", machine("not bound"), first, cases))
+        print(
+            keep("verdicts-of-families", what, "python -m tests.studies.verdicts", machine("not bound"), first, cases)
+        )
 
 
 if __name__ == "__main__":
