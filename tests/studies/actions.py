@@ -89,7 +89,7 @@ def faults(before: Any, after: Any) -> Iterator[str]:
 def at(result: Any, path: str) -> Any:
     """Value of a result at a path with points."""
     for key in path.split("."):
-        result = result[int(key)] if isinstance(result, list) else result[key]
+        result = result if result is None else result[int(key)] if isinstance(result, list) else result[key]
     return result
 
 
