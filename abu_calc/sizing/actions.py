@@ -4,7 +4,8 @@ Each action is calculated or simulated with the very entries that it names, and 
 judged, so that whoever follows it gets the number told.
 """
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
 from typing import Final, NamedTuple
 
 from abu_calc.foundation.checks import Action
@@ -130,3 +131,13 @@ def speeds_from(case: Case, lowest_rpm: float) -> Iterator[dict[str, object]]:
     rated, (_, high) = case.table.machine.speed_rpm, case.table.machine.speed_range
     whole: dict[str, object] = {"machine.speed_range_rpm": [lowest_rpm, max(high, lowest_rpm)]}
     yield whole if rated >= lowest_rpm else {"machine.speed_rpm": lowest_rpm, **whole}
+
+
+def two_digits(value: float, rounded: Callable[[float], int]) -> float:
+    """A number rounded to two digits, up or down.
+
+    >>> two_digits(1234.0, math.ceil), two_digits(0.0567, math.floor)
+    (1300.0, 0.056)
+    """
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{rounded(value / unit) * unit:.6g}")

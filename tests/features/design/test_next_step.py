@@ -60,7 +60,7 @@ def judged(
     balls = SimpleNamespace(capacity=1e-6 * capacity, capacity_ratio=capacity / 100, mass_fraction=share)
     design = SimpleNamespace(
         autobalancer=balls, case=SimpleNamespace(oil=None), choice=None,
-        frequency=SimpleNamespace(balancing_possible=True),
+        frequency=SimpleNamespace(balancing_possible=True), checks=(),
     )  # fmt: skip
     facts = SimpleNamespace(design=design, ensemble=Ensemble(DRAG, (run,), ()), searched=None)
     return SimpleNamespace(checks=checks, outcomes=(SimpleNamespace(work=work),), facts=facts, level_after=level)
@@ -157,7 +157,7 @@ def test_changes_of_checks_that_do_not_contradict_go_together(
     for_starts = {"e.f": 3.0, "g.h": 4.0}
     monkeypatch.setattr(module, "changes_for_starts", lambda *_, **__: [for_starts, for_starts])
     starts = ("e.f=3", "g.h=4")
-    with_all = [] if not expected else [tuple(dict.fromkeys((*starts, *expected[-1])))]
+    with_all = [] if not expected else [tuple(dict.fromkeys((*expected[-1], *starts)))]
     if entries == {"ABU202": ("a.b=1",), "ABU401": ("a.b=2",)}:
         with_all = []
     before = judged(grades, entries=entries)
