@@ -1,16 +1,10 @@
-"""Actions on checks: entries of the file that are replaced, followed literally, and the number that they move.
-
-Each action is calculated or simulated with the very entries that it names, and names the balls and the race that were
-judged, so that whoever follows it gets the number told.
-"""
+"""Entries of a file that change it: as options, in words, and put into its tables and sized."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Final, NamedTuple
 
-from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import Candidate, choose_for_motor
@@ -102,28 +96,6 @@ def followed(case: Case, entries: Entries) -> Followed | None:
         return Followed(other, imbalance, choose_for_motor(other, imbalance).best)
     except (AbuError, ValueError):
         return None
-
-
-def set_action(
-    changed: Entries, candidate: Candidate, moved: Moved, how: str = CALCULATED, more: str = "",
-    present: Candidate | None = None,
-) -> Action:  # fmt: skip
-    """Action that replaces entries and pins the candidate: which number goes from what to what, and how it is known.
-
-    `present`: the candidate of today; another one is named in the sentence.
-    """
-    other = present is not None and pins(present) != pins(candidate) and not pins(candidate).items() <= changed.items()
-    chosen = f" The choice is then {in_words(candidate)}." if other else ""
-    text = f"Set {words(changed)}: {moved.text} ({how}).{chosen}{f' {more}' if more else ''}"
-    return Action(text, overrides({**changed, **pins(candidate)}))
-
-
-def in_words(candidate: Candidate) -> str:
-    """Balls and race of a candidate."""
-    return (
-        f"{candidate.ball_count} × Ø{from_si(candidate.ball_diameter, 'mm'):.6g} mm balls on a race of "
-        f"R {from_si(candidate.race_radius, 'mm'):.6g} mm"
-    )
 
 
 def speeds_from(case: Case, lowest_rpm: float) -> Iterator[dict[str, object]]:

@@ -29,7 +29,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.sizing.actions import CALCULATED, followed, set_action
+from abu_calc.sizing.actions import CALCULATED, followed, overrides, pins, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.places import body_suspension
@@ -223,7 +223,8 @@ def lower_declared(case: Case, candidate: Candidate, imbalance: float, judged: J
         without, declared = judged(after.case, after.candidate)
         if declared < without:
             moved = Moved("the declared value with the autobalancer", present, declared, "m/s²", without)
-            return set_action(entries, after.candidate, moved, how)
+            line = overrides({**entries, **pins(after.candidate)})
+            return Action(f"Set {words(entries)}: {moved.text} ({how}).", line)
     return "No smaller race eccentricity or friction arm that was tried lowers it. `abu declare FILE` lists the causes."
 
 

@@ -34,12 +34,11 @@ MOTOR = {"no_load_speed_rpm": 6500, "stall_torque_N_m": 5.0}
         ("ABU206", {"autobalancer__race_eccentricity_mm": 0.002}),
         ("ABU302", {"autobalancer__race_hardness_HRC": 45.0}),
         ("ABU304", DRUM),
-        ("ABU305", {"autobalancer__bore_diameter_mm": 24.0, **PINNED, "autobalancer__ball_diameter_mm": 13.0}),
         ("ABU308", {"autobalancer__clamp_force_N": 5.0}),
         ("ABU401", {**RANGE, **PINNED, "limits": {"vibration_level_db": 104.5}}),
         ("ABU402", {"wheel__imbalance_g_mm": 60.0, "autobalancer__rolling_friction_mm": 0.004}),
         ("ABU403", {"machine__power_W": 100.0, "grinding": PRESSED}),
-        ("ABU404", {**BODY, **HANDLE, **FIVE, "limits": {"a_hv_m_per_s2": 1.0}}),
+        ("ABU404", {**BODY, **HANDLE, **FIVE, "limits": {"a_hv_m_per_s2": 0.45}}),
         ("ABU431", {**BODY, **HANDLE, **FIVE, "autobalancer__race_eccentricity_mm": 0.04}),
     ],
 )  # fmt: skip

@@ -12,7 +12,8 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
 from abu_calc.features.design.changes import changes_for_starts
-from abu_calc.features.design.judgement import Trial
+from abu_calc.features.design.judgement import Judgement, Trial
+from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_search import loudness, slowness
 from abu_calc.features.design.verdict import WORDS
@@ -26,7 +27,7 @@ from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
 from abu_calc.simulation.records import finite
-from abu_calc.sizing.actions import PINS, SIMULATED, overrides
+from abu_calc.sizing.actions import PINS, SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.proposals import mended
 
@@ -327,16 +328,20 @@ def _apart(before: float | None, after: float | None) -> bool:
     return before is not None and after is not None and not math.isclose(before, after, rel_tol=ALIKE)
 
 
-def proposals(before: Judged) -> Iterator[Entries]:
+def proposals(before: Judgement) -> Iterator[Entries]:
     """Changes that are worth a trial, without repetition: those that mend checks, each and all together, then those for
     start cases, each by itself and with these.
     """
     bad = sorted((check for check in before.checks if check.requested and check.status != "pass"),
                  key=lambda check: RANK.index(check.status))  # fmt: skip
-    calculated = [overrides(entries) for entries in mended(before.facts.design)]
+    design = before.facts.design
+    calculated = [overrides(entries) for entries in mended(design)]
     others = dict.fromkeys(check.overrides for check in bad if check.overrides)
     of_starts, codes = [], {check.code for check in bad}
-    if codes & OF_STARTS and before.facts.design.frequency.balancing_possible:
+    steady = steadier(design, before.region.boundaries or ()) if "ABU103" in codes else None
+    if steady is not None:
+        others[overrides({**steady, **pins(design.autobalancer)})] = None
+    if codes & OF_STARTS and design.frequency.balancing_possible:
         loud = LEVEL.code in codes
         of_starts = [overrides(entries) for entries in changes_for_starts(before.facts, loud=loud)]
     yield from together([*calculated[:1], *others], of_starts, calculated[1:])
