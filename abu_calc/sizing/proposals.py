@@ -199,8 +199,8 @@ def mended(design: Design) -> list[Entries]:
     first that mends it: what gets worse comes next.
     """
     now, steps, seen = design, [Entries()], set[str]()
-    while bad := [check for check in now.checks
-                  if check.status != "pass" and check.code in PROPOSED and check.code not in seen]:  # fmt: skip
+    while bad := [check for check in now.checks if check.requested and check.status != "pass"
+                  and check.code in PROPOSED and check.code not in seen]:  # fmt: skip
         check = min(bad, key=_rank)
         seen.add(check.code)
         if found := _first(now, check):
