@@ -28,6 +28,7 @@ from abu_calc.features.design.next_step import (
     next_step,
     promise,
     proposals,
+    together,
 )
 from abu_calc.foundation.checks import RANK, Check, Grade, OptionalCheck
 from abu_calc.foundation.progress import Progress, silent
@@ -203,6 +204,23 @@ def test_an_action_tells_its_number_and_what_still_warns() -> None:
     assert {check.overrides for check in (level, time, balance)} == {entries} and stable.remedy is None
     every = NextStep(Tried(entries, judged(dict.fromkeys(codes, "pass"))))
     assert all((check.remedy or "").endswith("All checks then pass.") for check in actions(before, every))
+
+
+def test_the_value_of_a_check_without_a_number_of_its_own_is_told() -> None:
+    """Not where it stays, as if the limit alone moved."""
+    before, after = judged({"ABU303": "fail"}), judged({"ABU303": "pass"})
+    (check,) = before.checks
+    for value, text in ((150.0, "the value falls from 300 to 150 MPa"), (300.0, "this check then passes")):
+        before.checks = (replace(check, value=300.0, limit=200.0, unit="MPa"),)
+        after.checks = (replace(before.checks[0], status="pass", value=value),)
+        (told,) = actions(before, NextStep(Tried(("a.b=1",), after)))
+        assert told.remedy == f"Set a.b = 1: {text} (simulated). All checks then pass."
+
+
+def test_changes_that_pin_other_balls_go_together_with_the_first_ones() -> None:
+    first, starts = ("autobalancer.ball_count=5", "a.b=1"), ("autobalancer.ball_count=4", "c.d=2")
+    both = ("autobalancer.ball_count=5", "a.b=1", "c.d=2")
+    assert list(together([first], [starts], [("e.f=1",)])) == [first, ("e.f=1",), starts, both]
 
 
 @pytest.mark.parametrize(
