@@ -20,7 +20,7 @@ from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.manufacture.construction import construct
 from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.oil import value_sources, with_oil
-from abu_calc.sizing.operating_speed import frequency_region, region_check
+from abu_calc.sizing.operating_speed import frequency_region
 from abu_calc.sizing.requirements import loudness, missed
 from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.type_test import band, declared_checks
@@ -148,19 +148,19 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     advice = drawing(case, best, race, eccentricity, construction)
     bands = body_bands(case, best, frequency.balancing_possible)
     before = (
-        region_check(case, best, frequency),
-        *_motor(case, best),
+        frequency.check,
+        *_motor(case),
         *candidate_checks(case, best),
-        eccentricity_check(case, best, eccentricity),
+        eccentricity_check(case, eccentricity),
         *track_checks(case, best, race),
         *construction.checks,
     )
     level, lowered = vibration_checks(case, imbalance.value, best, idle, levels, bands.level if bands else None)
     behind = (
         lowered,
-        *handle_checks(case, best, total, bands),
+        *handle_checks(case, total, bands),
         *declared_checks(case, best, frequency.balancing_possible),
-        *power_checks(case, best),
+        *power_checks(case),
     )
     warnings = (*value_sources(case), *design_warnings(case, best, loaded, bands))
     return Design(
@@ -169,12 +169,12 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     )  # fmt: skip
 
 
-def _motor(case: Case, candidate: Candidate) -> tuple[Check, ...]:
+def _motor(case: Case) -> tuple[Check, ...]:
     if case.idle_speed is None:
         return ()
     from abu_calc.sizing.operating_speed import motor_checks
 
-    return motor_checks(case, candidate)
+    return motor_checks(case)
 
 
 def _arm(case: Case, imbalance: float, candidate: Candidate) -> "SwingArmBounds | None":

@@ -1,15 +1,10 @@
-"""Actions on checks: entries of the file that are replaced, followed literally, and the number that they move.
+"""Entries of a file that change it: as options, in words, and put into its tables and sized."""
 
-Each action is calculated or simulated with the very entries that it names, and names the balls and the race that were
-judged, so that whoever follows it gets the number told.
-"""
-
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
 from typing import Final, NamedTuple
 
-from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import Candidate, choose_for_motor
@@ -103,30 +98,18 @@ def followed(case: Case, entries: Entries) -> Followed | None:
         return None
 
 
-def set_action(
-    changed: Entries, candidate: Candidate, moved: Moved, how: str = CALCULATED, more: str = "",
-    present: Candidate | None = None,
-) -> Action:  # fmt: skip
-    """Action that replaces entries and pins the candidate: which number goes from what to what, and how it is known.
-
-    `present`: the candidate of today; another one is named in the sentence.
-    """
-    other = present is not None and pins(present) != pins(candidate) and not pins(candidate).items() <= changed.items()
-    chosen = f" The choice is then {in_words(candidate)}." if other else ""
-    text = f"Set {words(changed)}: {moved.text} ({how}).{chosen}{f' {more}' if more else ''}"
-    return Action(text, overrides({**changed, **pins(candidate)}))
-
-
-def in_words(candidate: Candidate) -> str:
-    """Balls and race of a candidate."""
-    return (
-        f"{candidate.ball_count} × Ø{from_si(candidate.ball_diameter, 'mm'):.6g} mm balls on a race of "
-        f"R {from_si(candidate.race_radius, 'mm'):.6g} mm"
-    )
-
-
 def speeds_from(case: Case, lowest_rpm: float) -> Iterator[dict[str, object]]:
     """Entries that raise the lowest working speed: the range alone, else the rated speed with it."""
     rated, (_, high) = case.table.machine.speed_rpm, case.table.machine.speed_range
     whole: dict[str, object] = {"machine.speed_range_rpm": [lowest_rpm, max(high, lowest_rpm)]}
     yield whole if rated >= lowest_rpm else {"machine.speed_rpm": lowest_rpm, **whole}
+
+
+def two_digits(value: float, rounded: Callable[[float], int]) -> float:
+    """A number rounded to two digits, up or down.
+
+    >>> two_digits(1234.0, math.ceil), two_digits(0.0567, math.floor)
+    (1300.0, 0.056)
+    """
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{rounded(value / unit) * unit:.6g}")

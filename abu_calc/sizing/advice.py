@@ -2,17 +2,14 @@
 
 import math
 
-from abu_calc.foundation.checks import Action, Check, coded, verdict
-from abu_calc.foundation.moved import Moved
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing import trials
-from abu_calc.sizing.actions import followed, pins, set_action
+from abu_calc.sizing.actions import two_digits
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.handles import BodyBands, body_advice, estimate_keys
 from abu_calc.sizing.places import HANDS
-from abu_calc.sizing.trials import TriedRequirement
 from abu_calc.sizing.vibration import LevelsUnderLoad
 from abu_calc.standards.balls import stock_diameter
 
@@ -24,12 +21,9 @@ def candidate_checks(case: Case, chosen: Candidate) -> tuple[Check, ...]:
 
 def _capacity(case: Case, candidate: Candidate) -> Check:
     margin = case.autobalancer.capacity_margin
-    required = TriedRequirement("the capacity", "g·mm", lambda _, other: from_si(other.capacity, "g_mm"), _with_margin,
-                           enough, "the required capacity with its margin")  # fmt: skip
-    passed = enough(case, candidate)
-    return coded("ABU201", verdict(passed), f"{candidate.ball_count} balls side by side must carry the required "
-        f"capacity times the margin {margin:g}", from_si(candidate.capacity, "g_mm"), _with_margin(case, candidate),
-        "g·mm", None if passed else trials.remedy(case, candidate, trials.more_room(case), required), "least",
+    return coded("ABU201", verdict(enough(case, candidate)), f"{candidate.ball_count} balls side by side must carry "
+        f"the required capacity times the margin {margin:g}", from_si(candidate.capacity, "g_mm"),
+        _with_margin(case, candidate), "g·mm", bound="least",
     )  # fmt: skip
 
 
@@ -44,18 +38,12 @@ def residual_check(candidate: Candidate) -> Check:
     speed = f"{from_si(budget.speed, 'rpm'):.6g} rpm"
     return coded("ABU202", verdict(budget.within), f"At {speed}, race eccentricity, dry friction and two-lobe ovality "
         "leave this displacement, as expected", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
-        None if budget.within else "See the action of ABU401.",
     )  # fmt: skip
 
 
 def _mass(case: Case, candidate: Candidate) -> Check:
-    passed = light(case, candidate)
-    required = TriedRequirement("the autobalancer's share of the machine's mass", "%",
-                           lambda _, other: 100 * other.mass_fraction,
-                           lambda other, _: 100 * other.autobalancer.max_mass_fraction, light)  # fmt: skip
-    return coded("ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",
-        100 * candidate.mass_fraction, 100 * case.autobalancer.max_mass_fraction, "%",
-        None if passed else trials.remedy(case, candidate, trials.lighter(case), required),
+    return coded("ABU203", verdict(light(case, candidate)), "The autobalancer with its balls takes this share of the "
+        "machine's mass", 100 * candidate.mass_fraction, 100 * case.autobalancer.max_mass_fraction, "%",
     )  # fmt: skip
 
 
@@ -75,55 +63,27 @@ def _plane(case: Case, candidate: Candidate) -> tuple[Check, ...]:
         f"The race is off the wheel's plane. The balls carry {candidate.requirement.plane_ratio:.3f} times the "
         "imbalance, and the loudest place keeps a motion as by this displacement of the race"
     )
-    action = None if near else _nearer(case, candidate)
-    return (coded("ABU205", verdict(near), message, rest, permitted, "µm", action),)
+    return (coded("ABU205", verdict(near), message, rest, permitted, "µm"),)
 
 
-NEARER = (0.75, 0.5, 0.25, 0.0)
-"""Shares of the race's distance from the wheel's plane that are tried."""
-
-
-def _nearer(case: Case, candidate: Candidate) -> Action:
-    """The farthest place of the race, of those tried, at which the loudest place keeps a permitted displacement."""
-    before = from_si(candidate.budget.plane_offset, "um")
-    for share in NEARER:
-        changed = {"autobalancer.plane_offset_mm": round(share * case.autobalancer.plane_offset_mm, 2)}
-        after = followed(case, {**changed, **pins(candidate)})
-        if after is not None and after.candidate.budget.plane_offset <= after.candidate.budget.permitted:
-            left, limit = after.candidate.budget.plane_offset, after.candidate.budget.permitted
-            moved = Moved("the displacement that the loudest place keeps", before, from_si(left, "um"), "µm",
-                          from_si(limit, "um"))  # fmt: skip
-            return set_action(changed, after.candidate, moved)
-    return Action("Bring the race nearer to the wheel.")
-
-
-def power_checks(case: Case, candidate: Candidate) -> tuple[Check, ...]:
+def power_checks(case: Case) -> tuple[Check, ...]:
     """Check that the motor has the power that cutting takes; no check if either is not given."""
     power, contact = case.table.machine.power_W, case.contact
     if power is None or contact is None:
         return ()
     rim = case.speed * case.wheel_radius
     cutting = contact.cutting_coefficient * contact.press_force * rim
-    enough = cutting <= power
     message = "Cutting takes the power f·N·v at the rated speed, and the motor must give it"
-    action = None if enough else _less_force(case, candidate, power, cutting)
-    return (coded("ABU403", verdict(enough), message, cutting, power, "W", action),)
+    action = None if cutting <= power else f"The motor has the power for a normal force of {most_force(case):g} N."
+    return (coded("ABU403", verdict(cutting <= power), message, cutting, power, "W", action),)
 
 
-def _less_force(case: Case, candidate: Candidate, power: float, cutting: float) -> Action:
-    """The largest normal force of three digits that the motor's power permits."""
-    contact = case.contact
-    assert contact is not None
-    force = _rounded_down(contact.press_force * power / cutting)
-    changed = {"grinding.press_force_N": force}
-    moved = Moved("the cutting power", cutting, cutting * force / contact.press_force, "W", power)
-    return set_action(changed, candidate, moved)
-
-
-def _rounded_down(value: float) -> float:
-    """The next number of three digits that is not above."""
-    places = 2 - math.floor(math.log10(value))
-    return round(math.floor(value * 10.0**places) / 10.0**places, max(places, 0))
+def most_force(case: Case) -> float:
+    """The largest normal force of two digits [N] for which the motor has the power; none without both."""
+    power, contact = case.table.machine.power_W, case.contact
+    if power is None or contact is None:
+        return math.inf
+    return two_digits(power / (contact.cutting_coefficient * case.speed * case.wheel_radius), math.floor)
 
 
 def design_warnings(

@@ -6,18 +6,18 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.formulas.body_estimate import usual_lengths
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.actions import followed, overrides, pins, set_action, with_entries, words
+from abu_calc.sizing.actions import overrides, with_entries, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import judged_speeds
 from abu_calc.sizing.case import WHEEL_PLANE, Case, read_case
 from abu_calc.sizing.imbalance import find_imbalance
 from abu_calc.sizing.places import LevelPlace, PlaceBand, in_space, place_bands, place_numbers, settled_levels
-from abu_calc.sizing.vibration import idle_vibration, speed_levels, truer_races
+from abu_calc.sizing.vibration import idle_vibration, speed_levels
 
 Band = tuple[float, float]
 SAME = 1e-3
@@ -104,9 +104,7 @@ UNCERTAIN: Final = 3.0
 """Factor by which the acceleration at a handle is uncertain where body or handles are not known."""
 
 
-def handle_checks(
-    case: Case, candidate: Candidate, expected: HighestTotal | None, bands: BodyBands | None
-) -> tuple[Check, ...]:
+def handle_checks(case: Case, expected: HighestTotal | None, bands: BodyBands | None) -> tuple[Check, ...]:
     """Check of the weighted acceleration at the highest handle; none without a limit in the file.
 
     `expected`: None if the balls cannot balance, or W_h is not defined.
@@ -128,7 +126,7 @@ def handle_checks(
     kept = expected.total <= limit
     sure = (case.body.is_rigid and bool(case.handles)) or UNCERTAIN * expected.total <= limit
     safe = sure and (high is None or high <= limit)
-    action = None if kept and safe else _remedy(case, candidate, expected, limit)
+    action = missing_body(case) if kept and not safe else None
     return (coded("ABU404", verdict(kept, safe), ". ".join(notes), expected.total, limit, "m/s²", action),)
 
 
@@ -144,30 +142,13 @@ def band_end(expected: HighestTotal, bands: BodyBands | None, case: Case) -> flo
     return max((end * share for end, _ in ends), default=None)
 
 
-def _remedy(case: Case, candidate: Candidate, expected: HighestTotal, limit: float) -> Action | None:
-    """The first truer race that keeps the limit; if it is kept, what is missing."""
-    if expected.total <= limit:
-        return missing_body(case)
-    for entries in truer_races(case):
-        after = followed(case, {**entries, **pins(candidate)})
-        if after is None:
-            continue
-        total = highest_total(*after)
-        if total is not None and total.total <= limit:
-            moved = Moved("the expected a_hv", expected.total, total.total, "m/s²", limit)
-            return set_action(entries, after.candidate, moved)
-    return Action("No change was found: a quarter of the race's eccentricity and friction does not keep the limit.")
-
-
-def missing_body(case: Case) -> Action:
+def missing_body(case: Case) -> str:
     """Keys to specify for levels at handles: those of a body that is missing, of handles, or measured inertias."""
     if not case.body.is_rigid:
-        return Action(body_advice(case))
+        return body_advice(case)
     if not case.handles:
-        return Action("Add a [[machine.handle]] for each handle.")
-    return Action(
-        "Measure the inertia by a pendulum: specify machine.inertia_kg_m2 and machine.center_of_mass_from_wheel_mm."
-    )
+        return "Add a [[machine.handle]] for each handle."
+    return "Measure the inertia by a pendulum: specify machine.inertia_kg_m2 and machine.center_of_mass_from_wheel_mm."
 
 
 def body_advice(case: Case, added: float = 0.0) -> str:

@@ -1,7 +1,7 @@
 """Viscous drag rate by the oil in the race: cold, at work and hot, with the factor by which it is uncertain."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 from typing import Final
@@ -144,21 +144,6 @@ def usual_oils(case: Case, candidate: Candidate) -> list[tuple[dict[str, object]
                 own.append((entries, oil.working.drag))
         found += sorted(own, key=lambda each: abs(math.log(each[1] / case.drag)))
     return found
-
-
-def overriding(case: Case, entries: Mapping[str, object]) -> str:
-    """Sentence for an action that sets a drag rate in a file whose oil gives it; empty for any other action.
-
-    The oil's own rate is that of the file as it is.
-    """
-    rate = entries.get(f"autobalancer.{RATE_KEY}")
-    if case.oil is None or case.oil.overridden or not isinstance(rate, float | int):
-        return ""
-    other = "A more" if rate > case.drag else "A less"
-    return (
-        f"The key overrides [oil], which gives {case.drag:.3g} 1/s. {other} viscous oil gives such a rate, within a "
-        f"factor of {FACTOR:g}: see the table of oils of --full."
-    )
 
 
 def drag_share(case: Case, candidate: Candidate, temperature: float) -> float:

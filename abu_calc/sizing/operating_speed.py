@@ -1,18 +1,14 @@
 """Step 1: whether balancing is possible at the speeds of the file, and their check against the motor's torque."""
 
-import math
-from typing import Literal, cast
+from typing import Literal
 
 from abu_calc.formulas.motor import working_speed
 from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.foundation.validity import Range
-from abu_calc.sizing.actions import Entries, followed, overrides, pins, set_action, speeds_from, words
-from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case, working_speeds
 
 Region = Literal["subcritical", "between", "supercritical"]
@@ -115,7 +111,7 @@ def frequency_region(case: Case, ball_mass: float, added_mass: float) -> Frequen
     )
     least = between[0] if in_between and between else above
     gap = finite_mass_gap(ball_mass, mass, case.inertia_factor)
-    check = _check(possible, in_between, low, least)
+    check = _check(possible, in_between, low, least, above)
     return FrequencyRegion(case.speed, frequencies, region, possible, gap, least, between, check)
 
 
@@ -127,8 +123,8 @@ def _recedes(case: Case, speed: float, mass: float) -> bool:
     return sum((1 / dynamic_stiffness(case.suspension, axis, speed, mass)).real for axis in (0, 1)) < 0
 
 
-def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
-    hertz = from_si(least, "hz")
+def _check(possible: bool, in_between: bool, low: float, least: float, above: float) -> Check:
+    hertz, action = from_si(least, "hz"), None
     if possible:
         message = "The lowest speed is above the natural frequencies"
         if in_between:
@@ -136,35 +132,11 @@ def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
         message += ". That is necessary, not sufficient: see ABU103"
     else:
         message = "At some speed of the range the support moves with the imbalance: the balls go to the heavy side"
-    return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", None, "least")
+        action = f"Keep all speeds above {from_si(above, 'rpm'):.0f} rpm, or hold the machine more softly."
+    return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", action, "least")
 
 
-FASTER = (1.05, 1.2, 1.5, 2.0, 3.0)
-"""Factors over the natural frequency at which the lowest speed is tried."""
-
-
-def region_check(case: Case, candidate: Candidate, region: FrequencyRegion) -> Check:
-    """The check of the region, with the least raised lowest speed, of those tried, at which balls balance."""
-    if region.balancing_possible:
-        return region.check
-    least, low = max(region.natural_frequencies), case.speed_range[0]
-    for factor in FASTER:
-        for entries in speeds_from(case, math.ceil(from_si(factor * least, "rpm"))):
-            after = followed(case, {**entries, **pins(candidate)})
-            if after is None:
-                continue
-            new = frequency_region(after.case, after.candidate.ball_mass, after.candidate.mass)
-            if new.balancing_possible and new.check.value is not None:
-                moved = Moved("the lowest speed", from_si(low, "hz"), new.check.value, "Hz", new.check.limit)
-                return region.check.with_action(set_action(
-                    entries, after.candidate, moved, more="Or hold the machine more softly. See ABU103, too.",
-                ))  # fmt: skip
-    return region.check.with_action(
-        f"Keep all speeds above {from_si(least, 'rpm'):.0f} rpm, or hold the machine more softly."
-    )
-
-
-def motor_checks(case: Case, candidate: Candidate) -> tuple[Check, ...]:
+def motor_checks(case: Case) -> tuple[Check, ...]:
     """Checks of the motor: idling at a working speed of the file, turning under load.
 
     There is none without a motor.
@@ -178,38 +150,21 @@ def motor_checks(case: Case, candidate: Candidate) -> tuple[Check, ...]:
     bound: Literal["least", "most"] = "least" if idle < low else "most"
     limit = low if bound == "least" else high
     kept = case.speed_range == working_speeds(case.table)
-    messages, actions, entries = ["The motor idles at a working speed of the file"], list[str](), dict[str, object]()
+    messages, action = ["The motor idles at a working speed of the file"], None
     if not kept:
         side = "above" if idle > limit else "below"
         messages = [
             f"The motor idles {100 * abs(idle / limit - 1):.1f} % {side} the working speeds of the file",
             "Idle levels, stresses and stability are judged at this speed, too",
         ]
-        entries = {"machine.speed_range_rpm": [float(math.floor(min(low, idle))), float(math.ceil(max(high, idle)))]}
-        end, verb = ("highest", "rises") if idle > limit else ("lowest", "falls")
-        actions = [
-            f"If machine.speed_rpm is the speed under load: set {words(entries)}. The {end} working speed {verb} from "
-            f"{limit:.6g} to {_end(entries, highest=idle > limit):.6g} rpm (calculated).",
-            "If it is the idle speed: correct motor.no_load_speed_rpm.",
-            f"If the machine is used at {idle:.0f} rpm: set machine.speed_rpm.",
-        ]
     loaded = _speed_under_load(case)
     if loaded is not None:
         messages.append(f"The cutting torque slows it to {_rpm(loaded)}" if loaded else "The cutting torque stops it")
     if loaded == 0:
-        actions.append("Specify a motor.stall_torque_N_m above the cutting torque, or reduce grinding.press_force_N.")
-    action = (
-        Action(" ".join(actions), overrides({**entries, **pins(candidate)}) if entries else ()) if actions else None
-    )
+        action = "Specify a motor.stall_torque_N_m above the cutting torque, or reduce grinding.press_force_N."
     return (
         coded("ABU104", verdict(True, kept and loaded != 0), ". ".join(messages), idle, limit, "rpm", action, bound),
     )  # fmt: skip
-
-
-def _end(entries: Entries, *, highest: bool) -> float:
-    """An end of the advised speed range [rpm]."""
-    low, high = cast("list[float]", entries["machine.speed_range_rpm"])
-    return high if highest else low
 
 
 def _speed_under_load(case: Case) -> float | None:

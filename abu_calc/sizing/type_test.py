@@ -29,7 +29,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.sizing.actions import CALCULATED, followed, set_action
+from abu_calc.sizing.actions import CALCULATED, followed, overrides, pins, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.places import body_suspension
@@ -182,10 +182,7 @@ def declared_checks(case: Case, candidate: Candidate, possible: bool) -> Iterato
     if not possible or not carried(case, candidate, wheel.imbalance):
         return  # ABU101 and ABU201 say so, and `abu declare`
     estimate = declared_estimate(case, candidate, wheel.imbalance)
-    yield declared_check(
-        estimate.without, estimate.declared, CALCULATED,
-        lambda: lower_declared(case, candidate, wheel.imbalance, estimated(wheel.imbalance)),
-    )  # fmt: skip
+    yield declared_check(estimate.without, estimate.declared, CALCULATED)
 
 
 def carried(case: Case, candidate: Candidate, imbalance: float) -> bool:
@@ -200,7 +197,9 @@ def required(case: Case, candidate: Candidate, imbalance: float, eccentricity: f
     return abs(body.race_by_wheel / body.race_by_race) * imbalance + body.effective_mass * delta
 
 
-def declared_check(without: float, declared: float, how: str, action: Callable[[], Action | str | None]) -> Check:
+def declared_check(
+    without: float, declared: float, how: str, action: Callable[[], Action | str | None] = lambda: None
+) -> Check:
     """ABU431: passes if the declared value [m/s²] falls; `how` it is known, `action`: asked for if it does not."""
     message = (
         f"Type test, highest handle ({how}): {without:.3g} m/s² without the autobalancer, {declared:.3g} m/s² with it, "
@@ -214,33 +213,22 @@ Judged = Callable[[Case, Candidate], tuple[float, float]]
 """Declared values [m/s²] of a design without and with the autobalancer."""
 
 
-def estimated(imbalance: float) -> Judged:
-    """The closed form with a test wheel of this imbalance [kg m]."""
-
-    def judged(case: Case, candidate: Candidate) -> tuple[float, float]:
-        estimate = declared_estimate(case, candidate, imbalance)
-        return estimate.without, estimate.declared
-
-    return judged
-
-
-def lower_declared(
-    case: Case, candidate: Candidate, imbalance: float, judged: Judged, how: str = CALCULATED
-) -> Action | str:
+def lower_declared(case: Case, candidate: Candidate, imbalance: float, judged: Judged, how: str) -> Action | str:
     """The first change of race and friction with which the declared value falls, sized anew and judged."""
     _, present = judged(case, candidate)
-    for entries in _truer(case, declared_estimate(case, candidate, imbalance)):
+    for entries in more_easily(case, declared_estimate(case, candidate, imbalance)):
         after = followed(case, entries)
         if after is None or not carried(after.case, after.candidate, imbalance):
             continue
         without, declared = judged(after.case, after.candidate)
         if declared < without:
             moved = Moved("the declared value with the autobalancer", present, declared, "m/s²", without)
-            return set_action(entries, after.candidate, moved, how)
+            line = overrides({**entries, **pins(after.candidate)})
+            return Action(f"Set {words(entries)}: {moved.text} ({how}).", line)
     return "No smaller race eccentricity or friction arm that was tried lowers it. `abu declare FILE` lists the causes."
 
 
-def _truer(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]]:
+def more_easily(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]]:
     """Entries of a race that runs truer, down to half its eccentricity, or rolls more easily."""
     abu, limit = case.autobalancer, estimate.break_even
     true = [] if limit is None else [float(f"{share * from_si(limit, 'mm'):.2g}") for share in (0.9, 0.6)]

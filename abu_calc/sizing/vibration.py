@@ -6,7 +6,7 @@ holds the axis farthest off, and all parts are in line.
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Final
@@ -14,12 +14,11 @@ from typing import Final
 from abu_calc.formulas.friction_band import worst_friction
 from abu_calc.formulas.shaken_friction import remaining_band
 from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
-from abu_calc.foundation.checks import Action, Check, Finding, coded, verdict
+from abu_calc.foundation.checks import Check, Finding, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.actions import Followed, followed, pins, set_action
+from abu_calc.sizing.actions import Followed
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import (
     ResidualBudget,
@@ -256,8 +255,6 @@ def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possibl
 
 SHARES = (0.5, 0.25)
 """Shares of the race's eccentricity and of the friction's lever arm that are tried."""
-EXPECTED: Final = "the expected level"
-"""The idle level that sizing calculates, as actions name it."""
 
 
 def vibration_checks(
@@ -283,12 +280,13 @@ def vibration_checks(
         much = f"lower by less than {LEAST_GAIN:g} dB" if idle.lowered else f"higher by less than {LEVEL_ERROR:g} dB"
         message += f". It is {much}, which no measurement tells from none"
     return (
-        _level(case, candidate, levels, loudest_place(idle), band),
+        _level(case, levels, loudest_place(idle), band),
         coded("ABU402", verdict(idle.lowered or alike, measurable), message, after, before, "dB",
-              None if measurable else _lower(case, candidate, after)),
+              None if measurable or candidate.budget.capacity_shortfall else NOT_NEEDED),
     )  # fmt: skip
 
 
+NOT_NEEDED: Final = "The wheel is balanced better than balls can balance it: no autobalancer is needed."
 LEAST_GAIN: Final = 1.0
 """Reduction of the idle level [dB] that a measurement tells from none (engineering practice, unverified)."""
 LEVEL_ERROR: Final = 0.3
@@ -318,9 +316,7 @@ def decibels(level: float, limit: float) -> str:
     )
 
 
-def _level(
-    case: Case, candidate: Candidate, levels: SpeedLevels, place: str, band: tuple[float, float] | None
-) -> Finding:
+def _level(case: Case, levels: SpeedLevels, place: str, band: tuple[float, float] | None) -> Finding:
     """Fails on the level as expected where it is highest; the bound of friction is told.
 
     On a horizontal spindle gravity shakes out friction that holds the balls. Hand tools get turned, so that the message
@@ -337,75 +333,25 @@ def _level(
     upright = levels.louder_upright
     if upright is not None:
         message += f". With the spindle held vertical: {decibels(upright.level_after, limit)}"
-    action: Action | None = None if kept else _truer_race(case, candidate, levels)
+    background, action = case.background_level, None
+    if background is not None and background >= limit:
+        action = (
+            f"The background alone is {background:.4g} dB (limit {limit:g} dB), and no autobalancer lowers it. Use a "
+            "quieter machine, or change limits.vibration_level_db."
+        )
     within = band is None or band[1] <= limit
     if band is not None:
         low, high = (decibels(level, limit) for level in band)
         message += f". The estimated inertia leaves {low.removesuffix(' dB')} … {high} as expected"
     if kept and not within:
-        action = Action("Measure the inertia: the band of the estimate crosses the limit.")
+        action = "Measure the inertia: the band of the estimate crosses the limit."
     return Finding(verdict(kept, within), message, highest.level_after, limit, "dB", action)
-
-
-def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels) -> Action:
-    """The least truer race that keeps the limit, followed literally."""
-    background, limit = case.background_level, case.level_limit
-    if background is not None and background >= limit:
-        return Action(
-            f"The background alone is {background:.4g} dB (limit {limit:g} dB), and no autobalancer lowers it. Use a "
-            "quieter machine, or change limits.vibration_level_db."
-        )
-    before, least = levels.highest.level_after, math.inf
-    for entries in truer_races(case):
-        after = followed(case, {**entries, **pins(candidate)})
-        level = math.inf if after is None else level_of(after)
-        least = min(least, level)
-        if after is not None and level <= limit:
-            moved = Moved(EXPECTED, before, level, "dB", limit)
-            return set_action(entries, after.candidate, moved, more=_beyond_practice(entries))
-    return Action(
-        f"No change was found: a quarter of the race's eccentricity and rolling friction leaves "
-        f"{decibels(least, limit)} (limit {limit:g} dB, calculated). Try {_left(candidate)}a heavier machine, or "
-        "another limits.vibration_level_db."
-    )
-
-
-PRACTICE: Final = {
-    "autobalancer.race_eccentricity_mm": (0.005, "careful work keeps a race within 0.005 mm"),
-    "autobalancer.rolling_friction_mm": (0.0005, "hard, ground and clean races reach 0.0005 mm of friction"),
-}
-"""Least value that practice reaches for each entry, and the words for it; engineering practice (unverified)."""
-
-
-def _beyond_practice(entries: Mapping[str, object]) -> str:
-    """Sentence on entries that practice does not reach; empty if it does."""
-    beyond = [text for key, (least, text) in PRACTICE.items() if float(str(entries.get(key, least))) < least]
-    return f"This is finer than usual: {' and '.join(beyond)}." if beyond else ""
 
 
 def level_of(after: Followed) -> float:
     """Highest expected level [dB] over the speed range."""
     levels = speed_levels(*after, (), possible=True)
     return math.inf if levels is None else levels.highest.level_after
-
-
-def _lower(case: Case, candidate: Candidate, level: float) -> Action:
-    """A truer race with which the autobalancer lowers the idle level by what can be measured; else none is needed."""
-    if candidate.budget.capacity_shortfall:
-        return Action("See the action of ABU201.")
-    for entries in truer_races(case):
-        after = followed(case, {**entries, **pins(candidate)})
-        idle = None if after is None else idle_vibration(*after, possible=True)
-        if after is not None and idle is not None and idle.worst.after is not None and measurably_lower(idle):
-            moved = Moved("the idle level with the autobalancer", level, idle.worst.after, "dB", idle.worst.before)
-            return set_action(entries, after.candidate, moved)
-    return Action("The wheel is balanced better than balls can balance it: no autobalancer is needed.")
-
-
-def _left(candidate: Candidate) -> str:
-    """Actions on the other residuals at the wheel: enough capacity, or a race nearer to the wheel's plane."""
-    capacity = "enough capacity (ABU201), " if candidate.budget.capacity_shortfall else ""
-    return f"{capacity}a race nearer to the wheel's plane, " if candidate.budget.plane_offset else capacity
 
 
 def truer_races(case: Case) -> Iterator[dict[str, object]]:

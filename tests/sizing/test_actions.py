@@ -1,13 +1,11 @@
 """Entries of actions: as options, as words, put into the tables of a file, and followed."""
 
-import re
+import math
 
 import pytest
 
-from abu_calc.foundation.moved import Moved
-from abu_calc.inputs.reading.overrides import parse_overrides
 from abu_calc.sizing import size
-from abu_calc.sizing.actions import followed, overrides, pins, set_action, speeds_from, with_entries, words
+from abu_calc.sizing.actions import followed, overrides, pins, speeds_from, two_digits, with_entries, words
 from tests.sizing.machines import check_of, machine
 
 
@@ -39,48 +37,8 @@ def test_the_lowest_speed_is_raised_with_the_rated_one_if_it_must() -> None:
     assert both == {"machine.speed_rpm": 7000, "machine.speed_range_rpm": [7000, 7000]}
 
 
-def test_another_choice_of_balls_is_named() -> None:
-    """And pinned, so that whoever follows the action gets the number told."""
-    present, other = size(machine()).autobalancer, size(machine(autobalancer__capacity_margin=2.0)).autobalancer
-    moved = Moved("the mass", 5.0, 4.0, "%")
-    action = set_action({"autobalancer.design": "light"}, other, moved, present=present)
-    assert action.text.startswith(
-        'Set design = "light": the mass falls from 5.00 to 4.00 % (calculated). The choice is'
-    )
-    assert action.overrides[0] == "autobalancer.design=light" and len(action.overrides) == 4
-    assert "The choice" not in set_action({"run_up.time_s": 0.5}, present, moved, present=present).text
-
-
-BODY = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
-PRESSED = {"press_force_N": 45.0, "cutting_coefficient": 0.35}
-
-
-@pytest.mark.few(1)
-@pytest.mark.parametrize(
-    ("code", "given"),
-    [
-        ("ABU101", {"suspension__natural_frequencies_hz": [110.0, 110.0]}),
-        ("ABU101", {"suspension__natural_frequencies_hz": [60.0, 60.0], "machine__speed_range_rpm": [3000, 6000]}),
-        ("ABU102", {"machine__speed_range_rpm": [170, 5800], "suspension__natural_frequencies_hz": [0.5, 0.5]}),
-        ("ABU205", {**BODY, "autobalancer__plane_offset_mm": -90.0, "limits": {"vibration_level_db": 98.0}}),
-        ("ABU302", {"autobalancer__race_hardness_HRC": 45.0}),
-        ("ABU402", {"wheel__imbalance_g_mm": 60.0, "autobalancer__rolling_friction_mm": 0.004}),
-        ("ABU403", {"machine__power_W": 100.0, "grinding": PRESSED}),
-    ],
-)
-def test_the_number_that_an_action_tells_comes_true(code: str, given: dict[str, object]) -> None:
-    check = check_of(size(machine(**given)), code)
-    told = re.search(r"(?:falls|rises) from (\S+) to (\S+) \S+ \(calculated\)", check.remedy or "")
-    assert check.status == "fail" and told is not None and check.overrides, check
-    after = check_of(size(with_entries(machine(**given), parsed(check.overrides))), code)
-    assert after.status == "pass" and after.value is not None
-    digits = len(told[2].partition(".")[2])
-    assert after.value == pytest.approx(float(told[2]), abs=0.5001 * 10**-digits)
-
-
-def parsed(entries: tuple[str, ...]) -> dict[str, object]:
-    """Entries as they are read from a command line."""
-    return {override.key: override.value for override in parse_overrides(list(entries))}
+def test_two_digits_never_round_the_wrong_way() -> None:
+    assert two_digits(86.41, math.ceil) == 87.0 and two_digits(0.08649, math.floor) == 0.086
 
 
 @pytest.mark.parametrize(

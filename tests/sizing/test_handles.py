@@ -90,22 +90,6 @@ def test_highest_handle_is_judged(factor: float, status: str) -> None:
     assert total_of(design.case, design.imbalance.value, design.autobalancer, worst.at_race) > 1.0001 * expected.total
     check = check_of(size(angle_grinder(limits={"a_hv_m_per_s2": factor * expected.total})), "ABU404")
     assert check.status == status and check.value == pytest.approx(expected.total)
-    if status != "pass":
-        assert check.remedy
-
-
-def test_action_holds_when_it_is_followed() -> None:
-    design = size(angle_grinder())
-    expected = highest_total(design.case, design.imbalance.value, design.autobalancer)
-    assert expected is not None
-    limit = 0.8 * expected.total
-    check = check_of(size(angle_grinder(limits={"a_hv_m_per_s2": limit})), "ABU404")
-    changed = {
-        entry.partition("=")[0].replace(".", "__", 1): float(entry.partition("=")[2]) for entry in check.overrides
-    }
-    changed["autobalancer__ball_count"] = int(changed["autobalancer__ball_count"])
-    followed = check_of(size(angle_grinder(limits={"a_hv_m_per_s2": limit}, **changed)), "ABU404")
-    assert followed.status == "pass" and followed.value is not None and followed.value <= limit
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ from abu_calc.foundation.errors import InputError, RangeError
 from abu_calc.simulation.start_cases import members
 from abu_calc.sizing import size
 from abu_calc.sizing.design import built
-from abu_calc.sizing.oil import FACTOR, drag_share, drag_source, overriding
+from abu_calc.sizing.oil import FACTOR, drag_share, drag_source
 from tests.sizing.machines import PINNED, machine
 
 OIL = {"grade": "VG 46", "fill_ml": 2.0}
@@ -76,14 +76,3 @@ def test_oil_that_the_race_cannot_hold_or_the_formula_cannot_judge_is_refused(
     with pytest.raises((InputError, RangeError)) as found:
         oiled(**changes)
     assert key is None or found.value.place.key == key
-
-
-@pytest.mark.slow
-def test_an_action_that_sets_a_drag_rate_speaks_of_the_oil_it_overrides() -> None:
-    case, key = oiled().case, "autobalancer.rolling_drag_per_s"
-    more, less = overriding(case, {key: 10 * case.drag}), overriding(case, {key: 0.1 * case.drag})
-    assert "A more viscous oil" in more and "A less viscous oil" in less
-    assert f"overrides [oil], which gives {case.drag:.3g} 1/s" in more
-    assert overriding(case, {"run_up.time_s": 0.3}) == ""
-    assert overriding(oiled(autobalancer__rolling_drag_per_s=15.0).case, {key: 45.0}) == ""
-    assert overriding(size(machine(**PINNED)).case, {key: 45.0}) == ""

@@ -96,7 +96,7 @@ def test_losses_pull_the_idle_speed_below_the_rated_one() -> None:
     torque, no_load, damping = 0.1, 5800 * math.pi / 30, 2 * 0.5 * 2 * math.pi * 20.0 * (5.6 + 0.6)
     assert case.idle_speed == pytest.approx(torque / (torque / no_load + damping * 0.5e-3**2), rel=1e-9)
     assert case.speed_range == (case.idle_speed, case.speed)
-    (check,) = motor_checks(case, size(machine()).autobalancer)
+    (check,) = motor_checks(case)
     assert (check.code, check.status, check.bound, check.limit) == ("ABU104", "warn", "least", 5800)
 
 

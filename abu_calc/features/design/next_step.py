@@ -12,7 +12,8 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
 from abu_calc.features.design.changes import changes_for_starts
-from abu_calc.features.design.judgement import Trial
+from abu_calc.features.design.judgement import Judgement, Trial
+from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_search import loudness, slowness
 from abu_calc.features.design.verdict import WORDS
@@ -26,9 +27,9 @@ from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
-from abu_calc.sizing import trials
-from abu_calc.sizing.actions import PINS, SIMULATED, overrides
+from abu_calc.sizing.actions import PINS, SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.proposals import mended
 
 Entries = tuple[str, ...]
 """Entries of a file, each as one `--set` takes it."""
@@ -162,8 +163,7 @@ def next_step(
             break
         trial, told = Change(before, rank, judge.once, left + work / 2), within(progress, f"with {in_words(entries)}")
         try:
-            with trials.left_out():
-                after = judge.judged(variant_of(machine, ",".join(entries)), told, trial)
+            after = judge.judged(variant_of(machine, ",".join(entries)), told, trial)
             best, rank = Tried(entries, after), RANK.index(worst(after.checks))
         except NotBetterError:
             tried.append(in_words(entries))
@@ -301,6 +301,8 @@ def _no_change(step: NextStep) -> str:
     return f"No change was found with which the machine suits. Tried: {'; '.join(tried)}{also}."
 
 
+ALIKE: Final = 1e-3
+"""Relative change of a value that is not told."""
 TOLD: Final = 6
 """Changes without success that are told."""
 
@@ -310,37 +312,55 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
     left = dict.fromkeys(each.code for each in best.after.checks if each.requested and each.status != "pass")
     then = f"Then {' and '.join(left)} still warn{'s' * (len(left) == 1)}." if left else "All checks then pass."
     found, text = _moved(check, before, best.after), "this check then passes"
+    now = next((each for each in best.after.checks if _key(each) == _key(check)), check)
     if check.code in left:
         text = "this check then warns"
     elif found is not None:
         number, old, new = found
         text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
+    elif check.code not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
+        text = Moved("the value", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
     oil, rate = getattr(best.after.facts.design.case, "oil", None), ""
     if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
         rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"
     return Action(f"Set {in_words(best.entries)}{rate}: {text} ({SIMULATED}). {then}", best.entries)
 
 
-def proposals(before: Judged) -> Iterator[Entries]:
-    """Changes that are worth a trial, without repetition: those of the checks that do not pass, each and all together,
-    then those for start cases, each by itself and with these.
+def _apart(before: float | None, after: float | None) -> bool:
+    """Whether two values differ as a reader sees them."""
+    return before is not None and after is not None and not math.isclose(before, after, rel_tol=ALIKE)
+
+
+def proposals(before: Judgement) -> Iterator[Entries]:
+    """Changes that are worth a trial, without repetition: those that mend checks, each and all together, then those for
+    start cases, each by itself and with these.
     """
     bad = sorted((check for check in before.checks if check.requested and check.status != "pass"),
                  key=lambda check: RANK.index(check.status))  # fmt: skip
-    calculated = dict.fromkeys(check.overrides for check in bad if check.overrides)
+    design = before.facts.design
+    calculated = [overrides(entries) for entries in mended(design)]
+    others = dict.fromkeys(check.overrides for check in bad if check.overrides)
     of_starts, codes = [], {check.code for check in bad}
-    if codes & OF_STARTS and before.facts.design.frequency.balancing_possible:
+    steady = steadier(design, before.region.boundaries or ()) if "ABU103" in codes else None
+    if steady is not None:
+        others[overrides({**steady, **pins(design.autobalancer)})] = None
+    if codes & OF_STARTS and design.frequency.balancing_possible:
         loud = LEVEL.code in codes
         of_starts = [overrides(entries) for entries in changes_for_starts(before.facts, loud=loud)]
-    yield from together([*calculated], of_starts)
+    yield from together([*calculated[:1], *others], of_starts, calculated[1:])
 
 
-def together(calculated: Sequence[Entries], of_starts: Sequence[Entries]) -> Iterator[Entries]:
-    """Changes of either kind, each alone, those calculated as one, and those for start cases with these as one."""
+def together(
+    calculated: Sequence[Entries], of_starts: Sequence[Entries], partly: Sequence[Entries] = ()
+) -> Iterator[Entries]:
+    """Changes of either kind, each alone, those calculated as one, and those for start cases with these as one.
+
+    `partly`: changes that come before those for start cases.
+    """
     whole = _as_one(*calculated)
-    paired = (_as_one(entries, whole) for entries in of_starts) if whole else ()
+    paired = (_as_one(whole, entries) for entries in of_starts) if whole else ()
     known = set[frozenset[str]]()
-    for entries in filter(None, chain(calculated, [whole], of_starts, paired)):
+    for entries in filter(None, chain(calculated, [whole], partly, of_starts, paired)):
         if frozenset(entries) not in known:
             known.add(frozenset(entries))
             yield entries
@@ -350,6 +370,12 @@ OF_STARTS: Final = frozenset(rule.code for rule in RULES)
 
 
 def _as_one(*changes: Entries) -> Entries:
-    """Several changes as one; none if they set a key to different values."""
-    entries = tuple(dict.fromkeys(chain.from_iterable(changes)))
-    return entries if len({entry.partition("=")[0] for entry in entries}) == len(entries) else ()
+    """Several changes as one, with the balls and the race of the first that pins any; none if they set another key to
+    different values.
+    """
+    entries = dict[str, str]()
+    for entry in chain.from_iterable(changes):
+        key = entry.partition("=")[0]
+        if entries.setdefault(key, entry) != entry and key not in PINNED:
+            return ()
+    return tuple(entries.values())

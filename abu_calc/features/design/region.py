@@ -5,7 +5,7 @@ counts the start cases at whose end dry friction holds every ball at rest in its
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -20,17 +20,16 @@ from abu_calc.dynamics.switching.stick_slip import AT_REST
 from abu_calc.features.design.changes import design_with, more_damping, other_drags
 from abu_calc.features.design.whirl import unstable_speed
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Action, Check, Grade, coded
+from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
 from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
 from abu_calc.simulation.start_cases import Member, members
-from abu_calc.sizing.actions import set_action, speeds_from
+from abu_calc.sizing.actions import speeds_from
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.oil import overriding
+from abu_calc.sizing.oil import usual_oils
 
 
 @dataclass(frozen=True)
@@ -239,35 +238,34 @@ def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accura
             sentences.append("The others were not simulated in the time of --patience")
             return coded("ABU103", "not-done", ". ".join(sentences), speeds.growth, 0.0, "1/s")
     grade: Grade = "warn" if held.proves else "fail"
-    return coded("ABU103", grade, ". ".join(sentences), speeds.growth, 0.0, "1/s", _action(design, speeds))
+    return coded("ABU103", grade, ". ".join(sentences), speeds.growth, 0.0, "1/s")
 
 
 ABOVE: Final = 1.02
 """Factor over a boundary of stability at which the lowest speed is tried."""
 
 
-def _action(design: Design, speeds: SpeedRange) -> Action:
+def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object] | None:
     """The first change of the file, of those tried, that makes every speed of the range stable.
 
-    If the last boundary is inside the range: speeds above it. Else other drag rates, the nearest first, and more
-    damping of springs. Each is followed literally and judged as the design was.
+    If the last boundary is inside the range: speeds above it. Else other oils or drag rates, the nearest first, and
+    more damping of springs. `boundaries`: speeds at which stability changes, ascending.
     """
     case, (low, high) = design.case, design.case.speed_range
-    last = speeds.boundaries[-1] if speeds.boundaries and speeds.boundaries[-1].stable_above else None
-    inside = last is not None and low < last.speed < high
     tried = list[dict[str, object]]()
-    if last and inside:
-        tried += speeds_from(case, math.ceil(ABOVE * from_si(last.speed, "rpm")))
-    tried += [{"autobalancer.rolling_drag_per_s": drag} for drag in other_drags(case.drag, only_more=False)]
-    if damping := more_damping(design):
-        tried.append(damping)
-    for entries in tried:
-        other = design_with(design, entries)
-        changed = None if other is None else _speed_range(other, with_boundaries=False)
-        if changed and changed.stable:
-            moved = Moved("the growth rate", speeds.growth, changed.growth, "1/s", 0.0)
-            return set_action(entries, design.autobalancer, moved, more=overriding(case, entries))
-    return Action("No change of the drag rate or the damping was found that makes these speeds stable.")
+    if boundaries and boundaries[-1].stable_above and low < boundaries[-1].speed < high:
+        tried += speeds_from(case, math.ceil(ABOVE * from_si(boundaries[-1].speed, "rpm")))
+    tried += (entries for entries, _ in usual_oils(case, design.autobalancer))
+    if "rolling_drag_per_s" in case.autobalancer.model_fields_set:
+        tried += ({"autobalancer.rolling_drag_per_s": drag} for drag in other_drags(case.drag, only_more=False))
+    tried += filter(None, [more_damping(design)])
+    return next((entries for entries in tried if _steady(design, entries)), None)
+
+
+def _steady(design: Design, entries: Mapping[str, object]) -> bool:
+    other = design_with(design, entries)
+    changed = None if other is None else _speed_range(other, with_boundaries=False)
+    return changed is not None and changed.stable
 
 
 def _rpm(speed: float) -> str:

@@ -65,7 +65,7 @@ def work_checks(
         _carried(work),
         _still(work),
         *_kept(work, remedy, loads),
-        *power_checks(work.design.case, work.design.autobalancer),
+        *power_checks(work.design.case),
         *_agrees(compared),
     )
 

@@ -15,11 +15,10 @@ from abu_calc.dynamics.stability.verdict import critical_damping, stability
 from abu_calc.features.swing_arm.verdict import CUTTING, IDLE, ArmJudgement, changed
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.simulation.design_scenes import SceneRun, simulated
 from abu_calc.simulation.durations import DECAY_TIMES
-from abu_calc.sizing.actions import SIMULATED, set_action
+from abu_calc.sizing.actions import overrides, pins, words
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import ArmRepair, up
 
@@ -50,7 +49,7 @@ def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress:
     share, last = 100 * effect.share_apart(samples), effect.last_apart(samples)
     if share:
         message = "Disk and workpiece lose contact again and again, so the bounds on the arm do not tell its motion"
-        return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, share, accuracy, progress))
+        return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, accuracy, progress))
     if last is None:
         return coded("ABU506", "pass", "The disk stays on its workpiece throughout", 0.0, 0.0, "%")
     time, limit = run.simulation.response.rest_time, design.case.table.limits.longest_quiet_time
@@ -61,7 +60,7 @@ def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress:
     return coded("ABU506", verdict(True, soon), message, 0.0, 0.0, "%")
 
 
-def _firmer(design: Design, share: float, accuracy: float, progress: Progress) -> Action:
+def _firmer(design: Design, accuracy: float, progress: Progress) -> Action:
     """The least pressing moment, of those simulated, with which the disk stays on its workpiece."""
     table = design.case.table.swing_arm
     assert table is not None
@@ -73,9 +72,8 @@ def _firmer(design: Design, share: float, accuracy: float, progress: Progress) -
         runs, _ = simulated(other, accuracy, within(progress, f"with {change.text}"), (CUTTING,))
         effect = runs[0].simulation.scene.effect("lift_off") if runs else None
         if isinstance(effect, LiftOffEffect) and not effect.share_apart(runs[0].simulation.trajectory):
-            entries = {f"swing_arm.{change.key}": change.new}
-            moved = Moved("the share of time off the workpiece", share, 0.0, "%", 0.0)
-            return set_action(entries, design.autobalancer, moved, SIMULATED)
+            entries: dict[str, object] = {f"swing_arm.{change.key}": change.new}
+            return Action(f"Set {words(entries)}.", overrides({**entries, **pins(design.autobalancer)}))
     return Action(f"Balance the wheel better. Up to {FIRMER[-1]:g} times the pressing moment did not help (simulated).")
 
 

@@ -11,7 +11,6 @@ from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.foundation.checks import Action, Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import SwingArm
@@ -239,40 +238,11 @@ def _with(design: Design, table: SwingArm) -> Design:
     return replace(design, case=replace(design.case, table=whole))
 
 
-NAMES: Final = {
-    "ABU501": ("the contact stiffness", "the permitted contact stiffness"),
-    "ABU502": ("the pivot damping", "the required pivot damping"),
-    "ABU503": ("the resting angle", "the touching angle"),
-    "ABU504": ("the static stiffness", "the required static stiffness"),
-    "ABU505": ("the growth rate", "the permitted growth rate"),
-}
-"""Value and limit of each check, as actions name them."""
-
-
 def _with_actions(design: Design, checks: tuple[Check, ...], plan: tuple[ArmRepair, ...]) -> tuple[Check, ...]:
-    """The checks with the whole change as their action, and what it does to the value or the limit of each."""
-    after = changed(design, plan)
-    bounds = None if after is None else after.swing_arm
-    if after is None or bounds is None:
-        return checks
-    new = {check.code: check for check in (*bounds.checks, balanced_check(after))}
-    entries = {f"swing_arm.{change.key}": change.new for change in plan}
-    return tuple(
-        check.with_action(_action(design, check, new[check.code], entries)) if _bad(check) else check
-        for check in checks
-    )  # fmt: skip
-
-
-def _action(design: Design, check: Check, new: Check, entries: dict[str, float]) -> Action:
-    line = overrides({**entries, **pins(design.autobalancer)})
-    if check.value is None or new.value is None or check.limit is None or new.limit is None:
-        return Action(f"Set {words(entries)}: this check and all others of the arm pass (calculated).", line)
-    quantity, limit = NAMES[check.code]
-    unit = check.unit or ""
-    moved = Moved(quantity, check.value, new.value, unit, new.limit)
-    if abs(new.limit - check.limit) > abs(new.value - check.value):
-        moved = Moved(limit, check.limit, new.limit, unit, new.value)
-    return Action(f"Set {words(entries)}: {moved.text} (calculated). All checks of the arm then pass.", line)
+    """The checks with the whole change as their action."""
+    entries: dict[str, object] = {f"swing_arm.{change.key}": change.new for change in plan}
+    action = Action(f"Set {words(entries)}.", overrides({**entries, **pins(design.autobalancer)}))
+    return tuple(check.with_action(action) if _bad(check) else check for check in checks)
 
 
 def _room(bounds: SwingArmBounds) -> str:

@@ -9,7 +9,6 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing import RaceDesign, size_race
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.trials import left_out
 
 ROUNDS = 3
 """Rounds in which the masses of the autobalancers and what the races ask for are found together."""
@@ -68,18 +67,17 @@ def choose_both(case: TwoRaceCase) -> TwoRaceDesign:
     Raises InputError if no ball fits the room of a race.
     """
     masses, ball = (0.0, 0.0), None
-    with left_out():
-        for _ in range(ROUNDS):
-            loaded = case.carrying(masses)
+    for _ in range(ROUNDS):
+        loaded = case.carrying(masses)
+        races = _both(loaded, ball)
+        diameters = [race.design.autobalancer.ball_diameter for race in races]
+        if diameters[0] != diameters[1]:
+            ball = from_si(max(diameters), "mm")
             races = _both(loaded, ball)
-            diameters = [race.design.autobalancer.ball_diameter for race in races]
-            if diameters[0] != diameters[1]:
-                ball = from_si(max(diameters), "mm")
-                races = _both(loaded, ball)
-            first, second = (race.design.autobalancer.housing.mass for race in races)
-            if (first, second) == masses:
-                break
-            masses = (first, second)
+        first, second = (race.design.autobalancer.housing.mass for race in races)
+        if (first, second) == masses:
+            break
+        masses = (first, second)
     return TwoRaceDesign(case.carrying(masses), case, races)
 
 

@@ -1,11 +1,10 @@
 """Checks of the closed housing: filling, stress and burst at overspeed, containment of a ball."""
 
 import math
-from collections.abc import Callable
 from typing import Final
 
 from abu_calc.formulas.press_fit import MATERIALS, Ring, RingMaterial, spin_stress
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.case import Case
@@ -29,7 +28,7 @@ def filling_gap_of(parts: HousingParts) -> float:
     return filling_gap(size.shoulder_radius, parts.balls.diameter, size.hub_radius)
 
 
-def filling_check(parts: HousingParts, action: Callable[[], Action]) -> Check:
+def filling_check(parts: HousingParts) -> Check:
     """Check that the balls can be put in through the open cover side."""
     size, balls = parts.dimensions, parts.balls
     beside = last_ball_passes(size, balls.count, balls.diameter)
@@ -39,7 +38,7 @@ def filling_check(parts: HousingParts, action: Callable[[], Action]) -> Check:
         f"The balls go in one by one before the cover is {parts.closure}, between hub and edge of the race, {side}"
     )
     return coded("ABU305", verdict(passed), message, from_si(filling_gap_of(parts), "mm"),
-                 from_si(LEAST_FILLING, "mm"), "mm", None if passed else action(), "least")  # fmt: skip
+                 from_si(LEAST_FILLING, "mm"), "mm", bound="least")  # fmt: skip
 
 
 @formula(
@@ -71,14 +70,14 @@ def overspeed_stress(parts: HousingParts, force: float, top: float) -> tuple[str
     return max(stressed, key=lambda place: place[1] / place[2].strength)
 
 
-def overspeed_check(parts: HousingParts, force: float, top: float, action: Callable[[], Action]) -> Check:
+def overspeed_check(parts: HousingParts, force: float, top: float) -> Check:
     """Check of the stresses of wall, body and cover at overspeed, against what each material bears."""
     place, stress, material = overspeed_stress(parts, force, top)
     limit = PROOF_SHARE * material.strength
     passed = stress <= limit
     return coded(
         "ABU306", verdict(passed), f"Hoop and spin stress at 1.2 × the highest speed, largest at the {place} "
-        f"({material.name})", from_si(stress, "MPa"), from_si(limit, "MPa"), "MPa", None if passed else action(),
+        f"({material.name})", from_si(stress, "MPa"), from_si(limit, "MPa"), "MPa",
     )  # fmt: skip
 
 
@@ -104,14 +103,13 @@ def burst_ratio(parts: HousingParts, ball_force: float, speed: float) -> float:
     return math.sqrt(held / pull)
 
 
-def burst_check(parts: HousingParts, force: float, top: float, action: Callable[[], Action]) -> Check:
+def burst_check(parts: HousingParts, force: float, top: float) -> Check:
     """Check of the burst speed; the cover, which may be loose in its seat, pulls and does not hold."""
     ratio = burst_ratio(parts, force, top)
     passed = ratio >= BURST_RATIO
     return coded(
         "ABU309", verdict(passed), "Burst speed over the highest speed, by the mean hoop stress with all balls on one "
-        "side; the cover counts as load alone", ratio, BURST_RATIO, "", None if passed else
-        action(), "least",
+        "side; the cover counts as load alone", ratio, BURST_RATIO, "", bound="least",
     )  # fmt: skip
 
 

@@ -1,14 +1,9 @@
 """Step 11: the construction: parts to make, closure, fastening, seat of the race ring, with their checks."""
 
-from abu_calc.foundation.checks import Action, Check
+from abu_calc.foundation.checks import Check
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
-from abu_calc.foundation.units import from_si
-from abu_calc.sizing import trials
-from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.housing import LEAST_FILLING
 from abu_calc.sizing.manufacture.bearing_ring import ring_check
 from abu_calc.sizing.manufacture.closure import (
     BURST_RATIO,
@@ -18,7 +13,6 @@ from abu_calc.sizing.manufacture.closure import (
     contained,
     containment_check,
     filling_check,
-    filling_gap_of,
     overspeed_check,
     overspeed_stress,
 )
@@ -29,7 +23,6 @@ from abu_calc.sizing.manufacture.race_quality import RaceQuality, race_quality
 from abu_calc.sizing.manufacture.ring_seat import RingSeat, bears_ring, ring_seat, seat_check
 from abu_calc.sizing.parts.demands import with_surfaces
 from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
-from abu_calc.sizing.trials import TriedRequirement
 
 
 @dataclass(frozen=True)
@@ -52,22 +45,12 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
     closed, seat = choose_cover(case, parts, force, top), ring_seat(case, parts, force, top)
     torque = slip_torque(case, parts, split.fit)
 
-    def roomier() -> Action:
-        required = TriedRequirement("the gap beside a ball", "mm", _gap_mm, lambda *_: from_si(LEAST_FILLING, "mm"),
-                                    lambda _, other: other.fillable)  # fmt: skip
-        return trials.remedy(case, candidate, trials.more_room(case), required)
-
-    def stronger() -> Action:
-        ratio = TriedRequirement("the burst ratio", "", _burst, lambda *_: BURST_RATIO, lambda other, made: _strong(
-            housing_parts(other, made), made.strength.ball_force, other.speed_range[1]))  # fmt: skip
-        return trials.remedy(case, candidate, trials.stronger(case), ratio)
-
     checks = (
-        filling_check(parts, roomier),
-        overspeed_check(parts, force, top, stronger),
-        cover_check(parts, closed, lambda: _other_closure(case, candidate, closed)),
+        filling_check(parts),
+        overspeed_check(parts, force, top),
+        cover_check(parts, closed),
         *torque_check(case, parts, split.fit, torque),
-        burst_check(parts, force, top, stronger),
+        burst_check(parts, force, top),
         *containment_check(case, parts, top),
         *seat_check(case, parts, seat),
         *ring_check(case, candidate.race_radius),
@@ -82,28 +65,7 @@ def construct(case: Case, candidate: Candidate, split: EccentricitySplit) -> Con
     return Construction(with_surfaces(parts, split, quality, closed, seat), quality, closed, seat, checks, requirements)
 
 
-def _gap_mm(case: Case, candidate: Candidate) -> float:
-    return from_si(filling_gap_of(housing_parts(case, candidate)), "mm")
-
-
-def _burst(case: Case, candidate: Candidate) -> float:
-    return burst_ratio(housing_parts(case, candidate), candidate.strength.ball_force, case.speed_range[1])
-
-
 def _strong(parts: HousingParts, force: float, top: float) -> bool:
     """True if stress at overspeed and burst speed both hold."""
     _, stress, material = overspeed_stress(parts, force, top)
     return stress <= PROOF_SHARE * material.strength and burst_ratio(parts, force, top) >= BURST_RATIO
-
-
-def _other_closure(case: Case, candidate: Candidate, hold: Cover) -> Action:
-    """A cover of the other kind, if it holds with the same balls and the residual displacement stays permitted."""
-    changed = {"autobalancer.closure": "screwed" if case.autobalancer.closure == "pressed" else "pressed"}
-    after = followed(case, {**changed, **pins(candidate)})
-    if after is not None and after.candidate.budget.within:
-        force, top = after.candidate.strength.ball_force, after.case.speed_range[1]
-        other = choose_cover(after.case, housing_parts(after.case, after.candidate), force, top)
-        if other.holds:
-            moved = Moved("the axial force that the cover holds", hold.held, other.held, "N", other.needed)
-            return set_action(changed, after.candidate, moved)
-    return Action("Narrow autobalancer.temperature_range_C, or specify another design.")

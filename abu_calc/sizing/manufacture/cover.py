@@ -1,7 +1,7 @@
 """The cover and what holds it: an interference fit or a fine thread, over temperature and speed."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Final
 
 from abu_calc.formulas.press_fit import (
@@ -14,7 +14,7 @@ from abu_calc.formulas.press_fit import (
     interference_left,
     outer_hoop,
 )
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
@@ -190,7 +190,7 @@ def seat_name(parts: HousingParts, hold: Cover) -> str:
     return f"seat {seat}, cover {rim} µm"
 
 
-def cover_check(parts: HousingParts, hold: Cover, action: Callable[[], Action]) -> Check:
+def cover_check(parts: HousingParts, hold: Cover) -> Check:
     """Check that the cover stays on, over the temperatures, at overspeed."""
     message = (
         f"Axial force that holds the {parts.closure} cover ({seat_name(parts, hold)}), least over temperatures up to "
@@ -201,5 +201,4 @@ def cover_check(parts: HousingParts, hold: Cover, action: Callable[[], Action]) 
             f". Its fit stresses wall or cover with {from_si(hold.stress, 'MPa'):.3g} MPa, permitted "
             f"{from_si(hold.permitted, 'MPa'):.3g} MPa"
         )
-    return coded("ABU307", verdict(hold.holds), message, hold.held, hold.needed, "N",
-                 None if hold.holds else action(), "least")  # fmt: skip
+    return coded("ABU307", verdict(hold.holds), message, hold.held, hold.needed, "N", bound="least")  # fmt: skip

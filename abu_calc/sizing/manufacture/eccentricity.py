@@ -7,12 +7,10 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.bearing_ring import ring_of
@@ -213,7 +211,7 @@ def run_out(value: float) -> float:
     return to_si(math.floor(microns / step) * step, "um")
 
 
-def eccentricity_check(case: Case, candidate: Candidate, split: EccentricitySplit) -> Check:
+def eccentricity_check(case: Case, split: EccentricitySplit) -> Check:
     """Check that a standard fit and attainable run-outs hold the eccentricity that the file permits."""
     total = from_si(split.total, "um")
     if split.fit is None:
@@ -233,20 +231,4 @@ def eccentricity_check(case: Case, candidate: Candidate, split: EccentricitySpli
         f"No standard fit of the bore holds autobalancer.race_eccentricity_mm. The least attainable {split.rule} sum "
         f"is that of {split.fit.named} and run-outs of grade IT{GRADES[-1]}"
     )
-    least, action = from_si(split.least, "um"), _wider(case, candidate, split)
-    return coded("ABU206", verdict(False), message, least, total, "µm", action)
-
-
-def _wider(case: Case, candidate: Candidate, split: EccentricitySplit) -> Action:
-    """The least eccentricity of two digits that holds, tried with the same balls."""
-    least = from_si(split.least, "mm")
-    digits = max(0, 1 - math.floor(math.log10(least)))
-    for more in range(4):
-        permitted = round((math.ceil(least * 10**digits) + more) / 10**digits, digits)
-        changed = {"autobalancer.race_eccentricity_mm": permitted}
-        after = followed(case, {**changed, **pins(candidate)})
-        if after is not None and split_eccentricity(after.case, after.candidate).holds:
-            value = from_si(after.case.race_eccentricity, "um")
-            moved = Moved("the permitted eccentricity", from_si(split.total, "um"), value, "µm", 1e3 * least)
-            return set_action(changed, after.candidate, moved)
-    return Action("Permit a larger race_eccentricity_mm.")
+    return coded("ABU206", verdict(False), message, from_si(split.least, "um"), total, "µm")

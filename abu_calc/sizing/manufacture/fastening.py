@@ -15,9 +15,8 @@ from abu_calc.formulas.press_fit import (
     outer_hoop,
     spin_growth,
 )
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import RULES, HousingDimensions
@@ -154,21 +153,7 @@ def torque_check(case: Case, parts: HousingParts, fit: Fit | None, torque: SlipT
     if torque.stress > torque.permitted:
         message += (f". The nut crushes the hub: {from_si(torque.stress, 'MPa'):.3g} MPa, permitted "
                     f"{from_si(torque.permitted, 'MPa'):.3g} MPa")  # fmt: skip
-    room = torque.permitted / torque.stress
-    action = None if torque.holds else _other_force(torque.held, torque.needed, force, room)
-    return (coded("ABU308", verdict(torque.holds), message, torque.held, torque.needed, "N·m", action, "least"),)
-
-
-def _other_force(held: float, needed: float, force: float, room: float) -> Action:
-    """The force of two digits that carries the torque and does not crush the hub, if there is one."""
-    least = force * needed / held
-    digits = 1 - math.floor(math.log10(least))
-    wanted = math.ceil(least * 10.0**digits) / 10.0**digits
-    if wanted > force * room:
-        return Action("Enlarge the hub: reduce the torque, or specify a larger bore.")
-    moved = Moved("the slip torque", held, held * wanted / force, "N·m", needed)
-    return Action(f"Set clamp_force_N = {wanted:g}: {moved.text} (calculated).",
-                  (f"autobalancer.clamp_force_N={wanted:g}",))  # fmt: skip
+    return (coded("ABU308", verdict(torque.holds), message, torque.held, torque.needed, "N·m", bound="least"),)
 
 
 def _shrunk_check(fit: Fit | None, torque: SlipTorque | None, needed: float) -> Check:

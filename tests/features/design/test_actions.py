@@ -82,9 +82,11 @@ def untrue(check: Check, before: SizeResult, after: SizeResult) -> Iterator[str]
     if action["verb"] and action["verb"] != ("warns" if check.code in left else "passes"):
         yield "the check does not"
     if action["what"]:
-        (path,) = (number.path for number in NUMBERS[check.code] if number.name == action["what"])
+        places = {number.name: number.path for number in NUMBERS.get(check.code, ())}
+        path = places.get(action["what"], "")
         for result, printed in ((before, action["before"]), (after, action["after"])):
-            value = at(result.to_dict(), path)
+            own = next(each for each in result.checks if (each.code, each.name) == (check.code, check.name))
+            value = at(result.to_dict(), path) if path else own.value
             if (value is None) is not (printed == "never") or (value is not None and not as_printed(value, printed)):
                 yield f"{path} is {value}, not {printed}"
 

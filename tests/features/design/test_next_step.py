@@ -28,6 +28,7 @@ from abu_calc.features.design.next_step import (
     next_step,
     promise,
     proposals,
+    together,
 )
 from abu_calc.foundation.checks import RANK, Check, Grade, OptionalCheck
 from abu_calc.foundation.progress import Progress, silent
@@ -60,7 +61,7 @@ def judged(
     balls = SimpleNamespace(capacity=1e-6 * capacity, capacity_ratio=capacity / 100, mass_fraction=share)
     design = SimpleNamespace(
         autobalancer=balls, case=SimpleNamespace(oil=None), choice=None,
-        frequency=SimpleNamespace(balancing_possible=True),
+        frequency=SimpleNamespace(balancing_possible=True), checks=(),
     )  # fmt: skip
     facts = SimpleNamespace(design=design, ensemble=Ensemble(DRAG, (run,), ()), searched=None)
     return SimpleNamespace(checks=checks, outcomes=(SimpleNamespace(work=work),), facts=facts, level_after=level)
@@ -157,7 +158,7 @@ def test_changes_of_checks_that_do_not_contradict_go_together(
     for_starts = {"e.f": 3.0, "g.h": 4.0}
     monkeypatch.setattr(module, "changes_for_starts", lambda *_, **__: [for_starts, for_starts])
     starts = ("e.f=3", "g.h=4")
-    with_all = [] if not expected else [tuple(dict.fromkeys((*starts, *expected[-1])))]
+    with_all = [] if not expected else [tuple(dict.fromkeys((*expected[-1], *starts)))]
     if entries == {"ABU202": ("a.b=1",), "ABU401": ("a.b=2",)}:
         with_all = []
     before = judged(grades, entries=entries)
@@ -203,6 +204,23 @@ def test_an_action_tells_its_number_and_what_still_warns() -> None:
     assert {check.overrides for check in (level, time, balance)} == {entries} and stable.remedy is None
     every = NextStep(Tried(entries, judged(dict.fromkeys(codes, "pass"))))
     assert all((check.remedy or "").endswith("All checks then pass.") for check in actions(before, every))
+
+
+def test_the_value_of_a_check_without_a_number_of_its_own_is_told() -> None:
+    """Not where it stays, as if the limit alone moved."""
+    before, after = judged({"ABU303": "fail"}), judged({"ABU303": "pass"})
+    (check,) = before.checks
+    for value, text in ((150.0, "the value falls from 300 to 150 MPa"), (300.0, "this check then passes")):
+        before.checks = (replace(check, value=300.0, limit=200.0, unit="MPa"),)
+        after.checks = (replace(before.checks[0], status="pass", value=value),)
+        (told,) = actions(before, NextStep(Tried(("a.b=1",), after)))
+        assert told.remedy == f"Set a.b = 1: {text} (simulated). All checks then pass."
+
+
+def test_changes_that_pin_other_balls_go_together_with_the_first_ones() -> None:
+    first, starts = ("autobalancer.ball_count=5", "a.b=1"), ("autobalancer.ball_count=4", "c.d=2")
+    both = ("autobalancer.ball_count=5", "a.b=1", "c.d=2")
+    assert list(together([first], [starts], [("e.f=1",)])) == [first, ("e.f=1",), starts, both]
 
 
 @pytest.mark.parametrize(

@@ -3,13 +3,10 @@
 from dataclasses import replace
 from functools import cache
 
-import pytest
-
 from abu_calc.features.design.records import AutobalancerRecord, DrawingLine, Eccentricity, Section
 from abu_calc.features.design.study import SizeResult
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size as size_design
-from abu_calc.sizing import trials
 from tests.remembered import recalled
 
 HOSTILE = '<script>alert("1")</script> & Schleifer ÄÖÜß ]]> %%c ^J \\U+0041 шлиф ' + "long " * 30
@@ -53,9 +50,7 @@ def whole() -> SizeResult:
 def result(name: str) -> SizeResult:
     """The drawn parts belong to the machine, the rest to the straight grinder; no drawing shows remedies of checks."""
     machine = read_machine("avtovaz-707-222", MACHINES[name])
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(trials, "remedy", lambda *_: "")
-        design = size_design(machine.tables)
+    design = size_design(machine.tables)
     table, one = design.case.autobalancer, design.autobalancer
     return replace(
         whole(),

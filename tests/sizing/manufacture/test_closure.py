@@ -22,15 +22,13 @@ def check(design: Design, code: str) -> Check:
     return next(each for each in design.checks if each.code == code)
 
 
-def test_a_race_that_its_balls_cannot_enter_fails_and_the_advice_holds() -> None:
+def test_a_race_that_its_balls_cannot_enter_fails() -> None:
     """R 29.4, Ø15.875, groove R 23.26: the edge lies 1.50 mm deeper, so 29.4 − 1.50 − 15.875 − 12.5 = −0.48 mm."""
     pins = "ball_count=4", "ball_diameter_mm=15.875", "race_radius_mm=29.4"
     found = check(sized(*pins), "ABU305")
     groove = 15.875 / 2 + 5 / 7 * (29.4 - 15.875 / 2)
     depth = groove - math.sqrt(groove**2 - (15.875 / 2 + 0.3) ** 2)
     assert found.status == "fail" and found.value == pytest.approx(29.4 - depth - 15.875 - 12.5, abs=1e-6)
-    followed = size(read_machine("avtovaz-707-222", found.overrides).tables)
-    assert check(followed, "ABU305").status == "pass"
 
 
 @pytest.mark.slow
@@ -82,11 +80,7 @@ def test_slip_torque_of_a_clamp_and_what_is_missing() -> None:
     """2·0.12·8000·(2/3)(12.5³ − 10³)/(12.5² − 10²) mm = 21.7 N·m."""
     assert "ABU308" not in {each.code for each in sized().checks}
     assert check(sized("clamp_force_N=8000"), "ABU308").value == pytest.approx(21.69, abs=0.01)
-    weak = check(sized("clamp_force_N=5"), "ABU308")
-    assert (
-        weak.status == "fail"
-        and check(sized(*[each.split(".", 1)[1] for each in weak.overrides]), "ABU308").status == "pass"
-    )
+    assert check(sized("clamp_force_N=5"), "ABU308").status == "fail"
     assert check(sized("clamp_force_N=1000000"), "ABU308").status == "fail"
 
 
@@ -127,5 +121,4 @@ def test_a_ring_of_a_bearing_does_not_pass_a_thread_of_its_own_diameter() -> Non
     screwed = check(sized("design=bearing-ring", "closure=screwed"), "ABU307")
     assert screwed.status == "fail" and "no thread lets the ring pass" in screwed.message
     pressed = check(sized("design=bearing-ring", "closure=pressed"), "ABU307")
-    assert pressed.status == "pass" or "screwed" not in (pressed.remedy or "")
-    assert screwed.overrides == () or "autobalancer.closure=pressed" in screwed.overrides
+    assert pressed.status == "pass"

@@ -1,0 +1,232 @@
+"""Changes of the file that are worth a trial for a check of sizing, and those with which sizing finds checks better."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Final, NamedTuple
+
+from abu_calc.foundation.checks import RANK, Check
+from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.units import from_si
+from abu_calc.sizing import size
+from abu_calc.sizing.actions import PINS, followed, pins, speeds_from, two_digits, with_entries
+from abu_calc.sizing.advice import most_force
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.manufacture.fastening import slip_torque
+from abu_calc.sizing.track import GROUND_HARDNESS_HRC
+from abu_calc.sizing.type_test import chosen_wheel, declared_estimate, more_easily
+from abu_calc.sizing.vibration import truer_races
+
+Entries = dict[str, object]
+"""Values by key path."""
+
+ROOM: Final = (1.1, 1.25, 1.5)
+"""Factors on the envelope."""
+WALLS: Final = (1.5, 2.0, 3.0)
+"""Factors on the least wall."""
+HARDEST: Final = 63.0
+"""Hardness of a ground race, at most [HRC]."""
+NEARER: Final = (0.75, 0.5, 0.25, 0.0)
+"""Shares of the race's distance from the wheel's plane."""
+FASTER: Final = (1.05, 1.2, 1.5, 2.0, 3.0)
+"""Factors over the natural frequency for the lowest speed."""
+OVER: Final = 1.05
+"""Factor over the speed that carries balls over."""
+WIDER: Final = 4
+"""Race eccentricities of two digits above the least that standard fits hold."""
+
+
+def more_room(design: Design) -> Iterator[Entries]:
+    """The search free of what is pinned, then less margin, then a larger envelope with it free."""
+    own = design.case.autobalancer
+    yield from free(design.case)
+    yield from _less_margin(design.case)
+    for more in ROOM:
+        across, along = (round(more * length, 1) for length in (own.max_outer_diameter_mm, own.max_width_mm))
+        yield from free(design.case, {"autobalancer.max_outer_diameter_mm": across, "autobalancer.max_width_mm": along})
+
+
+def lighter(design: Design) -> Iterator[Entries]:
+    """The search free of what is pinned, the light design, less margin."""
+    yield from free(design.case)
+    if design.case.autobalancer.design != "light":
+        yield {"autobalancer.design": "light"}
+    yield from _less_margin(design.case)
+
+
+def _less_margin(case: Case) -> Iterator[Entries]:
+    if case.autobalancer.capacity_margin > 1:
+        yield {"autobalancer.capacity_margin": 1.0}
+
+
+def rounder(design: Design) -> Iterator[Entries]:
+    """A thicker wall, another body, the search free of what is pinned."""
+    for more in WALLS:
+        yield {"autobalancer.min_wall_mm": round(more * design.case.autobalancer.min_wall_mm, 2)}
+    yield from stronger(design)
+
+
+def harder(design: Design) -> Iterator[Entries]:
+    """A harder race, the search free of what is pinned."""
+    if design.case.autobalancer.race_hardness_HRC < HARDEST:
+        yield {"autobalancer.race_hardness_HRC": HARDEST}
+    yield from free(design.case)
+
+
+def stronger(design: Design) -> Iterator[Entries]:
+    """A body of steel, the search free of what is pinned."""
+    if design.case.autobalancer.design == "light":
+        yield {"autobalancer.design": "one-piece"}
+    yield from free(design.case)
+
+
+def free(case: Case, entries: Mapping[str, object] | None = None) -> Iterator[Entries]:
+    """Entries with the balls and the race that the search finds if the file's pins are removed.
+
+    Nothing if no race fits, or if there is nothing to change.
+    """
+    entries = dict(entries or {})
+    if all(getattr(case.autobalancer, pin) is None for pin in PINS):
+        yield from [entries] if entries else []
+    elif found := followed(_unpinned(case), entries):
+        yield {**entries, **pins(found.candidate)}
+
+
+def _unpinned(case: Case) -> Case:
+    own = case.autobalancer.model_copy(update=dict.fromkeys(PINS))
+    own = type(own).model_validate(own.model_dump(exclude_unset=True, exclude=set(PINS)))
+    return replace(case, autobalancer=own, table=case.table.model_copy(update={"autobalancer": own}))
+
+
+def truer(design: Design) -> Iterator[Entries]:
+    """A truer or a cleaner race; nothing can be done about a background that is too loud alone."""
+    background = design.case.background_level
+    if background is None or background < design.case.level_limit:
+        yield from truer_races(design.case)
+
+
+def faster(design: Design) -> Iterator[Entries]:
+    """Lowest speeds above the natural frequencies."""
+    least = max(design.frequency.natural_frequencies)
+    for factor in FASTER:
+        yield from speeds_from(design.case, math.ceil(from_si(factor * least, "rpm")))
+
+
+def carrying_over(design: Design) -> Iterator[Entries]:
+    """A lowest speed that carries the balls round a horizontal spindle."""
+    yield from speeds_from(design.case, math.ceil(OVER * from_si(design.track.carry_over, "rpm")))
+
+
+def with_idle_speed(design: Design) -> Iterator[Entries]:
+    """A range of working speeds that holds the motor's idle speed."""
+    (low, high), idle = design.case.table.machine.speed_range, from_si(design.case.idle_speed or 0.0, "rpm")
+    yield {"machine.speed_range_rpm": [float(math.floor(min(low, idle))), float(math.ceil(max(high, idle)))]}
+
+
+def nearer(design: Design) -> Iterator[Entries]:
+    """Places of the race nearer to the wheel's plane."""
+    for share in NEARER:
+        yield {"autobalancer.plane_offset_mm": round(share * design.case.autobalancer.plane_offset_mm, 2)}
+
+
+def wider(design: Design) -> Iterator[Entries]:
+    """The least race eccentricities of two digits that standard fits may hold."""
+    least = from_si(design.eccentricity.least, "mm")
+    digits = max(0, 1 - math.floor(math.log10(least)))
+    for more in range(WIDER):
+        permitted = round((math.ceil(least * 10**digits) + more) / 10**digits, digits)
+        yield {"autobalancer.race_eccentricity_mm": permitted}
+
+
+def hard(_: Design) -> Iterator[Entries]:
+    """The usual hardness of a ground race."""
+    yield {"autobalancer.race_hardness_HRC": GROUND_HARDNESS_HRC}
+
+
+def other_closure(design: Design) -> Iterator[Entries]:
+    """A cover of the other kind."""
+    screwed = design.case.autobalancer.closure == "screwed"
+    yield {"autobalancer.closure": "pressed" if screwed else "screwed"}
+
+
+def more_clamping(design: Design) -> Iterator[Entries]:
+    """The clamp force of two digits that carries the slip torque."""
+    force = design.case.autobalancer.clamp_force_N
+    torque = slip_torque(design.case, design.construction.parts, design.eccentricity.fit)
+    if force is not None and torque is not None and design.case.autobalancer.fastening != "shrunk":
+        yield {"autobalancer.clamp_force_N": two_digits(force * torque.needed / torque.held, math.ceil)}
+
+
+def less_force(design: Design) -> Iterator[Entries]:
+    """The normal force for which the motor has the power."""
+    yield {"grinding.press_force_N": most_force(design.case)}
+
+
+def easier(design: Design) -> Iterator[Entries]:
+    """A race that runs truer or rolls more easily with the test wheel."""
+    wheel = chosen_wheel(design.case.table)
+    if wheel is not None:
+        yield from more_easily(design.case, declared_estimate(design.case, design.autobalancer, wheel.imbalance))
+
+
+class Proposed(NamedTuple):
+    """Changes that are worth a trial; `same`: with the balls and the race as they are."""
+
+    changes: Callable[[Design], Iterator[Entries]]
+    same: bool = False
+
+
+PROPOSED: Final[Mapping[str, Proposed]] = {
+    "ABU101": Proposed(faster, same=True), "ABU102": Proposed(carrying_over, same=True),
+    "ABU104": Proposed(with_idle_speed, same=True),
+    "ABU201": Proposed(more_room), "ABU202": Proposed(truer, same=True), "ABU203": Proposed(lighter),
+    "ABU205": Proposed(nearer, same=True), "ABU206": Proposed(wider, same=True),
+    "ABU301": Proposed(harder), "ABU302": Proposed(hard, same=True), "ABU303": Proposed(stronger),
+    "ABU304": Proposed(rounder), "ABU305": Proposed(more_room), "ABU306": Proposed(stronger),
+    "ABU307": Proposed(other_closure, same=True), "ABU308": Proposed(more_clamping, same=True),
+    "ABU309": Proposed(stronger),
+    "ABU401": Proposed(truer, same=True), "ABU402": Proposed(truer, same=True),
+    "ABU403": Proposed(less_force, same=True), "ABU404": Proposed(truer, same=True), "ABU431": Proposed(easier),
+}  # fmt: skip
+"""What is proposed for checks of sizing, in the order in which it is tried."""
+
+
+def mended(design: Design) -> list[Entries]:
+    """Changes by which sizing finds more and more checks better, all together first, with balls and race pinned.
+
+    Each check in turn, the worst first, gets the first change that mends it and makes no other check worse, else the
+    first that mends it: what gets worse comes next.
+    """
+    now, steps, seen = design, [Entries()], set[str]()
+    while bad := [check for check in now.checks if check.requested and check.status != "pass"
+                  and check.code in PROPOSED and check.code not in seen]:  # fmt: skip
+        check = min(bad, key=_rank)
+        seen.add(check.code)
+        if found := _first(now, check):
+            change, now = found
+            steps.append({**steps[-1], **change, **pins(now.autobalancer)})
+    return steps[:0:-1]
+
+
+def _rank(check: Check) -> int:
+    return RANK.index(check.status)
+
+
+def _first(design: Design, check: Check) -> tuple[Entries, Design] | None:
+    """The first change that mends a check of sizing, and the machine with it, as sized."""
+    before, partly = {each.code: _rank(each) for each in design.checks}, None
+    proposed = PROPOSED[check.code]
+    for change in proposed.changes(design):
+        entries = {**change, **pins(design.autobalancer)} if proposed.same else change
+        try:
+            after = size(with_entries(design.case.table, entries))
+        except (AbuError, ValueError):  # the file refuses it, or no race fits
+            continue
+        ranks = {each.code: _rank(each) for each in after.checks}
+        if ranks.get(check.code, 0) <= before[check.code]:
+            continue
+        if all(rank >= before.get(code, RANK.index("pass")) for code, rank in ranks.items()):
+            return entries, after
+        partly = partly or (entries, after)
+    return partly
