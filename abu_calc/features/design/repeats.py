@@ -65,10 +65,11 @@ def decisive(design: Design, ensemble: Ensemble, searched: SearchResult | None) 
     """The start case that decides the verdict: one that fails before one that breaks a limit, then the latest."""
     outcomes = (*ensemble.outcomes, *(() if searched is None else searched.outcomes))
 
-    def order(outcome: StartOutcome) -> tuple[bool, bool, float, float]:
+    def order(outcome: StartOutcome) -> tuple[bool, bool, bool, float, float]:
         """The decisive one last."""
         broken = any(rule.breaks(outcome, design) for rule in RULES)
-        return outcome.member.promised and broken, broken, outcome.quiet_time_or_inf, outcome.level
+        clearly = not outcome.holds(design.case.table.limits, design.case.level_limit)
+        return outcome.member.promised and clearly, clearly, broken, outcome.quiet_time_or_inf, outcome.level
 
     return max(outcomes, key=order, default=None)
 

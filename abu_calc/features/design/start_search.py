@@ -337,11 +337,14 @@ def spreads(design: Design, part: int = 0) -> Iterator[Angles]:
 
 
 def neighbours(member: Member) -> Iterator[Member]:
-    """Turned either way, with one ball elsewhere, with the race off to the other side, in other times."""
-    for turned in (TURNED, -TURNED):
-        yield replace(member, angles=tuple((angle + turned) % math.tau for angle in member.angles))
-    first, *others = member.angles
-    yield replace(member, angles=((first + 2 * TURNED) % math.tau, *others))
+    """Turned either way and with one ball elsewhere, if balls are placed; with the race off to the other side; in other
+    times.
+    """
+    if member.angles:
+        for turned in (TURNED, -TURNED):
+            yield replace(member, angles=tuple((angle + turned) % math.tau for angle in member.angles))
+        first, *others = member.angles
+        yield replace(member, angles=((first + 2 * TURNED) % math.tau, *others))
     yield replace(member, eccentricity=OPPOSITE if member.eccentricity == ALIKE else ALIKE)
     if member.run_up and not member.by_motor:
         yield replace(member, run_up=1.15 * member.run_up)

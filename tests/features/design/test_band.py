@@ -164,6 +164,8 @@ def test_the_decisive_run_is_the_worst_that_was_promised(design: Design) -> None
     late, later = outcome_of(within, 1.5), outcome_of(beyond, math.inf)
     assert decisive(design, listed, SearchResult((late, later))) is late
     assert decisive(design, listed, SearchResult((outcome_of(within, 0.3), later))) is later
+    creeping = replace(outcome_of(within, 0.1), creeping=True)
+    assert decisive(design, listed, SearchResult((creeping, later))) is later, "a limit is broken, not only feared for"
     assert decisive(design, listed, None) is listed.outcomes[0]
     assert fails(design, late) and not fails(design, later)
     assert not fails(design, outcome_of(within, 1.5, confirmed=False))

@@ -37,7 +37,7 @@ from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
 from abu_calc.simulation.scene_of_design import contact_half_angle
-from abu_calc.simulation.start_cases import members
+from abu_calc.simulation.start_cases import ALIKE, Member, members
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.cli.runner import abu
@@ -124,6 +124,8 @@ def test_neighbours_are_near_and_other() -> None:
         near = list(neighbours(start))
         assert start not in near and len(set(near)) == len(near) >= 4
         assert all(other.drag == start.drag for other in near)
+    corner = Member("behind", 10.0)
+    assert [other.eccentricity for other in neighbours(corner)] == [ALIKE], "no ball of it is placed"
 
 
 @pytest.mark.slow
