@@ -44,7 +44,7 @@ def _envelope(definitions: dict[str, Schema]) -> Schema:
         "abu": _object(version=text, command=text, schema={"type": "integer"}, date=text),
         "input": {"anyOf": [source, {"type": "null"}]},
         "status": _type(Status, definitions),
-        "checks": {"type": "array", "items": _object(**check)},
+        "checks": {"type": "array", "items": _object(**check, change={"anyOf": [anything, {"type": "null"}]})},
         "result": {},
         "model": anything,
         "warnings": {"type": "array", "items": text},
