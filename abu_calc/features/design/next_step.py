@@ -12,7 +12,7 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
 from abu_calc.features.design.changes import changes_for_starts
-from abu_calc.features.design.judgement import Judgement, Trial
+from abu_calc.features.design.judgement import Judgement, Watcher
 from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_search import loudness, slowness
@@ -65,7 +65,7 @@ class Judged(Protocol):
 class Judge(NamedTuple):
     """How a kind of machine is judged, and how one of its start cases is run; `closer`: at a tighter tolerance."""
 
-    judged: Callable[[Machine, Progress, Trial], Judged]
+    judged: Callable[[Machine, Progress, Watcher], Judged]
     once: Once
 
 
@@ -77,10 +77,14 @@ class Tried(NamedTuple):
 
 
 class NextStep(NamedTuple):
-    """The best change of a machine, None if none helps, and the changes that were tried without success, in words."""
+    """The best change of a machine, None if none helps, and the changes that were tried without success, in words.
+
+    `hurried`: whether the work that trials may take was over before all changes were tried.
+    """
 
     best: Tried | None
     without_success: tuple[str, ...] = ()
+    hurried: bool = False
 
 
 class NotBetterError(Exception):
@@ -91,7 +95,7 @@ class TooLongError(Exception):
     """A trial takes more work than is left: nothing is known of the change."""
 
 
-class Change(Trial):
+class ChangeWatcher(Watcher):
     """A trial of one change of a machine: it ends as soon as the verdict cannot be better, or a check gets worse.
 
     `worse_than`: rank of the grade that the verdict has to excel; `once`: how one start is run; `most`: the
@@ -155,24 +159,28 @@ def next_step(
 
     It costs nothing where nothing is wrong. Where something is, all trials together take as long as the file as it is.
     """
-    best, rank, tried = None, RANK.index(worst(before.checks)), list[str]()
+    best, rank, tried, hurried = None, RANK.index(worst(before.checks)), list[str](), False
     work = max(sum(run.work for run in before.outcomes), LEAST_WORK)
     left = math.inf if patience.given() else work
     for entries in islice(proposals, MOST_TRIALS):
-        if rank == PASS or left <= 0 or patience.over():
+        if rank == PASS:
             break
-        trial, told = Change(before, rank, judge.once, left + work / 2), within(progress, f"with {in_words(entries)}")
+        if left <= 0 or patience.over():
+            hurried = True
+            break
+        trial = ChangeWatcher(before, rank, judge.once, left + work / 2)
         try:
-            after = judge.judged(variant_of(machine, ",".join(entries)), told, trial)
+            tell = within(progress, f"with {in_words(entries)}")
+            after = judge.judged(variant_of(machine, ",".join(entries)), tell, trial)
             best, rank = Tried(entries, after), RANK.index(worst(after.checks))
         except NotBetterError:
             tried.append(in_words(entries))
         except TooLongError:
-            pass
+            hurried = True
         except AbuError:  # the file refuses it
             continue
         left -= trial.work
-    return NextStep(best, tuple(tried))
+    return NextStep(best, tuple(tried), hurried)
 
 
 def in_words(entries: Entries) -> str:
@@ -294,11 +302,12 @@ def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
 
 
 def _no_change(step: NextStep) -> str:
+    untried = " Others were not tried, since that takes long (--patience 300 tries them)." if step.hurried else ""
     if not step.without_success:
-        return "No change of the file was found that mends this."
+        return f"No change of the file was found that mends this.{untried}"
     tried, more = step.without_success[:TOLD], len(step.without_success) - TOLD
     also = f"; and {more} more" if more > 0 else ""
-    return f"No change was found with which the machine suits. Tried: {'; '.join(tried)}{also}."
+    return f"No change was found with which the machine suits. Tried: {'; '.join(tried)}{also}.{untried}"
 
 
 ALIKE: Final = 1e-3

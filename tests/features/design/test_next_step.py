@@ -14,12 +14,12 @@ import pytest
 import abu_calc
 from abu_calc.features.design import judgement
 from abu_calc.features.design import next_step as module
-from abu_calc.features.design.judgement import Trial, judge
+from abu_calc.features.design.judgement import Watcher, judge
 from abu_calc.features.design.next_step import (
     LEAST_WORK,
     NUMBERS,
     REPEATED,
-    Change,
+    ChangeWatcher,
     Judge,
     NextStep,
     NotBetterError,
@@ -78,7 +78,7 @@ def searched(before: Any, after: list[Mapping[str, Grade]], work: int = 0) -> tu
     """The next step if the changes of the drag rate lead to these grades, and the drag rates that were judged."""
     calls = list[float]()
 
-    def judged_with(given: Machine, _: Progress, trial: Trial) -> Any:
+    def judged_with(given: Machine, _: Progress, trial: Watcher) -> Any:
         calls.append(drag := given.whole("size").autobalancer.rolling_drag_per_s)
         other = judged(after[int(drag) - 1])
         trial.work += work
@@ -127,15 +127,17 @@ def test_a_change_is_taken_if_the_verdict_gets_better_and_no_check_worse(
 
 def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
     before = judged(FAILS)
-    Change(before, RANK.index("fail"), never).checked([OptionalCheck("ABU407", "handles", "fail", "no direction")])
+    watcher = ChangeWatcher(before, RANK.index("fail"), never)
+    watcher.checked([OptionalCheck("ABU407", "handles", "fail", "no direction")])
     with pytest.raises(NotBetterError):
-        Change(before, RANK.index("fail"), never).checked([Check("ABU407", "handles", "warn", "…")])
+        watcher.checked([Check("ABU407", "handles", "warn", "…")])
 
 
 @pytest.mark.parametrize(("given", "tried"), [(0, 2), (5 * LEAST_WORK, 9)])
 def test_all_trials_take_no_more_work_than_the_file_as_it_is(given: int, tried: int) -> None:
     """The trial that exceeds it is the last."""
     step, calls = searched(judged(FAILS, work=given), [FAILS] * 20, work=int(0.6 * LEAST_WORK))
+    assert step.hurried, "which is said"
     assert len(calls) == len(step.without_success) == tried and step.best is None
 
 
@@ -271,14 +273,14 @@ def test_the_worst_start_cases_that_fail_are_repeated_first() -> None:
     before: Any = SimpleNamespace(checks=(), outcomes=outcomes, facts=SimpleNamespace(design=design))
     thicker = replace(design, case=replace(design.case, drag=3 * drag))
 
-    def repeated(result: Callable[[Member], StartOutcome], grade: Grade = "fail") -> Change:
+    def repeated(result: Callable[[Member], StartOutcome], grade: Grade = "fail") -> ChangeWatcher:
         ran.clear()
 
         def once(_: object, member: Member, **__: object) -> StartOutcome:
             ran.append(member)
             return result(member)
 
-        trial = Change(before, RANK.index(grade), once)
+        trial = ChangeWatcher(before, RANK.index(grade), once)
         trial.repeated(thicker)
         return trial
 
@@ -301,7 +303,7 @@ def test_a_trial_ends_before_further_start_cases_where_a_listed_one_warns(monkey
     monkeypatch.setattr(judgement, "search", lambda *_, **__: pytest.fail("further start cases were simulated"))
     before: Any = SimpleNamespace(checks=(), outcomes=())
     with pytest.raises(NotBetterError):
-        judge(tables, 0.01, silent, 1, trial=Change(before, RANK.index("warn"), never))
+        judge(tables, 0.01, silent, 1, trial=ChangeWatcher(before, RANK.index("warn"), never))
 
 
 def at(document: Mapping[str, Any], path: str) -> Any:
