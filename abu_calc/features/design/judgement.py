@@ -70,7 +70,7 @@ class Judgement:
         yield from () if self.facts.searched is None else self.facts.searched.outcomes
 
 
-class Watcher:
+class TrialWatcher:
     """What ends a judgement early, of a change that is tried; of the file as it is nothing does."""
 
     def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
@@ -89,10 +89,10 @@ def judge(
     progress: Progress,
     workers: int,
     starts: str = FULL,
-    trial: Watcher | None = None,
+    trial: TrialWatcher | None = None,
 ) -> Judgement:
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
-    only_checks, trial = trial is not None, trial or Watcher()
+    only_checks, trial = trial is not None, trial or TrialWatcher()
     seats = _seats(tables)
     trial.checked(_of(seats))
     design = size_design(tables)
@@ -136,7 +136,7 @@ MOST_SEARCHED = 2_000_000
 
 def proven(
     design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1, starts: str = FULL,
-    trial: Watcher | None = None,
+    trial: TrialWatcher | None = None,
 ) -> StartFacts:  # fmt: skip
     """What the start cases of a design show: listed ones, and further ones if these pass at the drag given.
 
@@ -147,7 +147,7 @@ def proven(
         return StartFacts(design, None)
     if starts != FULL:
         return StartFacts(design, simulate_first(design, accuracy) if starts == ONE else None, starts=starts)
-    trial = trial or Watcher()
+    trial = trial or TrialWatcher()
     first = simulate_members(design, accuracy, progress, workers, watch=trial.seen)
     facts = StartFacts(design, first)
     trial.checked((level_check(facts), *checks_of_starts(facts)))

@@ -12,7 +12,7 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
 from abu_calc.features.design.changes import changes_for_starts
-from abu_calc.features.design.judgement import Judgement, Watcher
+from abu_calc.features.design.judgement import Judgement, TrialWatcher
 from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_search import loudness, slowness
@@ -65,7 +65,7 @@ class Judged(Protocol):
 class Judge(NamedTuple):
     """How a kind of machine is judged, and how one of its start cases is run; `closer`: at a tighter tolerance."""
 
-    judged: Callable[[Machine, Progress, Watcher], Judged]
+    judged: Callable[[Machine, Progress, TrialWatcher], Judged]
     once: Once
 
 
@@ -95,7 +95,7 @@ class TooLongError(Exception):
     """A trial takes more work than is left: nothing is known of the change."""
 
 
-class ChangeWatcher(Watcher):
+class ChangeWatcher(TrialWatcher):
     """A trial of one change of a machine: it ends as soon as the verdict cannot be better, or a check gets worse.
 
     `worse_than`: rank of the grade that the verdict has to excel; `once`: how one start is run; `most`: the

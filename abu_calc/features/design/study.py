@@ -8,7 +8,7 @@ from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
-from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, Watcher, judge
+from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, TrialWatcher, judge
 from abu_calc.features.design.next_step import Judge, NextStep, actions, next_step, promise, proposals
 from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
@@ -328,7 +328,7 @@ def size(
 def _judge(accuracy: float, workers: int) -> Judge:
     """How a change of a machine with one race is tried."""
 
-    def judged(machine: Machine, progress: Progress, trial: Watcher) -> Judgement:
+    def judged(machine: Machine, progress: Progress, trial: TrialWatcher) -> Judgement:
         """As `size` judges it."""
         return judge(machine.whole("size"), accuracy, progress, workers, trial=trial)
 

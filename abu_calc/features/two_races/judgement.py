@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Final, cast
 
 from abu_calc.dynamics.stability.verdict import stability
-from abu_calc.features.design.judgement import Watcher
+from abu_calc.features.design.judgement import TrialWatcher
 from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
 from abu_calc.features.two_races.case import TwoRaceCase, read_case
 from abu_calc.features.two_races.checks import (
@@ -71,10 +71,10 @@ class TwoRaceJudgement:
 
 
 def judge(
-    table: TwoRaceFile, accuracy: float, progress: Progress, workers: int, trial: Watcher | None = None
+    table: TwoRaceFile, accuracy: float, progress: Progress, workers: int, trial: TrialWatcher | None = None
 ) -> TwoRaceJudgement:
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
-    trial = trial or Watcher()
+    trial = trial or TrialWatcher()
     design = choose_both(read_case(table))
     made = *capacity_checks(design), *race_checks(design), *mass_checks(design)
     trial.checked((region_check(design, None), *made))

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from abu_calc.features.design.judgement import Watcher
+from abu_calc.features.design.judgement import TrialWatcher
 from abu_calc.features.design.next_step import Judge, actions, next_step, promise
 from abu_calc.features.design.records import Eccentricity, Section
 from abu_calc.features.design.verdict import Verdict, benefit
@@ -102,7 +102,7 @@ def size_two_races(
 def _judge(accuracy: float, workers: int) -> Judge:
     """How a change of a machine with two races is tried."""
 
-    def judged(machine: Machine, progress: Progress, trial: Watcher) -> TwoRaceJudgement:
+    def judged(machine: Machine, progress: Progress, trial: TrialWatcher) -> TwoRaceJudgement:
         """As `size_two_races` judges it."""
         assert machine.two_races is not None
         return judge(machine.two_races, accuracy, progress, workers, trial)

@@ -14,7 +14,7 @@ import pytest
 import abu_calc
 from abu_calc.features.design import judgement
 from abu_calc.features.design import next_step as module
-from abu_calc.features.design.judgement import Watcher, judge
+from abu_calc.features.design.judgement import TrialWatcher, judge
 from abu_calc.features.design.next_step import (
     LEAST_WORK,
     NUMBERS,
@@ -78,7 +78,7 @@ def searched(before: Any, after: list[Mapping[str, Grade]], work: int = 0) -> tu
     """The next step if the changes of the drag rate lead to these grades, and the drag rates that were judged."""
     calls = list[float]()
 
-    def judged_with(given: Machine, _: Progress, trial: Watcher) -> Any:
+    def judged_with(given: Machine, _: Progress, trial: TrialWatcher) -> Any:
         calls.append(drag := given.whole("size").autobalancer.rolling_drag_per_s)
         other = judged(after[int(drag) - 1])
         trial.work += work
