@@ -27,6 +27,8 @@ class Scene(Circumstances):
     effects: tuple[Effect, ...] = ()
     quiet_velocity: float | None = None
     """Rms velocity [m/s] of the axis, in a turn, up to which the machine is quiet; None: 1 dB above that of the end."""
+    quiet_places: tuple[float, ...] = ()
+    """Places [m] from the centre of mass on the axis of a spindle that tilts, whose loudest one counts; none: that."""
 
     @property
     def rotor(self) -> Rotation:

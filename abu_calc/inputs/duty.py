@@ -54,7 +54,8 @@ class Start(Table):
         example=[-30.0, 0.0, 30.0, 60.0], min_length=1, max_length=200
     ).means(
         "Angle of each ball from the wheel's imbalance [degrees]; as many as the design has balls, each -360 … 360. "
-        "Balls that would overlap are moved apart."
+        "With two races: from the zero mark of the spindle, the first race's balls first. Balls that would overlap are "
+        "moved apart."
     )
     speeds_rpm: Annotated[tuple[Annotated[float, Field(ge=-1e6, le=1e6)], ...], Field(strict=False)] | None = entry(
         None, example=[0.0, 0.0, 0.0, 0.0], min_length=1, max_length=200

@@ -11,7 +11,7 @@ from abu_calc.foundation.units import to_si
 from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.bearing_file import EXPECTED, NAME, Expected, Limits
 from abu_calc.inputs.body import DampingRatio, Frequency, Handle, Held, Speed
-from abu_calc.inputs.duty import Grinding, RunUp
+from abu_calc.inputs.duty import Grinding, RunUp, Start
 from abu_calc.inputs.reading.table import Name, Table, entry, problem
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 from abu_calc.inputs.variation import Sweep
@@ -209,6 +209,7 @@ class TwoRaceFile(Table):
     )
     grinding: Grinding | None = None
     run_up: RunUp | None = None
+    start: Start | None = None
     bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = entry(()).means(
         "Bearings and their seats, for `abu check-fit`: [[bearing]], up to 100."
     )

@@ -79,7 +79,7 @@ def closed_form(scene: Scene) -> ModelEstimate:
     the slowest rate of the averaged motion. Range: one race whose balls can balance, where they do; constant speed.
     Raises InputError outside.
     """
-    reason = not_averaged(scene)
+    reason = _not_averaged(scene)
     rest = resting_angles(scene) if len(scene.races) == 1 else None
     if reason or rest is None or not scene.ball_masses:
         raise InputError(reason or "closed forms are for one race whose balls can balance")
@@ -115,7 +115,7 @@ def closed_form(scene: Scene) -> ModelEstimate:
 
 def averaged(scene: Scene, tolerance: float, order: int = 2) -> ModelEstimate:
     """The envelope of a run. Raises InputError where averages do not hold."""
-    if reason := not_averaged(scene):
+    if reason := _not_averaged(scene):
         raise InputError(reason)
     times = slow_times(scene)
     slow = envelope(scene, tolerance, times, order)
@@ -193,3 +193,8 @@ def _slowness(scene: Scene) -> float:
 def _least_error(scene: Scene) -> float:
     """The error known before anything is run; settling is no better known than half a revolution, by the ripple."""
     return _slowness(scene) + scene.revolution / 2 / scene.duration
+
+
+def _not_averaged(scene: Scene) -> str | None:
+    """Why averages do not tell what a scene asks for; None where they do."""
+    return "averages tell the level at the centre of mass alone" if scene.quiet_places else not_averaged(scene)

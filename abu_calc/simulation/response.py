@@ -26,7 +26,7 @@ NEVER = TimeRange(None, None, None)
 
 
 class Course:
-    """Imbalance in the rotor [kg m], the axis's place x, y [m] and its velocity at the settling times of a run.
+    """Imbalance in the rotor [kg m], the axis's place x, y [m] and its velocity where it counts, at the settling times.
 
     A reader of its samples.
 
@@ -36,7 +36,8 @@ class Course:
     def __init__(self, scene: Scene) -> None:
         self.scene, self.count = scene, settling_count(scene)
         self.imbalances = np.empty(self.count + 1, dtype=complex)
-        self.places, self.velocities = np.empty((2, 2, self.count + 1))
+        self.places = np.empty((2, self.count + 1))
+        self.velocities = np.empty((2 * len(scene.quiet_places or (0,)), self.count + 1))
         self.lost: NotTrustworthyError | None = None
 
     @property
@@ -67,7 +68,10 @@ class Course:
         here = (index * step == samples.t) | (samples.t == scene.duration)
         index, states = index[here], samples.y[:, here]
         self.imbalances[index] = scene.total_imbalance(states[2 * size : 2 * size + len(scene.ball_masses)])
-        self.places[:, index], self.velocities[:, index] = scene.axis_place(states), scene.axis_velocity(states)
+        self.places[:, index] = scene.axis_place(states)
+        # The axis of a spindle that tilts is linear in its coordinates.
+        there = [scene.support.axis(states[size : 2 * size], place) for place in scene.quiet_places]
+        self.velocities[:, index] = np.concatenate(there) if there else scene.axis_velocity(states)
 
 
 def settling_count(scene: Scene) -> int:

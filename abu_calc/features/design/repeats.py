@@ -1,7 +1,7 @@
 """Start cases that decide checks, and the options of `abu simulate` that repeat them."""
 
-from collections.abc import Iterator
-from typing import Annotated
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Annotated, Any
 
 from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.design.start_search import SearchResult
@@ -23,15 +23,25 @@ def repeated(outcome: StartOutcome, design: Design) -> str:
     }
     if member.run_up and not member.by_motor:
         entries["run_up.time_s"] = f"{member.run_up:.10g}"
-    sets = [f"{key}={value}" for key, value in entries.items()]
     if member.angles:
-        angles = ", ".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
-        sets.append(f"start.angles_deg=[{angles}]")
+        entries |= places(member.angles)
         if member.lag:
-            sets.append(f"start.speeds_rpm={[ball_speed_rpm(design, member)] * len(member.angles)}")
+            entries["start.speeds_rpm"] = f"{[ball_speed_rpm(design, member)] * len(member.angles)}"
     scene = "--scene run-up " if member.run_up else f"--start {member.start} " if not member.angles else ""
-    scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
-    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {shell_word(entry)}' for entry in sets)}"
+    return scene + as_options(outcome, entries)
+
+
+def places(angles: Iterable[float]) -> dict[str, str]:
+    """The entry that places the balls at these angles [rad]."""
+    degrees = ", ".join(f"{from_si(angle, 'deg') % 360:.4f}" for angle in angles)
+    return {"start.angles_deg": f"[{degrees}]"}
+
+
+def as_options(outcome: StartOutcome, entries: Mapping[str, str]) -> str:
+    """Options with the length of a run, the side of the race's centre, and entries."""
+    lasts = f"--duration {outcome.duration:.6g} " if outcome.duration else ""
+    sets = (f"--set {shell_word(f'{key}={value}')}" for key, value in entries.items())
+    return f"{lasts}--race-centre {outcome.member.race_centre_deg:.10g} {' '.join(sets)}"
 
 
 def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
@@ -61,7 +71,7 @@ def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
         yield "suspension.natural_frequencies_hz", f"[{values}]"
 
 
-def decisive(design: Design, ensemble: Ensemble, searched: SearchResult | None) -> StartOutcome | None:
+def decisive(design: Any, ensemble: Ensemble, searched: SearchResult | None) -> StartOutcome | None:
     """The start case that decides the verdict: one that fails before one that breaks a limit, then the latest."""
     outcomes = (*ensemble.outcomes, *(() if searched is None else searched.outcomes))
 

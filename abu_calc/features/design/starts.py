@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cached_property
 from operator import attrgetter
-from typing import Annotated, Final, Self
+from typing import Annotated, Any, Final, Self
 
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
@@ -269,8 +269,11 @@ class DecisiveRun(Record):
     options: Annotated[str, Quantity("options of `abu simulate`")]
 
     @classmethod
-    def of(cls, design: Design, ensemble: Ensemble, searched: SearchResult | None) -> Self | None:
-        """Record of the decisive start case; None without any."""
+    def of(
+        cls, design: Any, ensemble: Ensemble, searched: SearchResult | None = None,
+        repeated: Callable[[Any, Any], str] = repeated,
+    ) -> Self | None:  # fmt: skip
+        """Record of the decisive start case, with the options that `repeated` gives; None without any."""
         outcome = decisive(design, ensemble, searched)
         return None if outcome is None else cls.read(
             outcome, start=outcome.member.name, promised=outcome.member.promised, level_db=outcome.level,

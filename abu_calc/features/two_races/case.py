@@ -64,6 +64,11 @@ class TwoRaceCase:
         return max(self.drags)
 
     @property
+    def level_limit(self) -> float:
+        """Limit of the velocity level [dB]."""
+        return self.table.limits.vibration_level_db
+
+    @property
     def horizontal(self) -> bool:
         """True if gravity acts in the plane of the races."""
         return self.table.machine.spindle_axis == "horizontal"

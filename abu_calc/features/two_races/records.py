@@ -5,10 +5,11 @@ from typing import Annotated, ClassVar, Self
 
 from abu_calc.features.design.band import NEW_WHEEL, BandRow
 from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
-from abu_calc.features.design.starts import Spread
+from abu_calc.features.design.starts import DecisiveRun, Spread
 from abu_calc.features.design.verdict import Verdict
 from abu_calc.features.two_races.case import TwoRaceCase
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
+from abu_calc.features.two_races.repeats import repeated
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import Ensemble
@@ -98,9 +99,10 @@ class TwoRaceEnsemble(Record):
     settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
     slowest: Annotated[str | None, Quantity("slowest start case")]
     band: tuple[BandRow, ...]
+    worst_run: DecisiveRun | None
 
     @classmethod
-    def of(cls, ensemble: Ensemble, case: TwoRaceCase) -> Self:
+    def of(cls, ensemble: Ensemble, design: TwoRaceDesign) -> Self:
         """Record of an ensemble."""
         slowest = max(ensemble.outcomes, key=lambda outcome: outcome.quiet_time_or_inf, default=None)
         return cls.read(
@@ -112,7 +114,8 @@ class TwoRaceEnsemble(Record):
             rest_time_s=Spread.of(ensemble, lambda outcome: outcome.rest_time_or_inf),
             settling_time_s=Spread.of(ensemble, lambda outcome: outcome.settling_time_or_inf),
             slowest=None if slowest is None else slowest.member.name,
-            band=tuple(two_race_band(case)),
+            band=tuple(two_race_band(design.case)),
+            worst_run=DecisiveRun.of(design, ensemble, repeated=repeated),
         )
 
 

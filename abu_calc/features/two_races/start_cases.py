@@ -47,7 +47,7 @@ from abu_calc.simulation.ensemble import (
     simulate_starts,
 )
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
-from abu_calc.simulation.quiet import PER_TURN, last_crossing, turn_velocities
+from abu_calc.simulation.quiet import PER_TURN, last_crossing
 from abu_calc.simulation.residual_criteria import MARGIN, slip
 from abu_calc.simulation.response import amplitude_window, drift, evaluate, needed_times
 from abu_calc.simulation.scene_of_design import AHEAD
@@ -170,8 +170,19 @@ def scene_of(design: TwoRaceDesign, member: Member) -> Scene:
         couple=abs(couple),
         couple_angle=cmath.phase(couple) if couple else 0.0,
         effects=in_order(_effects(design, member)),
+        quiet_velocity=quiet_velocity(design, member),
+        quiet_places=tuple(held.place for held in case.places),
     )
     return with_parted_balls(scene)[0]
+
+
+def quiet_velocity(design: TwoRaceDesign, member: Member) -> float:
+    """Rms velocity [m/s] up to which the loudest place is quiet: that of the limit of the level, and no more than
+    without balls, by the imbalances of the file however little there is.
+    """
+    case, wheels = design.case, _wheels(design, replace(member, varied=Variation()))
+    without = max(abs(case.rotor.whirl(held.place, wheels, case.speed)) for held in case.places)
+    return min(velocity_from_level(case.table.limits.vibration_level_db), without * case.speed / math.sqrt(2))
 
 
 def race_centre(design: TwoRaceDesign, member: Member) -> float:
@@ -222,7 +233,9 @@ def _race(design: TwoRaceDesign, race: int, member: Member, imbalance: complex) 
     abu = sized.design.autobalancer
     count, heavy = abu.ball_count, cmath.phase(imbalance) if imbalance else 0.0
     beta = half_angle(abu.ball_diameter / 2, abu.pitch_radius) * (1 + 1e-9)
-    if member.start == "spread":
+    if member.angles:
+        angles = list(member.angles[:count] if race == 0 else member.angles[-count:])
+    elif member.start == "spread":
         first = heavy + member.turned
         angles = [first + 2 * math.pi * k / count for k in range(count)]
     else:
@@ -237,7 +250,7 @@ def _race(design: TwoRaceDesign, race: int, member: Member, imbalance: complex) 
         drag=design.case.drags[race] * scale,
         inertia_factor=design.case.inertia_factor,
         start_angles=tuple(angles),
-        start_speeds=(-design.case.speed if standing else 0.0,) * count,
+        start_speeds=(-design.case.speed * (1.0 if standing else member.lag),) * count,
         plane_offset=sized.place,
         ball_radius=abu.ball_diameter / 2,
     )
@@ -320,9 +333,8 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
     A race balances if it leaves at most half of what it has to balance, or what eccentricity and friction ask for.
     """
     case, window, response = design.case, amplitude_window(scene).times, evaluate(scene, samples)
-    # Quiet and balanced are judged by the imbalances of the file, however little there is.
+    # Whether it balances is judged by the imbalances of the file, however little there is.
     of_file, at = replace(member, varied=Variation()), [held.place for held in case.places]
-    wheels = _wheels(design, of_file)
     states = samples.at(revolution_times(scene))
     needs = wheels_share(design, 0, member), wheels_share(design, 1, member)
     left = [_end(each) for each in residual_imbalances(scene, states, needs)]
@@ -331,11 +343,10 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
     allowed = [max(abs(need) / 2, unavoidable_imbalance(design, k)) for k, need in enumerate(of_wheels)]
     farther = max((0, 1), key=lambda k: left[k] / allowed[k] if allowed[k] else left[k])
     displacements = tuple(_amplitude(scene, samples, window, place) for place in at)
-    without = max(abs(case.rotor.whirl(place, wheels, case.speed)) for place in at)
     return TwoRaceOutcome(
         member=member,
         settling_time=settling_time(scene, states, needs),
-        quiet_time=quiet_time(scene, states, case, without),
+        quiet_time=response.quiet_time,
         rest_time=None if creeping else rest_time(scene, states, needs, of_wheels),
         creeping=creeping,
         residual=max(_amplitude(scene, samples, window, place) for place in case.races),
@@ -405,18 +416,6 @@ def _left(scene: Scene, states: Array, needs: tuple[complex, complex]) -> tuple[
         found.append(need + (moments[:, None] * np.exp(1j * states[first : first + count])).sum(axis=0))
         first += count
     return found[0], found[1]
-
-
-def quiet_time(scene: Scene, states: Array, case: TwoRaceCase, without: float) -> float | None:
-    """Quiet time [s] from full speed: from then on the loudest place stays at or below the limit of the level, and
-    below its displacement [m] without balls.
-    """
-    size = len(scene.support.names)
-    limit = min(velocity_from_level(case.table.limits.vibration_level_db), without * case.speed / math.sqrt(2))
-    # The axis of a spindle that tilts is linear in its coordinates.
-    rates = [scene.support.axis(states[size : 2 * size], held.place) for held in case.places]
-    loudest = np.max([turn_velocities(rate) for rate in rates], axis=0)
-    return last_crossing(scene.revolution / PER_TURN * np.arange(len(loudest)), loudest, limit)
 
 
 def rest_time(

@@ -65,7 +65,7 @@ def size_two_races(
     design, ensemble, one, vibration = judged.facts.design, judged.facts.ensemble, judged.one_race, judged.vibration
     checks = actions(judged, step)
     many, limit = (
-        None if ensemble is None else TwoRaceEnsemble.of(ensemble, design.case),
+        None if ensemble is None else TwoRaceEnsemble.of(ensemble, design),
         table.limits.vibration_level_db,
     )
     quiet = None if many is None else many.quiet_time_s.typical

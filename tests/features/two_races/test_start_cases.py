@@ -16,7 +16,6 @@ from abu_calc.features.two_races.start_cases import (
     OF_BAND,
     TwoRaceOutcome,
     ensemble_of,
-    quiet_time,
     rest_time,
     revolution_times,
     scene_of,
@@ -33,6 +32,7 @@ from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation import ensemble as ensemble_module
 from abu_calc.simulation.ensemble import MOST_MORE, TOLERANCE, WORK, Runner, simulate_starts
 from abu_calc.simulation.ensemble_results import Lost
+from abu_calc.simulation.response import evaluate
 from abu_calc.simulation.simulate import simulate
 from abu_calc.simulation.start_cases import Member, Variation
 from abu_calc.sizing.vibration import LEVEL_ERROR
@@ -172,7 +172,10 @@ def test_settling_agrees_with_an_own_integration() -> None:
     times = revolution_times(ours)
     until = times[times <= 1.0]
     own = solve_ivp(rhs, (0, 1.0), first, "DOP853", until, rtol=1e-8, atol=1e-11)
-    states = simulate(ours, 0.001, times).trajectory.at(times)
+    limit = min(velocity_from_level(case.table.limits.vibration_level_db), 2e-4 * W / math.sqrt(2))
+    ours = replace(ours, quiet_velocity=limit)
+    run = simulate(ours, 0.001, times)
+    states = run.trajectory.at(times)
     turned = own.y[8 : 8 + n] - W * own.t
     assert np.abs(turned - states[8 : 8 + n, : len(until)]).max() < 2e-6
     settled, counts = 0.0, [len(race.ball_masses) for race in scene.races]
@@ -186,8 +189,7 @@ def test_settling_agrees_with_an_own_integration() -> None:
     # Nothing is left, so that |U − U_end| is |U|: they rest when that has settled, between two samples.
     assert rest_time(ours, states, needs) == pytest.approx(settled, abs=until[1])
     # A turn of the velocity at each place, less its mean and the change since the turn before.
-    limit, without_balls = velocity_from_level(case.table.limits.vibration_level_db), 2e-4
-    limit, until_quiet = min(limit, without_balls * W / math.sqrt(2)), 0
+    until_quiet = 0
     for held in case.places:
         for axis in (0, 1):
             rate = own.y[4 + axis] + held.place * own.y[6 + axis]
@@ -197,7 +199,7 @@ def test_settling_agrees_with_an_own_integration() -> None:
                 if math.sqrt(np.mean((turn - turn.mean() - trend) ** 2)) > limit:
                     until_quiet = max(until_quiet, k)
     assert 16 < until_quiet < len(until) - 2
-    assert quiet_time(ours, states, case, without_balls) == pytest.approx(until[until_quiet], abs=2 * until[1])
+    assert evaluate(ours, run.trajectory).quiet_time == pytest.approx(until[until_quiet], abs=2 * until[1])
     # Balls that move along the spindle with their tilting race, as start cases have them, change next to nothing.
     leaning = scene_of(design, member)
     assert leaning.support.axial_inertia

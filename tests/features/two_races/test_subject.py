@@ -1,11 +1,24 @@
 """`abu simulate`, `abu stability` and `abu compare` of a machine with two races."""
 
+import math
+import shlex
+
 import pytest
 
 import abu_calc
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.scene import Scene
 from abu_calc.features.compare import study
 from abu_calc.features.compare.study import compare
+from abu_calc.features.two_races.case import read_case
+from abu_calc.features.two_races.choice import choose_both
+from abu_calc.features.two_races.repeats import repeated
+from abu_calc.features.two_races.start_cases import scene_of, start_cases
+from abu_calc.features.two_races.subject import two_race_subject
 from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.read_machine import variant_of
+from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.start_cases import Member
 from tests.cli.runner import abu
 from tests.remembered import recalled
 
@@ -35,7 +48,6 @@ def test_stability_changes_above_both_critical_speeds() -> None:
     [
         ({"start": "settled"}, "no such start"),
         ({"scene": "grinding"}, "no such scene"),
-        ({"race_centre_deg": 90.0}, "one race only"),
     ],
 )
 def test_what_two_races_do_not_have_is_refused(keys: dict[str, object], words: str) -> None:
@@ -51,6 +63,49 @@ def test_a_heavier_wheel_stands_beside_the_preset(monkeypatch: pytest.MonkeyPatc
     result = compare([machine, machine.changed({"wheel.0.imbalance_g_mm": 2000.0})])
     rows = {row.path: row.values for row in result.differences}
     assert rows["wheel[0].imbalance_g_mm"] == (2500.0, 2000.0)
+
+
+def test_a_start_that_is_placed_has_an_angle_for_each_ball() -> None:
+    machine = abu_calc.read(PRESET).changed({"start.angles_deg": [0.0, 90.0]})
+    with pytest.raises(InputError, match="one angle for each ball") as caught:
+        abu_calc.simulate(machine)
+    assert caught.value.allowed == "10"
+
+
+@pytest.mark.parametrize("name", ["pedestal-grinder", "washing-machine-two-races"])
+def test_printed_options_make_the_scene_of_every_start_case(name: str) -> None:
+    """Phases, sides, angles of balls, oil, speed, run-up and the variations of what is promised."""
+    machine = abu_calc.read(name)
+    tables = machine.two_races
+    assert tables is not None
+    design = choose_both(read_case(tables))
+    for member in start_cases(design):
+        words = shlex.split(repeated(outcome_of(member), design))
+        options = dict(zip(words[::2], words[1::2], strict=True))
+        entries = [value for word, value in zip(words[::2], words[1::2], strict=True) if word == "--set"]
+        side, start = float(options["--race-centre"]), options.get("--start")
+        made = two_race_subject(variant_of(machine, ",".join(entries)), None, start, side).scene
+        wanted = scene_of(design, member)
+        assert [effect.name for effect in made.effects] == [effect.name for effect in wanted.effects]
+        assert numbers(made) == pytest.approx(numbers(wanted), abs=2e-6, rel=1e-9)
+
+
+def outcome_of(member: Member) -> StartOutcome:
+    return StartOutcome(member, None, None, None, False, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def numbers(scene: Scene) -> list[float]:
+    """All that a start case may change, angles by their cosines and sines."""
+    angles = [scene.imbalance_angle, scene.couple_angle, *(a for race in scene.races for a in race.start_angles)]
+    eccentricity, run_up = scene.effect("race_eccentricity"), scene.effect("run_up")
+    if isinstance(eccentricity, RaceEccentricityEffect):
+        angles.append(eccentricity.angle)
+    return [
+        *map(math.cos, angles), *map(math.sin, angles), 1e3 * scene.imbalance, 1e3 * scene.couple, scene.speed,
+        scene.duration, 1e6 * getattr(eccentricity, "magnitude", 0.0), getattr(run_up, "duration", 0.0),
+        *(value for race in scene.races for value in (race.drag, race.pitch_radius, race.plane_offset)),
+        *(speed for race in scene.races for speed in race.start_speeds),
+    ]  # fmt: skip
 
 
 def test_some_starts_only_are_refused() -> None:
