@@ -29,7 +29,7 @@ from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.sizing.actions import PINS, SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.proposals import mended
+from abu_calc.sizing.proposals import PROPOSED, mended
 
 Entries = tuple[str, ...]
 """Entries of a file, each as one `--set` takes it."""
@@ -283,22 +283,34 @@ PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
     bad = [check for check in before.checks
-           if check.requested and check.status != "pass" and (check.overrides or not check.remedy)]  # fmt: skip
+           if check.requested and check.status != "pass" and (_searched(check) or not check.remedy)]  # fmt: skip
     first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
     for check in before.checks:
         if check.status == "pass" or not check.requested:
             checks.append(check)
             continue
-        action: Action | str | None = check.remedy if not check.overrides else None
+        action: Action | str | None = None if _searched(check) else check.remedy
         if step.best is not None:
             after = next((each for each in step.best.after.checks if _key(each) == _key(check)), None)
             if after is None or RANK.index(after.status) > RANK.index(check.status):
                 action = _action(check, before, step.best)
+            action = action or NOT_MENDED
         elif action is None:
             known = first is None or check.code == first.code
             action = _no_change(step) if known or first is None else f"See the action of {first.code}."
         checks.append(check.with_action(action))
     return tuple(checks)
+
+
+def _searched(check: Check) -> bool:
+    """True if changes are tried for a check that is beyond its limit: then no other change is proposed."""
+    return bool(check.overrides) or (check.code in SEARCHED and check.value is not None and check.limit is not None)
+
+
+NOT_MENDED: Final = "No change was found that mends this, too."
+OF_STARTS: Final = frozenset(rule.code for rule in RULES)
+SEARCHED: Final = PROPOSED.keys() | OF_STARTS | {"ABU103"}
+"""Codes of the checks for which changes are tried."""
 
 
 def _no_change(step: NextStep) -> str:
@@ -373,9 +385,6 @@ def together(
         if frozenset(entries) not in known:
             known.add(frozenset(entries))
             yield entries
-
-
-OF_STARTS: Final = frozenset(rule.code for rule in RULES)
 
 
 def _as_one(*changes: Entries) -> Entries:
