@@ -294,7 +294,6 @@ def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
             after = next((each for each in step.best.after.checks if _key(each) == _key(check)), None)
             if after is None or RANK.index(after.status) > RANK.index(check.status):
                 action = _action(check, before, step.best)
-            action = action or NOT_MENDED
         elif action is None:
             known = first is None or check.code == first.code
             action = _no_change(step) if known or first is None else f"See the action of {first.code}."
@@ -307,7 +306,6 @@ def _searched(check: Check) -> bool:
     return bool(check.overrides) or (check.code in SEARCHED and check.value is not None and check.limit is not None)
 
 
-NOT_MENDED: Final = "No change was found that mends this, too."
 OF_STARTS: Final = frozenset(rule.code for rule in RULES)
 SEARCHED: Final = PROPOSED.keys() | OF_STARTS | {"ABU103"}
 """Codes of the checks for which changes are tried."""
