@@ -35,9 +35,10 @@ class Course:
 
     def __init__(self, scene: Scene) -> None:
         self.scene, self.count = scene, settling_count(scene)
-        self.imbalances = np.empty(self.count + 1, dtype=complex)
-        self.places = np.empty((2, self.count + 1))
-        self.velocities = np.empty((2 * len(scene.quiet_places or (0,)), self.count + 1))
+        # What was not read is no number: see `evaluate`.
+        self.imbalances = np.full(self.count + 1, np.nan, dtype=complex)
+        self.places = np.full((2, self.count + 1), np.nan)
+        self.velocities = np.full((2 * len(scene.quiet_places or (0,)), self.count + 1), np.nan)
         self.lost: NotTrustworthyError | None = None
 
     @property
@@ -48,7 +49,7 @@ class Course:
     @property
     def residuals(self) -> Array:
         """Residual imbalance [kg m]."""
-        return np.abs(self.imbalances)
+        return np.asarray(np.abs(self.imbalances))
 
     def until(self, t: float) -> "Course":
         """The same up to one of its times."""
@@ -221,13 +222,16 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
     """The results of a run that was sampled at least at `needed_times`.
 
     Its trajectory holds these, or with a course, which has read them, only those of the amplitude window. Raises
-    NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
+    NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps, ValueError for
+    times that are missing.
     """
     if course is None:
         course = Course(scene)
         course(trajectory)
     if course.lost:
         raise course.lost
+    if np.isnan(course.imbalances).any():
+        raise ValueError("a run was not sampled at all times at which its settling is judged")
     window, first = amplitude_window(scene), 2 * len(scene.support.names)
     balls = slice(first, first + len(scene.ball_masses))
     states = trajectory.at(window.times)

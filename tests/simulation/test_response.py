@@ -18,7 +18,7 @@ from abu_calc.features.simulate.study import equally_spaced
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation import response as response_module
 from abu_calc.simulation import simulate as simulate_module
-from abu_calc.simulation.response import amplitude_window, needed_times, settling_times
+from abu_calc.simulation.response import amplitude_window, evaluate, needed_times, settling_times
 from abu_calc.simulation.simulate import Simulation, simulate
 from tests.dynamics.scenes import dimensionless
 
@@ -155,3 +155,12 @@ def test_samples_change_no_remark(monkeypatch: pytest.MonkeyPatch, held: int) ->
     run = simulate(scene, integrator="scipy", sample_times=np.linspace(0, 300, 9999))
     assert run.warnings == () and len(run.trajectory.t) > 9999
     np.testing.assert_array_equal(np.unique(np.concatenate(asked)), needed_times(scene))
+
+
+def test_times_that_were_not_sampled_are_an_error() -> None:
+    """Never a number of what the memory held before."""
+    scene = dimensionless(2.0, 0.01, 0.01, 0.05, 0.1, (0.5, 2.0), 60.0)
+    times = needed_times(scene)
+    run = simulate(scene, 0.01, times).trajectory
+    with pytest.raises(ValueError, match="not sampled"):
+        evaluate(replace(scene, duration=0.9 * scene.duration), Samples(times, run.at(times)))

@@ -35,7 +35,8 @@ METHOD: Final = "Method"
 
 
 RaceCentre = Annotated[
-    float | None, option("--race-centre DEG", "Angle from the imbalance to the centre of the race; default 180, of two races 0.")
+    float | None,
+    option("--race-centre DEG", "Angle from the imbalance to the centre of the race; default 180, of two races 0."),
 ]
 Integrator = Annotated[str, option("--integrator NAME", "auto, scipy, plain or compiled.", METHOD)]
 TrajectoryFile = Annotated[Path | None, option("--trajectory FILE.csv", "Also write the motion.", OUTPUT)]

@@ -49,7 +49,7 @@ from abu_calc.simulation.ensemble import (
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.quiet import PER_TURN, last_crossing
 from abu_calc.simulation.residual_criteria import MARGIN, slip
-from abu_calc.simulation.response import amplitude_window, drift, evaluate, needed_times
+from abu_calc.simulation.response import Course, amplitude_window, drift, evaluate, needed_times, settling_times
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.start_cases import ALIKE, KINDS, RUN_UP, Axis, Kind, Member, Variation
@@ -280,30 +280,30 @@ def _run(
     early_end: bool = False,
 ) -> TwoRaceOutcome:  # fmt: skip
     """Outcome of one run. Raises NotTrustworthyError."""
-    turns = revolution_times(scene)
+    turns, times = revolution_times(scene), settling_times(scene)
     # Of what is seen then, several turns must be whole.
     ends = [int(share * len(turns)) for share in LOOKS if early_end and SEEN * share * len(turns) > 4 * PER_TURN]
-    looks = tuple(float(turns[end]) for end in ends)
+    looks = tuple(float(times[np.searchsorted(times, turns[end])]) for end in ends)
     windows = [amplitude_window(replace(scene, duration=look)).times for look in looks]
     until = Until(looks, partial(_enough, design, member, scene))
     run, spent = integrated(
         scene, Sampling(merged(needed_times(scene), turns, *windows), until=until), tolerance, work, wanted
     )
-    return _observed(design, member, replace(scene, duration=float(run.t[-1])), run, spent)
+    return _observed(design, member, scene, run, spent)
 
 
 def _enough(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samples) -> bool:
     """True if both races balance in time and nothing that still moves will change that, as for one race."""
-    so_far, of_file = replace(scene, duration=float(samples.t[-1])), replace(member, varied=Variation())
-    turns = revolution_times(so_far)
+    end, of_file = float(samples.t[-1]), replace(member, varied=Variation())
+    turns = revolution_times(replace(scene, duration=end))
     late = turns[-int(SEEN * len(turns)) :]
-    ahead = (scene.duration - so_far.duration) / (late[-1] - late[0])
+    ahead = (scene.duration - end) / (late[-1] - late[0])
     states, needs = samples.at(late), (wheels_share(design, 0, member), wheels_share(design, 1, member))
     for k, left in enumerate(_left(scene, states, needs)):
         balanced = max(abs(wheels_share(design, k, of_file)), HARDLY * scene.races[k].static_moment)
         if movement(left, ahead) > STILL * balanced:
             return False
-    outcome, limits = _observed(design, member, so_far, samples, 0), design.case.table.limits
+    outcome, limits = _observed(design, member, scene, samples, 0), design.case.table.limits
     return not outcome.creeping and outcome.holds(limits, limits.vibration_level_db - MARGIN)
 
 
@@ -328,11 +328,14 @@ def ensemble_of(
 
 
 def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samples, work: int) -> TwoRaceOutcome:
-    """What came of both races in a run.
+    """What came of both races in a run of a scene, as far as it went.
 
     A race balances if it leaves at most half of what it has to balance, or what eccentricity and friction ask for.
     """
-    case, window, response = design.case, amplitude_window(scene).times, evaluate(scene, samples)
+    case, course, end = design.case, Course(scene), float(samples.t[-1])
+    course(samples)
+    scene = replace(scene, duration=end)
+    window, response = amplitude_window(scene).times, evaluate(scene, samples, course.until(end))
     # Whether it balances is judged by the imbalances of the file, however little there is.
     of_file, at = replace(member, varied=Variation()), [held.place for held in case.places]
     states = samples.at(revolution_times(scene))

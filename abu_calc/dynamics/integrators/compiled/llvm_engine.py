@@ -6,7 +6,6 @@ llvmlite is what numba stands on, with wheels for Linux, macOS and Windows; it i
 import ctypes
 import sys
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import cache
 from typing import Any
@@ -71,16 +70,7 @@ def described() -> str:
 
 
 def compiled(text: str) -> bytes:
-    """Machine code for a module in LLVM's language. Raises CompilerError.
-
-    In a thread of its own: code that ran in the thread that had compiled it overflowed in every second process (a
-    spindle with two races), and in none where another thread had.
-    """
-    with ThreadPoolExecutor(1) as thread:
-        return thread.submit(_compiled, text).result()
-
-
-def _compiled(text: str) -> bytes:
+    """Machine code for a module in LLVM's language. Raises CompilerError."""
     with guarded("compiling"):
         llvm, target = _library(), _target()
         module = llvm.parse_assembly(text)
