@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Final, NamedTuple
 
 from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import Candidate, choose_for_motor
@@ -38,9 +39,20 @@ def overrides(entries: Entries) -> tuple[str, ...]:
     return tuple(f"{key}={_plain(value)}" for key, value in entries.items())
 
 
+def set_options(entries: Entries) -> str:
+    """Entries as options of a command line.
+
+    >>> set_options({"oil.grade": "VG 100", "oil.fill_ml": 1.0})
+    '--set "oil.grade=VG 100" --set oil.fill_ml=1'
+    """
+    return " ".join(f"--set {shell_word(entry)}" for entry in overrides(entries))
+
+
 def _plain(value: object) -> str:
     if isinstance(value, (list, tuple)):
         return f"[{','.join(map(_plain, value))}]"
+    if isinstance(value, bool):
+        return f"{value}".lower()
     return f"{value:.10g}" if isinstance(value, float) else f"{value}"
 
 

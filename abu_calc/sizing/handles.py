@@ -11,7 +11,7 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.actions import overrides, with_entries, words
+from abu_calc.sizing.actions import set_options, with_entries, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import judged_speeds
 from abu_calc.sizing.case import WHEEL_PLANE, Case, read_case
@@ -170,9 +170,10 @@ def body_advice(case: Case, added: float = 0.0) -> str:
     moved = [Moved("the effective mass at the wheel", masses[0], masses[1], "kg").text]
     if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
         moved.append(_moved_imbalance(*imbalances))
-    options = " ".join(f"--set {entry}" for entry in overrides(entries))
     given = words(entries)
-    return f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {options}"
+    return (
+        f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {set_options(entries)}"
+    )
 
 
 def _moved_imbalance(before: float, after: float) -> str:

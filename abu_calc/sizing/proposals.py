@@ -8,8 +8,9 @@ from typing import Final, NamedTuple
 from abu_calc.foundation.checks import RANK, Check
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.units import from_si
+from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.sizing import size
-from abu_calc.sizing.actions import PINS, followed, pins, speeds_from, two_digits, with_entries
+from abu_calc.sizing.actions import PINS, followed, overrides, pins, speeds_from, two_digits, with_entries
 from abu_calc.sizing.advice import most_force
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
@@ -23,6 +24,8 @@ Entries = dict[str, object]
 
 ROOM: Final = (1.1, 1.25, 1.5)
 """Factors on the envelope."""
+MARGINS: Final = (1.25, 1.6)
+"""Factors on the capacity margin."""
 WALLS: Final = (1.5, 2.0, 3.0)
 """Factors on the least wall."""
 HARDEST: Final = 63.0
@@ -43,8 +46,26 @@ def more_room(design: Design) -> Iterator[Entries]:
     yield from free(design.case)
     yield from _less_margin(design.case)
     for more in ROOM:
-        across, along = (round(more * length, 1) for length in (own.max_outer_diameter_mm, own.max_width_mm))
-        yield from free(design.case, {"autobalancer.max_outer_diameter_mm": across, "autobalancer.max_width_mm": along})
+        yield from free(design.case, _envelope(own, more))
+
+
+def _envelope(own: Autobalancer, factor: float) -> Entries:
+    keys = ("max_outer_diameter_mm", "max_width_mm")
+    return {f"autobalancer.{key}": round(factor * getattr(own, key), 1) for key in keys}
+
+
+def carrying_more(design: Design) -> Iterator[Entries]:
+    """Balls and races that carry more than required, in the envelope and in larger ones."""
+    own, known = design.case.autobalancer, {overrides(pins(design.autobalancer))}
+    for room in (1.0, *ROOM):
+        entries = {} if room == 1 else _envelope(own, room)
+        for margin in MARGINS:
+            found = followed(
+                _unpinned(design.case), {**entries, "autobalancer.capacity_margin": margin * own.capacity_margin}
+            )
+            if found and (chosen := overrides(pins(found.candidate))) not in known:
+                known.add(chosen)
+                yield {**entries, **pins(found.candidate)}
 
 
 def lighter(design: Design) -> Iterator[Entries]:

@@ -95,7 +95,25 @@ class TooLongError(Exception):
     """A trial takes more work than is left: nothing is known of the change."""
 
 
-class ChangeWatcher(TrialWatcher):
+class NoWorse(TrialWatcher):
+    """A trial of one change of a machine: it ends as soon as a check gets worse.
+
+    `worse_than`: rank of a grade that no check may have; by default there is none.
+    """
+
+    def __init__(self, before: Iterable[Check], worse_than: int = -1) -> None:
+        self.worse_than = worse_than
+        self.ranks = {_key(check): RANK.index(check.status) for check in before}
+
+    def checked(self, checks: Iterable[Check]) -> None:
+        """Raise NotBetterError for a check that is worse than before, or as bad as the verdict may not be."""
+        for check in checks:
+            rank = RANK.index(check.status)
+            if check.requested and (rank <= self.worse_than or rank < self.ranks.get(_key(check), PASS)):
+                raise NotBetterError
+
+
+class ChangeWatcher(NoWorse):
     """A trial of one change of a machine: it ends as soon as the verdict cannot be better, or a check gets worse.
 
     `worse_than`: rank of the grade that the verdict has to excel; `once`: how one start is run; `most`: the
@@ -103,8 +121,8 @@ class ChangeWatcher(TrialWatcher):
     """
 
     def __init__(self, before: Judged, worse_than: int, once: Once, most: float = math.inf) -> None:
-        self.before, self.worse_than, self.once, self.most, self.work = before, worse_than, once, most, 0
-        self.ranks = {_key(check): RANK.index(check.status) for check in before.checks}
+        super().__init__(before.checks, worse_than)
+        self.before, self.once, self.most, self.work = before, once, most, 0
         self.every = worse_than == RANK.index("warn")
 
     def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
@@ -122,13 +140,6 @@ class ChangeWatcher(TrialWatcher):
         """True if a start case keeps the limits, or gave no answer, which checks judge."""
         limits = design.case.table.limits
         return isinstance(outcome, Lost) or outcome.holds(limits, limits.vibration_level_db + SLACK)
-
-    def checked(self, checks: Iterable[Check]) -> None:
-        """Raise NotBetterError for a check that is worse than before, or as bad as the verdict may not be."""
-        for check in checks:
-            rank = RANK.index(check.status)
-            if check.requested and (rank <= self.worse_than or rank < self.ranks.get(_key(check), PASS)):
-                raise NotBetterError
 
     def repeated(self, design: Any) -> None:
         """Run the start cases that fail without the change, or warn where all must pass; raise NotBetterError if one

@@ -5,7 +5,6 @@ from typing import Any, Final
 
 from abu_calc.features.optimise.answers import short
 from abu_calc.features.optimise.result import FrontPoint, OptimiseResult
-from abu_calc.features.optimise.written import set_options
 from abu_calc.foundation.units import unit_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
@@ -13,6 +12,7 @@ from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import check_blocks, file_of, notices, provenance_blocks
 from abu_calc.reporting.screen import one_screen
+from abu_calc.sizing.actions import set_options
 
 RULE: Final = (
     "Rule: least cost of all candidates whose share in the race is at least the wanted one by its lower bound (risk "

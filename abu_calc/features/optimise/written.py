@@ -76,8 +76,3 @@ def _put(text: str, override: Override) -> str:
     else:
         replaced = re.sub(rf"(?m)^({re.escape(line)})\s+#.*$", r"\1  # chosen by abu optimise", replaced)
     return text[: header.end()] + replaced + text[end:]
-
-
-def set_options(values: Mapping[str, Any]) -> str:
-    """Values as options of a command line."""
-    return " ".join(f"--set {key}={shown(value)}" for key, value in values.items())

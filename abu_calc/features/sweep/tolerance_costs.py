@@ -119,30 +119,34 @@ def _kept(levels: Sequence[float | None]) -> float | None:
 
 
 def _doubled(sample: Sample, key: str) -> Sample:
-    factors = (replace(item, variation=doubled(item.variation)) if item.key == key else item for item in sample.factors)
+    factors = (
+        replace(item, variation=rescaled(item.variation, 2)) if item.key == key else item for item in sample.factors
+    )
     return replace(sample, factors=tuple(factors))
 
 
-def doubled(way: Variation) -> Variation:
-    """Twice the scatter about the same middle; what begins at zero, as eccentricities do, goes twice as far.
+def rescaled(way: Variation, factor: float, *, about_zero: bool = False) -> Variation:
+    """The scatter times a factor about the same middle; what begins at zero, as eccentricities do, goes on from there.
+
+    `about_zero`: the values themselves times the factor.
 
     >>> from abu_calc.foundation.errors import Place
     >>> from abu_calc.inputs.variation import variation
-    >>> [doubled(variation(text, Place())).numbers for text in ("uniform(4, 8)", "normal(5, 1)", "triangular(0, 1, 3)")]
-    [(2.0, 10.0), (5.0, 2.0), (0.0, 2.0, 6.0)]
+    >>> given = [variation(text, Place()) for text in ("uniform(4, 8)", "normal(5, 1)", "triangular(0, 1, 3)")]
+    >>> [rescaled(way, 2).numbers for way in given], rescaled(given[2], 0.5).text
+    ([(2.0, 10.0), (5.0, 2.0), (0.0, 2.0, 6.0)], 'triangular(0, 0.5, 1.5)')
     """
     first, *rest = way.numbers
     if way.kind in ("normal", "lognormal"):
-        return _written(way.kind, (first, 2 * rest[0]))
-    middle = 0.0 if first == 0 else (first + rest[-1]) / 2 if way.kind == "uniform" else rest[0]
-    numbers = [middle + 2 * (number - middle) for number in way.numbers]
-    if first > 0:  # nothing that is there becomes negative
-        numbers[0] = max(numbers[0], 0.0)
-    return _written(way.kind, numbers)
-
-
-def _written(kind: str, numbers: Sequence[float]) -> Variation:
-    return Variation(kind, tuple(map(float, numbers)), (), f"{kind}({', '.join(f'{value:.6g}' for value in numbers)})")
+        more = factor if about_zero else 1.0
+        numbers = [more * first, (1.0 if about_zero and way.kind == "lognormal" else factor) * rest[0]]
+    else:
+        middle = 0.0 if first == 0 or about_zero else (first + rest[-1]) / 2 if way.kind == "uniform" else rest[0]
+        numbers = [middle + factor * (number - middle) for number in way.numbers]
+        if first > 0:  # nothing that is there becomes negative
+            numbers[0] = max(numbers[0], 0.0)
+    text = f"{way.kind}({', '.join(f'{value:.6g}' for value in numbers)})"
+    return Variation(way.kind, tuple(map(float, numbers)), (), text)
 
 
 FIRST: Final = 0.02

@@ -8,10 +8,10 @@ from typing import Final
 
 from abu_calc.features.sweep.result import Chart, DecidingValue, Price, Sensitivity, SweepResult
 from abu_calc.foundation.units import unit_of
-from abu_calc.inputs.reading.text import shown
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen
+from abu_calc.sizing.actions import set_options
 
 BAR: Final = 24
 """Signs of a bar that is full."""
@@ -327,9 +327,8 @@ def _failing(result: SweepResult) -> list[Block]:
     blocks.append(Heading(f"What helps, tried on the same {of} samples", "helps"))
     for change in result.advice:
         text = f"{percent(change.before)} → {percent(change.after)}: {change.change}"
-        options = [*(f"--set {key}={shown(value)}" for key, value in change.set_.items()),
-                   *(f'--vary "{key}={way}"' for key, way in change.vary.items())]  # fmt: skip
-        blocks += [Paragraph(text), Paragraph(f"  {' '.join(options)}")]
+        options = set_options(change.set_) or " ".join(f'--vary "{key}={way}"' for key, way in change.vary.items())
+        blocks += [Paragraph(text), Paragraph(f"  {options}")]
     return blocks
 
 

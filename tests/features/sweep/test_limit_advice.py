@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.sweep.limit_advice import halved
+from abu_calc.features.sweep.tolerance_costs import rescaled
 from abu_calc.features.sweep.samples import Builds
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
@@ -111,4 +111,4 @@ def test_the_value_that_decides_the_failed_limit_is_named() -> None:
     ],
 )
 def test_half_the_scatter_keeps_the_middle(text: str, numbers: str) -> None:
-    assert halved(variation(text, Place())) == numbers
+    assert rescaled(variation(text, Place()), 0.5).text == numbers
