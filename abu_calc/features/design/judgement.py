@@ -94,7 +94,7 @@ def judge(
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
     only_checks, trial = trial is not None, trial or TrialWatcher()
     seats = _seats(tables)
-    trial.checked(_of(seats))
+    trial.checked(_of(seats, tables))
     design = size_design(tables)
     trial.checked(design.checks)
     trial.repeated(design)
@@ -118,8 +118,9 @@ def judge(
     )  # fmt: skip
     of_arm = () if arm is None else arm.checks  # that of the balanced state last
     checks = (
-        *design.checks_before, level_check(facts), *design.checks_behind, *of_arm[:-1], *_of(seats), *of_arm[-1:],
-        *stays, region.check, *checks_of_starts(facts), *lost,
+        *design.checks_before, level_check(facts), *design.checks_behind,
+        *of_arm[:-1], *_of(seats, tables), *of_arm[-1:], *stays, region.check,
+        *checks_of_starts(facts), *lost,
     )  # fmt: skip
     trial.checked(checks)
     return Judgement(facts, seats, region, arm, moved, runs, failures, work, checks)
@@ -172,9 +173,14 @@ def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
     return seat_bearings(tables.bearing)
 
 
-def _of(seats: "tuple[BearingSeats, ...]") -> Iterator[Check]:
-    """Checks of the seats."""
-    return (check for bearing in seats for check in bearing.checks)
+def _of(seats: "tuple[BearingSeats, ...]", tables: MachineFile) -> Iterator[Check]:
+    """Checks of the seats, their actions as entries of the file; a clearance group of the designation is none."""
+    for number, (bearing, table) in enumerate(zip(seats, tables.bearing or (), strict=True)):
+        for check in bearing.checks:
+            entries = bearing.actions[check.code].overrides if check.code in bearing.actions else ()
+            if table.internal_clearance is None and any(entry.startswith("internal_clearance") for entry in entries):
+                entries = ()
+            yield replace(check, overrides=tuple(f"bearing.{number}.{entry}" for entry in entries))
 
 
 def _with_lives(

@@ -291,6 +291,10 @@ def promise(before: Judged, step: NextStep) -> dict[str, str | float | None] | N
 PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 
+SEATS: Final = "ABU6"
+"""Codes of bearing seats, whose actions are followed where they are judged, and move nothing else."""
+
+
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
     bad = [check for check in before.checks
@@ -300,20 +304,23 @@ def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
         if check.status == "pass" or not check.requested:
             checks.append(check)
             continue
-        action: Action | str | None = None if _searched(check) else check.remedy
+        known = bool(check.remedy) and not _searched(check)
+        action: Action | str | None = Action(check.remedy or "", check.overrides) if known else None
         if step.best is not None:
             after = next((each for each in step.best.after.checks if _key(each) == _key(check)), None)
             if after is None or RANK.index(after.status) > RANK.index(check.status):
                 action = _action(check, before, step.best)
         elif action is None:
-            known = first is None or check.code == first.code
-            action = _no_change(step) if known or first is None else f"See the action of {first.code}."
+            own = first is None or check.code == first.code
+            action = _no_change(step) if own or first is None else f"See the action of {first.code}."
         checks.append(check.with_action(action))
     return tuple(checks)
 
 
 def _searched(check: Check) -> bool:
     """True if changes are tried for a check that is beyond its limit: then no other change is proposed."""
+    if check.code.startswith(SEATS):
+        return False
     return bool(check.overrides) or (check.code in SEARCHED and check.value is not None and check.limit is not None)
 
 

@@ -11,7 +11,6 @@ from abu_calc.features.seats.interference import of_all
 from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, LOOSE_ENOUGH, TEMPERATURE, Joint
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
 from abu_calc.foundation.checks import Check, coded, verdict
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.catalogue import ROLLERS
@@ -30,8 +29,6 @@ _LIKE_STEEL: Final = 3e-6
 _KEPT: Final = 0.995
 _SHOWN: Final = 0.05
 """Losses [µm] below it are not named: they would read 0.0."""
-_TRACE: Final = 0.01
-"""Share of short pairs [%] below which no digits are shown."""
 _SMALL: Final = 0.006
 """Bores [m] of rings that are bonded rather than pressed."""
 _ROLLER_SAFETY: Final = 1.5
@@ -48,7 +45,7 @@ def seat_checks(
     if joint.must_grip:
         first = _grip(bearing, joint, recommended, rule)
     else:
-        first = (_raceway if joint.runs_on_needles else _loose)(bearing, joint, recommended)
+        first = _raceway(bearing, joint) if joint.runs_on_needles else _loose(bearing, joint, recommended)
     return (
         first,
         _stress(bearing.name, joint, recommended),
@@ -191,28 +188,18 @@ def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tu
         code, grade,
         f"{of_all(share)} in {joint.class_text} have {least} demanded by {joint.demand.by}{_losses(joint)}",
         round(100 * share, 6), round(100 * limit, 6), "%",
-        None if grade == "pass" else _fewer(joint, recommended), of=bearing,
+        None if grade == "pass" else _no_class(joint, recommended), of=bearing,
     ),)  # fmt: skip
 
 
-def _fewer(joint: Joint, recommended: str | None) -> str | None:
-    """Action: the advised class with its share of short pairs, as tried."""
-    best = joint.with_class(recommended) if recommended else None
-    if best is None or best.short_pairs is None or joint.short_pairs is None or best.short_pairs >= joint.short_pairs:
-        return _remedy(joint, None) if recommended is None else None
-    before, after = 100 * joint.short_pairs, 100 * best.short_pairs
-    reached = f"{after:.2g}" if after >= _TRACE else f"under {_TRACE:g}"
-    return f"Specify {recommended}: the share falls from {before:.3g} to {reached} % (calculated)."
-
-
-def _raceway(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
+def _raceway(bearing: SeatedBearing, joint: Joint) -> Check:
     """The shaft of a bearing without inner ring: the needles run on it with clearance."""
     least = _um(-joint.interference.largest)
     passed = least >= 0
     return coded(
         _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.class_text}. The "
-        "shaft is the raceway: ground, at least 58 HRC", least, 0.0, "µm",
-        None if passed or recommended is None else f"Specify {recommended}.", "least", of=bearing.name,
+        "shaft is the raceway: ground, at least 58 HRC", least, 0.0, "µm", None, "least",
+        of=bearing.name,
     )  # fmt: skip
 
 
@@ -233,42 +220,33 @@ def start_checks(
     return (coded(
         code, verdict(passed), f"slip torque of {joint.class_text} at its least "
         "interference after losses, against the starting torque", creep.least_torque, torque, "N·m",
-        None if passed else _remedy(joint, recommended), "least", of=bearing,
+        None if passed else _no_class(joint, recommended), "least", of=bearing,
     ),)  # fmt: skip
 
 
-def clearance_checks(
-    bearing: SeatedBearing, left: "ClearanceLeft | None", advised: bool = True, order: str | None = None
-) -> tuple[Check, ...]:
+def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tuple[Check, ...]:
     """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not.
 
-    Of a preloaded pair the preload is checked. `advised`: both seats have a recommended class; `order`: the group told.
+    Of a preloaded pair the preload is checked.
     """
     if left is None:
         return ()
     if left.group in groups_of("angular-contact")[:3]:
-        return (_preload(bearing, left, advised),)
+        return (_preload(bearing, left),)
     passed, safe = left.below_zero_probability < MOST, left.probable.smallest >= 0
-    choice = f"No clearance group keeps clearance. {_looser(advised)}"
-    if order is not None and order != left.group:
-        choice = f"Specify group {order} with the recommended classes: at most 1 of 100 has no clearance (calculated)."
-    if left.group_to_choose:
-        choice = f"Specify group {left.group_to_choose}: it keeps clearance (calculated)."
     direction = "axial" if left.axial else "radial"
     things = "pairs" if left.axial or bearing.kind == "tapered" else "bearings"
     return (coded(
         "ABU621", verdict(passed, safe), f"least probable {direction} clearance of group {left.group} after mounting; "
         f"{of_all(left.below_zero_probability, things)} have none left", _um(left.probable.smallest), 0.0, "µm",
-        None if safe else choice, "least", of=bearing.name,
+        None if safe else NO_GROUP, "least", of=bearing.name,
     ),)  # fmt: skip
 
 
-def _looser(advised: bool) -> str:
-    """Action if no group does."""
-    return "Specify looser tolerance classes." if advised else "Specify a larger bearing or reduce the load."
+NO_GROUP: Final = "No clearance group suits these tolerance classes. Specify a larger bearing or reduce the load."
 
 
-def _preload(bearing: SeatedBearing, left: "ClearanceLeft", advised: bool) -> Check:
+def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
     """The probable preload of a pair against that of the next heavier group, and twice that of the heaviest."""
     heavier, most = groups_of("angular-contact"), left.preload[1] if left.preload else None
     place, limits = heavier.index(left.group), preload_limits(left.group, bearing.inner.diameter)
@@ -276,15 +254,11 @@ def _preload(bearing: SeatedBearing, left: "ClearanceLeft", advised: bool) -> Ch
         return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
     safe_most, heaviest = limits
     passed, safe = most <= heaviest, most <= safe_most
-    choice = f"No lighter group is below its limit. {_looser(advised)}"
-    if left.group_to_choose:
-        result = "stays below its limit" if left.group_to_choose in heavier[:3] else "keeps clearance"
-        choice = f"Specify group {left.group_to_choose}: it {result} (calculated). Or specify looser classes."
     return coded(
         "ABU621", verdict(passed, safe), f"largest probable preload of a pair of group {left.group} after mounting. "
         f"The limit is {'the' if passed else 'twice the'} most of group {heavier[max(place - 1, 0) if passed else 0]} "
         "before mounting", round(most, 1), round(safe_most if passed else heaviest, 1), "N",
-        None if safe else choice, of=bearing.name,
+        None if safe else NO_GROUP, of=bearing.name,
     )  # fmt: skip
 
 
@@ -303,7 +277,8 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
     return coded(
         code, joint.grip, f"least interference of {joint.class_text} against {limit}{remark}{_makers(bearing, joint)}"
-        f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm", _tighter(joint, recommended),
+        f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm",
+        _no_class(joint, recommended) if joint.grip == "fail" else None,
         "least", of=bearing.name,
     )  # fmt: skip
 
@@ -317,15 +292,9 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         low, high = (_um(end - tightest.loss) for end in joint.interference)
         when = "at work" if tightest.rise is None else f"at {tightest.rise:+g} K"
         judgement = f"A load fixed in direction requires none, but {when} the seat is {low:.3g} … {high:.3g} µm tight"
-        better = recommended if recommended and recommended != joint.tolerance_class else None
-        best = joint.with_class(better) if better else None
-        action = None
-        if best is not None:
-            free = of_all(best.loose_share(best.coldest_or_hottest.loss))
-            action = f"Specify {better}: then {free} have clearance {when} (calculated)."
         return coded(
             _CODES[joint.seat][0], "warn", f"least interference of {joint.class_text}. {judgement}",
-            _um(joint.interference.smallest), None, "µm", action, "least", of=bearing.name,
+            _um(joint.interference.smallest), None, "µm", None, "least", of=bearing.name,
         )  # fmt: skip
     if joint.clearance_probability >= LOOSE_ENOUGH:
         judgement = f"A load fixed in direction requires none; {share}, so the ring can creep and be moved"
@@ -352,10 +321,10 @@ def _cup(bearing: SeatedBearing, joint: Joint, recommended: str | None, share: s
         if not held
         else ("A drawn cup gets its shape and hold from the housing, as the makers specify")
     )
-    action = f"Specify {recommended}." if recommended else "Specify a one-piece housing."
+    action = None if held or recommended else "Specify a one-piece housing."
     return coded(
         _CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.class_text}. {cup}",
-        _um(joint.interference.smallest), None, "µm", None if held else action, "least", of=bearing.name,
+        _um(joint.interference.smallest), None, "µm", action, "least", of=bearing.name,
     )  # fmt: skip
 
 
@@ -387,7 +356,7 @@ def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
         _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
         f"largest interference of {joint.class_text}{warm} against the limit by {limit.by}. Hoop stress of the "
         f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}", _um(joint.tightest), _um(limit.value), "µm",
-        _remedy(joint, recommended) if grade == "fail" else None, of=bearing,
+        _no_class(joint, recommended) if grade == "fail" else None, of=bearing,
     )  # fmt: skip
 
 
@@ -415,34 +384,18 @@ def _losses(joint: Joint) -> str:
     return kept + "".join(f" + {name} {_um(value):.1f} µm" for name, value in named if _um(value) >= _SHOWN)
 
 
-def _tighter(joint: Joint, recommended: str | None) -> str | None:
-    """Nothing for a ring that holds, nor in place of one that may creep unless the field advised does better."""
-    better = recommended is not None and joint.with_class(recommended).grip == "pass"
-    return _remedy(joint, recommended) if joint.grip == "fail" or (joint.grip == "warn" and better) else None
-
-
-def _remedy(joint: Joint, recommended: str | None) -> str:
-    """Action: the advised tolerance class, as tried, and its result."""
-    if recommended is None and joint.split:
+def _no_class(joint: Joint, recommended: str | None) -> str | None:
+    """Action if no tolerance class is recommended; None if one is."""
+    if recommended is not None:
+        return None
+    if joint.split:
         return "A split housing cannot hold a ring whose load turns round it. Specify a one-piece housing."
-    if recommended is None and joint.diameter < _SMALL and joint.must_grip:
+    if joint.diameter < _SMALL and joint.must_grip:
         return "A class that holds so small a ring overstresses it. Specify h5 and bond the ring."
-    if recommended is None and joint.maker is not None and joint.catalogue_class is None:
+    if joint.maker is not None and joint.catalogue_class is None:
         wall = "shaft with a smaller bore" if joint.seat == "shaft" else "housing with a thicker wall, or of steel"
         return f"No tabulated class both holds the ring and is permitted. Specify a {wall}."
-    if recommended is None:
-        return "No tabulated class both holds the ring and is permitted. Specify a longer seat or a larger bearing."
-    best = joint.with_class(recommended)
-    moved = Moved("the least interference", _um(joint.interference.smallest), _um(best.interference.smallest), "µm")
-    if joint.stress == "fail":
-        moved = Moved("the largest interference", _um(joint.tightest), _um(best.tightest), "µm")
-    if best.grip == "pass":
-        verdict = f"{recommended} passes."
-    elif best.required is None or best.mean >= best.required.value:
-        verdict = f"{recommended} reaches the required interference in the mean."
-    else:
-        verdict = f"{recommended} is the catalogue's class for such a load."
-    return f"Specify {recommended}: {moved.text} (calculated). {verdict}"
+    return "No tabulated class both holds the ring and is permitted. Specify a longer seat or a larger bearing."
 
 
 def _um(metres: float) -> float:

@@ -3,12 +3,13 @@
 An error of one bearing names its table, and its key if known. Parts that few bearings need are imported on demand.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice, rule_class
 from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.changes import actions
 from abu_calc.features.seats.checks import clearance_checks, life_checks, seat_checks, short_pair_checks, start_checks
 from abu_calc.features.seats.creep import CreepJudgement, creep
 from abu_calc.features.seats.drawing_requirements import SeatForm, SeatRequirements, seat_form, seat_requirements
@@ -18,7 +19,7 @@ from abu_calc.features.seats.joints import housing_joint, shaft_joint
 from abu_calc.features.seats.lookup import from_table
 from abu_calc.features.seats.notes import Item, clearance_note, ledger, seat_intensity, seat_notes
 from abu_calc.features.seats.rating_life import RatingLife, rating_life
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Action, Check
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import SI_PER_UNIT
 from abu_calc.standards.tolerance_classes import DeviationLimits, Seat
@@ -168,6 +169,7 @@ class BearingSeats(NamedTuple):
     group_to_order: str | None = None
     group_of_recommended: str | None = None
     life_in_use: "LifeInUse | None" = None
+    actions: "Mapping[str, Action]" = {}  # noqa: RUF012 - a default that nobody changes
 
     @property
     def seats(self) -> tuple[SeatFit, SeatFit]:
@@ -177,10 +179,13 @@ class BearingSeats(NamedTuple):
     @property
     def checks(self) -> tuple[Check, ...]:
         """The checks of both seats, of the bearing's life, and of the clearance."""
-        advised = self.shaft.recommended_fit is not None and self.housing.recommended_fit is not None
-        left = clearance_checks(self.bearing, self.clearance, advised, self.group_to_order)
+        left = clearance_checks(self.bearing, self.clearance)
         in_use = self.life_in_use.checks if self.life_in_use else ()
-        return (*self.shaft.checks, *self.housing.checks, *life_checks(self.bearing, self.life), *in_use, *left)
+        checks = (*self.shaft.checks, *self.housing.checks, *life_checks(self.bearing, self.life), *in_use, *left)
+        return tuple(
+            check.with_action(self.actions[check.code].text) if check.code in self.actions else check
+            for check in checks
+        )
 
 
 def seat_bearing(table: "BearingTable") -> BearingSeats:
@@ -192,7 +197,26 @@ def seat_bearing(table: "BearingTable") -> BearingSeats:
 
 
 def judge(bearing: SeatedBearing) -> BearingSeats:
-    """Judge both seats of a bearing; one without a fit is judged with the field advised.
+    """Judge both seats of a bearing, with actions that hold as followed."""
+    plain = _judged(bearing)
+    classes = {f"{seat.seat}_fit": seat.recommended_fit for seat in plain.seats}
+    left = plain.clearance
+    groups = () if left is None else (left.group_to_choose, plain.group_to_order, plain.group_of_recommended)
+    found = actions(
+        bearing, plain.checks, {key: value for key, value in classes.items() if value},
+        [group for group in dict.fromkeys(groups) if group], lambda changed: _judged(changed).checks,
+    )  # fmt: skip
+    shaft, housing = (seat._replace(checks=_with(found, seat.checks)) for seat in plain.seats)
+    return plain._replace(shaft=shaft, housing=housing, actions=found)
+
+
+def _with(found: "Mapping[str, Action]", checks: Sequence[Check]) -> tuple[Check, ...]:
+    """Checks with these actions."""
+    return tuple(check.with_action(found[check.code].text) if check.code in found else check for check in checks)
+
+
+def _judged(bearing: SeatedBearing) -> BearingSeats:
+    """Both seats of a bearing; one without a fit is judged with the field advised.
 
     A band asked for is meant for the rings that must grip, else for both.
     """

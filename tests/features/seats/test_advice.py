@@ -133,7 +133,7 @@ def test_the_example_keeps_its_conclusion():
     assert (k6.creep.verdict, m6.creep.verdict, k6.recommended_fit) == ("may creep", "holds", "m6")
     assert str(k6.checks[0].remedy).startswith(
         "Specify m6: the least interference rises from "
-    ) and "m6 passes." in str(k6.checks[0].remedy)
+    ) and "Then ABU601 passes." in str(k6.checks[0].remedy)
     K7, M7 = seats(housing_fit="K7").housing, seats(housing_fit="M7").housing
     assert "can creep" in K7.checks[0].message and "hardly creeps" in M7.checks[0].message
 
@@ -158,7 +158,7 @@ def test_advice_names_the_group_that_makes_the_fit_good():
     assert (tight.shaft.recommended_fit, tight.group_to_order) == (
         "k5",
         "C3",
-    ) and check.remedy == "Specify group C3: it keeps clearance (calculated)."
+    ) and str(check.remedy).startswith("Specify group C3: ")
     assert judged("6207", 0.03, shaft_fit="j6", housing_fit="H7").group_to_order == "CN"
     jammed = judged("6207", 0.08, shaft_fit="p6", housing_fit="N7", internal_clearance="C2")
     assert jammed.checks[-1].status == "fail"

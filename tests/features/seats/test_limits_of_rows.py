@@ -111,7 +111,7 @@ def test_the_lighter_group_that_a_pair_is_told_holds_when_specified(given: str, 
 def test_a_drawn_cup_wants_the_press_of_its_makers() -> None:
     """N6 and N7 press the cup, in light alloys R6 and R7: no stress limit of a thick ring fails them."""
     loose = judged("HK1010", radial_load_kN=0.7, housing_fit="H7")
-    assert check(loose, "ABU611").status == "warn" and check(loose, "ABU611").remedy == "Specify N6."
+    assert check(loose, "ABU611").status == "warn" and "Specify N6: " in str(check(loose, "ABU611").remedy)
     for material, classes in (("steel", ("N6", "N7")), ("aluminium", ("R6", "R7"))):
         for fit in classes:
             found = judged("HK1010", radial_load_kN=0.7, housing_fit=fit, housing_material=material)

@@ -53,7 +53,7 @@ def test_both_criteria_are_named_and_the_larger_counts():
     assert (check(shaft, 0).value, check(shaft, 0).limit) == (2.0, pytest.approx(6.8224, abs=1e-4))
     assert str(check(shaft, 0).remedy).startswith(
         "Specify m6: the least interference rises from "
-    ) and "m6 passes." in str(check(shaft, 0).remedy)
+    ) and "Then ABU601 passes." in str(check(shaft, 0).remedy)
 
 
 def test_the_source_governs_where_its_interference_is_larger():

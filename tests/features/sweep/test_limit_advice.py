@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.sweep.tolerance_costs import rescaled
 from abu_calc.features.sweep.samples import Builds
+from abu_calc.features.sweep.tolerance_costs import rescaled
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
 
