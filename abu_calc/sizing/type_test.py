@@ -26,10 +26,9 @@ from abu_calc.formulas.type_test import (
 )
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.sizing.actions import CALCULATED, followed, overrides, pins, words
+from abu_calc.sizing.actions import CALCULATED
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.places import body_suspension
@@ -207,25 +206,6 @@ def declared_check(
     )
     lower = declared < without
     return coded("ABU431", verdict(True, lower), message, declared, without, "m/s²", None if lower else action())
-
-
-Judged = Callable[[Case, Candidate], tuple[float, float]]
-"""Declared values [m/s²] of a design without and with the autobalancer."""
-
-
-def lower_declared(case: Case, candidate: Candidate, imbalance: float, judged: Judged, how: str) -> Action | str:
-    """The first change of race and friction with which the declared value falls, sized anew and judged."""
-    _, present = judged(case, candidate)
-    for entries in more_easily(case, declared_estimate(case, candidate, imbalance)):
-        after = followed(case, entries)
-        if after is None or not carried(after.case, after.candidate, imbalance):
-            continue
-        without, declared = judged(after.case, after.candidate)
-        if declared < without:
-            moved = Moved("the declared value with the autobalancer", present, declared, "m/s²", without)
-            line = overrides({**entries, **pins(after.candidate)})
-            return Action(f"Set {words(entries)}: {moved.text} ({how}).", line)
-    return "No smaller race eccentricity or friction arm that was tried lowers it. `abu declare FILE` lists the causes."
 
 
 def more_easily(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]]:

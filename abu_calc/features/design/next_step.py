@@ -13,6 +13,7 @@ from typing import Any, Final, NamedTuple, Protocol
 
 from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import Judgement, TrialWatcher
+from abu_calc.features.design.judgement import judge as judge_file
 from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_search import loudness, slowness
@@ -21,7 +22,7 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.checks import RANK, Action, Check, worst
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.moved import Moved
-from abu_calc.foundation.progress import Progress, within
+from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
@@ -74,6 +75,18 @@ class Tried(NamedTuple):
 
     entries: Entries
     after: Judged
+
+
+def harmless(machine: Machine, before: Iterable[Check], entries: Entries, accuracy: float) -> bool:
+    """True if no check of `abu size` gets worse with a change of a machine with one race."""
+    if not entries:
+        return True
+    try:
+        changed = variant_of(machine, ",".join(entries)).whole("size")
+        judge_file(changed, accuracy, silent, 1, trial=NoWorse(before))
+    except (NotBetterError, AbuError):
+        return False
+    return True
 
 
 class NextStep(NamedTuple):

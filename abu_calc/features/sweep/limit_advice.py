@@ -14,7 +14,7 @@ import numpy as np
 
 from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import Judgement, judge
-from abu_calc.features.design.next_step import Entries, NotBetterError, NoWorse, in_words, proposals
+from abu_calc.features.design.next_step import Entries, harmless, in_words, proposals
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT
 from abu_calc.features.sweep.failed_limits import flags_of
@@ -59,7 +59,7 @@ def advice(
     if not failed or plan.design is None or plan.study.what != "build" or not FEWEST <= store.drawn == len(flags):
         return (), 0
     try:
-        before = judge(machine.whole("sweep"), plan.study.accuracy, silent, 1)
+        before = judge(machine.whole("sweep"), accuracy := plan.study.accuracy, silent, 1)
     except AbuError:  # `abu size` says why
         return (), 0
     changes = [
@@ -68,8 +68,8 @@ def advice(
         if (study := _study(change, plan, ask, machine)) is not None
     ]
     ranked = _screened(changes, flags, store, compute, plan.study.sample.seed)
-    harmless = (each for each in ranked[:JUDGED] if _harmless(each[0], machine, before, plan.study.accuracy))
-    picked = list(islice(harmless, PICKED))
+    kept = (each for each in ranked[:JUDGED] if harmless(machine, before.checks, each[0].entries, accuracy))
+    picked = list(islice(kept, PICKED))
     members = _members(range(store.drawn), MOST, plan.study.sample.seed)
     after = _tried([study for _, study in picked], members, store, compute)
     was = [flags[member] for member in members]
@@ -79,18 +79,6 @@ def advice(
     )
     best = {each.change.partition(" ")[0]: each for each in reversed(better)}
     return tuple(each for each in better if each in best.values())[:GIVEN], len(changes)
-
-
-def _harmless(change: Change, machine: Machine, before: Judgement, accuracy: float) -> bool:
-    """True if no check of `abu size` gets worse with a change."""
-    if not change.entries:
-        return True
-    try:
-        changed = variant_of(machine, ",".join(change.entries)).whole("sweep")
-        judge(changed, accuracy, silent, 1, trial=NoWorse(before.checks))
-    except (NotBetterError, AbuError):
-        return False
-    return True
 
 
 def _screened(
