@@ -131,7 +131,7 @@ def _body_warnings(case: Case, bands: BodyBands | None, added: float) -> list[st
         handles += f" Alone machine.{unused} gives no estimate for this layout."
     return [
         f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
-        f"{handles} {body_advice(case, added)}"
+        f"{handles} {body_advice(case)}"
     ]
 
 

@@ -151,11 +151,8 @@ def missing_body(case: Case) -> str:
     return "Measure the inertia by a pendulum: specify machine.inertia_kg_m2 and machine.center_of_mass_from_wheel_mm."
 
 
-def body_advice(case: Case, added: float = 0.0) -> str:
-    """How a point mass becomes a rigid body: usual lengths of such a machine, tried, and what they change.
-
-    `added`: mass [kg] of the autobalancer.
-    """
+def body_advice(case: Case) -> str:
+    """How a point mass becomes a rigid body: usual lengths of such a machine, tried, and what they change."""
     top, keys = case.table.machine, estimate_keys(case)
     entries: dict[str, object] = dict(usual_lengths(top.layout, top.mass_kg))
     unknown = f"Specify {keys} for an estimate of the inertia, or the inertia itself."
@@ -166,8 +163,8 @@ def body_advice(case: Case, added: float = 0.0) -> str:
         imbalances = find_imbalance(case).value, find_imbalance(other).value
     except (AbuError, ValueError):
         return unknown
-    masses = case.body.effective_mass(added), other.body.effective_mass(added)
-    moved = [Moved("the effective mass at the wheel", masses[0], masses[1], "kg").text]
+    masses = case.body.effective_mass(), other.body.effective_mass()
+    moved = [Moved("the effective mass without an autobalancer", masses[0], masses[1], "kg").text]
     if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
         moved.append(_moved_imbalance(*imbalances))
     given = words(entries)

@@ -25,10 +25,9 @@ def remarks(
     """Remarks, those that move the value most first. `imbalance_alone`: a_hv without background [m/s²]."""
     case = design.case
     if not case.body.is_rigid:
-        added = design.autobalancer.mass
         yield (
             "The machine is a point mass here, which judges the autobalancer too hard: a rigid body has up to 3.4 "
-            f"times the break-even eccentricity. {body_advice(case, added)}"
+            f"times the break-even eccentricity. {body_advice(case)}"
         )
     if not case.handles:
         yield "The file gives no handle: values are those of the wheel plane. Add a [[machine.handle]] for each hand."

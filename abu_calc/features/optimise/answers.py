@@ -1,12 +1,13 @@
 """Answers of a race: designs with their shares, changes from one to the next, and the checks."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.features.design.judgement import judge
 from abu_calc.features.optimise.bounds import interval
 from abu_calc.features.optimise.candidates import GEOMETRY, SearchSpace, changes
 from abu_calc.features.optimise.choices import Option
@@ -26,6 +27,8 @@ from abu_calc.features.optimise.result import (
 )
 from abu_calc.features.sweep.plan import planned
 from abu_calc.foundation.checks import CHECK_CODES, Check, coded
+from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.progress import silent
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.simulation.result import Provenance
 
@@ -51,7 +54,11 @@ def answered(
             _share_check(ask.share, fresh_share, proven),
             _least_cost_check(race, best, proven, undecided, source.impatient),
         ),
-        warnings=(*_warnings(ask, space), *dict.fromkeys(w for machine in ask.machines for w in machine.warnings)),
+        warnings=(
+            *_warnings(ask, space),
+            *_judged(ask, space, best),
+            *dict.fromkeys(w for machine in ask.machines for w in machine.warnings),
+        ),
         provenance=Provenance.of(first),
         files=tuple(machine.file for machine in ask.machines),
         share=ask.share,
@@ -204,6 +211,20 @@ def _options(options: Sequence[tuple[Option, ...]], *, default: bool) -> tuple[C
 def _costs(ask: OptimiseRequest, space: SearchSpace) -> tuple[CostEntry, ...]:
     given = {key: cost for machine in ask.machines for key, cost in machine.whole("optimise").costs.items()}
     return tuple(CostEntry(**item._asdict()) for item in items_of(space.keys, given))
+
+
+def _judged(ask: OptimiseRequest, space: SearchSpace, best: int) -> Iterator[str]:
+    """Checks that `abu size` fails with the recommended values, for each machine."""
+    for arm, name in zip(space.rows[best].tolist(), names_of(ask), strict=True):
+        variant = space.variants[arm]
+        tables = ask.machines[variant.machine].changed(dict(variant.values)).whole("optimise")
+        try:
+            checks = judge(tables, 0.01, silent, 1).checks
+        except AbuError:  # `abu size` says why
+            continue
+        codes = dict.fromkeys(check.code for check in checks if check.requested and check.status == "fail")
+        if codes:
+            yield f"With the recommended values `abu size` still fails {', '.join(codes)} of {name}."
 
 
 def _scatter(ask: OptimiseRequest, space: SearchSpace, best: int) -> dict[str, str]:
