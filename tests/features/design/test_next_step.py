@@ -32,7 +32,7 @@ from abu_calc.features.design.next_step import (
 )
 from abu_calc.foundation.checks import RANK, Check, Grade, OptionalCheck
 from abu_calc.foundation.progress import Progress, silent
-from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing import size
@@ -400,3 +400,13 @@ def test_workers_change_nothing_of_the_next_step() -> None:
     machine = abu_calc.read(str(Path(__file__).parents[2] / "machines" / "hanging-balls.toml"))
     alone, beside = (abu_calc.size(machine, workers=workers).verdict for workers in (1, 3))
     assert alone == beside and alone.next is not None
+
+
+@pytest.mark.slow
+def test_a_machine_that_fails_by_a_seat_alone_gets_its_tolerance_class() -> None:
+    """6203 on g6 creeps under the rotating load; j5 is the class of the makers' catalogue."""
+    bearing = {"designation": "6203", "shaft_fit": "g6", "housing_fit": "H7", "radial_load_kN": 0.8}
+    machine = abu_calc.read("avtovaz-707-222").changed({"bearing": [bearing]})
+    verdict = abu_calc.size(machine).verdict
+    assert verdict.word == "does-not-suit" and "bearing.0.shaft_fit=j5" in (verdict.next or "")
+    assert abu_calc.size(variant_of(machine, "bearing.0.shaft_fit=j5")).verdict.word == verdict.promise["to"]

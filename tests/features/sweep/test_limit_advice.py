@@ -7,6 +7,7 @@ import pytest
 import abu_calc
 from abu_calc.features.sweep.samples import Builds
 from abu_calc.features.sweep.tolerance_costs import rescaled
+from abu_calc.foundation.checks import RANK
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
 
@@ -50,6 +51,10 @@ def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dic
         for name, (_, after) in advice.limits.items():
             failing = again.meets_limits.each[name]
             assert failing.of - failing.met == after
+        if advice.set_:
+            grades = {check.name: RANK.index(check.status) for check in abu_calc.size(machine).checks}
+            after = abu_calc.size(followed).checks
+            assert all(RANK.index(check.status) >= grades.get(check.name, 0) for check in after if check.requested)
     # The best advice raises the share; one of them at least lowers the failures of this limit.
     assert any(advice.limits[limit][1] < advice.limits[limit][0] for advice in sweep.advice)
 
