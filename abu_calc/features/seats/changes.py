@@ -9,8 +9,8 @@ from abu_calc.foundation.checks import RANK, Action, Check
 from abu_calc.foundation.moved import Moved
 
 GROUP: Final = "internal_clearance"
-SEATS: Final = {"ABU60": "shaft_fit", "ABU61": "housing_fit"}
-"""Key of the tolerance class that checks are of."""
+SEATS: Final = {"60": "shaft_fit", "61": "housing_fit"}
+"""Key of the tolerance class that checks are of, by the first digits of their codes."""
 TRACE: Final = 0.01
 """Share of short pairs [%] below which no digits are shown."""
 
@@ -54,7 +54,7 @@ def actions(
 
 def _seat(check: Check) -> str | None:
     """Key of the tolerance class that a check is of."""
-    return SEATS.get(check.code[:5])
+    return SEATS.get(check.code[3:5])
 
 
 def _proposed(check: Check, classes: Entries, groups: Sequence[str]) -> Iterator[Entries]:
