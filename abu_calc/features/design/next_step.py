@@ -305,7 +305,7 @@ PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 
 SEATS: Final = "6"
-"""First digit of the codes of bearing seats, whose actions are followed where they are judged, and move nothing else."""
+"""First digit of the codes of bearing seats, whose actions are followed where they are judged and move nothing else."""
 
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
