@@ -354,12 +354,21 @@ def level_of(after: Followed) -> float:
     return math.inf if levels is None else levels.highest.level_after
 
 
-def truer_races(case: Case) -> Iterator[dict[str, object]]:
-    """Entries of a race that is less eccentric, or has less friction, or both."""
-    abu = case.autobalancer
+LEAST_FRICTION_MM: Final = 0.0005
+"""Lever arm of rolling friction that a hard, ground and clean race attains."""
+
+
+def truer_races(case: Case, least: float = 0.0) -> Iterator[dict[str, object]]:
+    """Entries of a race that is less eccentric, or has less friction, or both.
+
+    `least`: the least eccentricity [m] that standard fits hold.
+    """
+    abu, least_mm = case.autobalancer, math.ceil(from_si(least, "um") * 10) / 1e4
     for share in SHARES:
-        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": _rounded(share * abu.race_eccentricity_mm)}
-        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": _rounded(share * abu.rolling_friction_mm)}
+        eccentricity = max(_rounded(share * abu.race_eccentricity_mm), min(least_mm, abu.race_eccentricity_mm))
+        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": eccentricity}
+        friction = max(_rounded(share * abu.rolling_friction_mm), min(LEAST_FRICTION_MM, abu.rolling_friction_mm))
+        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": friction}
         yield true
         yield smooth
         yield {**true, **smooth}
