@@ -81,9 +81,10 @@ def pool_of(before: Judgement) -> Pool:
         return [overrides({**own, **entries}) for entries in changes]
 
     pool = {"sizing": list(dict.fromkeys(sizing)), "balls": pinned(balls), "oil": pinned(oils),
-            "truer": pinned(truer_races(case)), "run-up": pinned(run), "speed": pinned(speeds),
+            "truer": pinned([*truer_races(case, design.eccentricity.least), *truer_races(case)]),
+            "run-up": pinned(run), "speed": pinned(speeds),
             "damping": pinned([damping] if damping else [])}  # fmt: skip
-    return {kind: changes for kind, changes in pool.items() if changes}
+    return {kind: list(dict.fromkeys(changes)) for kind, changes in pool.items() if changes}
 
 
 TRUER: Final = frozenset({"ABU202", "ABU401", "ABU402", "ABU404"})
