@@ -358,17 +358,31 @@ LEAST_FRICTION_MM: Final = 0.0005
 """Lever arm of rolling friction that a hard, ground and clean race attains."""
 
 
-def truer_races(case: Case, least: float = 0.0) -> Iterator[dict[str, object]]:
-    """Entries of a race that is less eccentric, or has less friction, or both.
+def smoother(friction_mm: float, share: float) -> float:
+    """A share of the lever arm of rolling friction [mm], no less than a clean race attains.
 
-    `least`: the least eccentricity [m] that standard fits hold.
+    >>> smoother(0.004, 0.5), smoother(0.0008, 0.5), smoother(0.0003, 0.5)
+    (0.002, 0.0005, 0.0003)
     """
-    abu, least_mm = case.autobalancer, math.ceil(from_si(least, "um") * 10) / 1e4
+    return max(_rounded(share * friction_mm), min(LEAST_FRICTION_MM, friction_mm))
+
+
+def truer(eccentricity_mm: float, share: float, least: float) -> float:
+    """A share of a race eccentricity [mm], no less than standard fits hold [m].
+
+    >>> truer(0.01, 0.5, 2.61e-6), truer(0.004, 0.5, 2.61e-6), truer(0.002, 0.5, 2.61e-6)
+    (0.005, 0.0027, 0.002)
+    """
+    least_mm = math.ceil(10 * from_si(least, "um")) / 1e4
+    return max(_rounded(share * eccentricity_mm), min(least_mm, eccentricity_mm))
+
+
+def truer_races(case: Case, least: float) -> Iterator[dict[str, object]]:
+    """Entries of a race that is less eccentric, down to the `least` [m], or has less friction, or both."""
+    abu = case.autobalancer
     for share in SHARES:
-        eccentricity = max(_rounded(share * abu.race_eccentricity_mm), min(least_mm, abu.race_eccentricity_mm))
-        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": eccentricity}
-        friction = max(_rounded(share * abu.rolling_friction_mm), min(LEAST_FRICTION_MM, abu.rolling_friction_mm))
-        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": friction}
+        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": truer(abu.race_eccentricity_mm, share, least)}
+        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": smoother(abu.rolling_friction_mm, share)}
         yield true
         yield smooth
         yield {**true, **smooth}

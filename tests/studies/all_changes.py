@@ -56,7 +56,7 @@ PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 
 def pool_of(before: Judgement) -> Pool:
-    """Every change for a machine with one race: what sizing mends, oils, truer races, other balls, the run-up, speeds."""
+    """Every change for a machine with one race, by kind."""
     design, case = before.design, before.design.case
     own = pins(design.autobalancer)
     bad = [check for check in before.checks if check.requested and check.status != "pass"]
@@ -69,19 +69,26 @@ def pool_of(before: Judgement) -> Pool:
     oils = [entries for entries, _ in usual_oils(case, design.autobalancer)]
     if RATE_KEY in case.autobalancer.model_fields_set:
         near = [drag for drag in DRAGS if not case.drag / NEAR <= drag <= case.drag * NEAR]
-        oils += [{f"autobalancer.{RATE_KEY}": drag} for drag in sorted(near, key=lambda drag: abs(math.log(drag / case.drag)))]
+        oils += [
+            {f"autobalancer.{RATE_KEY}": drag}
+            for drag in sorted(near, key=lambda drag: abs(math.log(drag / case.drag)))
+        ]
     starts = list(changes_for_starts(before.facts, loud=False))
     run = [entries for entries in starts if any(key.startswith("run_up.") for key in entries)]
     balls = [pins(runner_up) for runner_up, _ in design.choice.runners_up if usable(case, runner_up)]
     damping = more_damping(design)
     boundaries = before.region.boundaries or ()
-    speeds = [entries for boundary in boundaries[-1:] for entries in speeds_from(case, math.ceil(1.05 * boundary.speed * 30 / math.pi))]
+    speeds = [
+        entries
+        for boundary in boundaries[-1:]
+        for entries in speeds_from(case, math.ceil(1.05 * boundary.speed * 30 / math.pi))
+    ]
 
     def pinned(changes: Iterable[Mapping[str, object]]) -> list[Entries]:
         return [overrides({**own, **entries}) for entries in changes]
 
     pool = {"sizing": list(dict.fromkeys(sizing)), "balls": pinned(balls), "oil": pinned(oils),
-            "truer": pinned([*truer_races(case, design.eccentricity.least), *truer_races(case)]),
+            "truer": pinned([*truer_races(case, design.eccentricity.least), *truer_races(case, 0.0)]),
             "run-up": pinned(run), "speed": pinned(speeds),
             "damping": pinned([damping] if damping else [])}  # fmt: skip
     return {kind: list(dict.fromkeys(changes)) for kind, changes in pool.items() if changes}
@@ -108,7 +115,10 @@ def all_changes(pool: Pool, most: int) -> Iterator[Entries]:
         for kinds in itertools.combinations(pool, count):
             lists = [pool[kind] for kind in kinds]
             if count > 2:
-                lists = [changes[:FIRST[kind]] if kind in FIRST else changes for kind, changes in zip(kinds, lists, strict=True)]
+                lists = [
+                    changes[: FIRST[kind]] if kind in FIRST else changes
+                    for kind, changes in zip(kinds, lists, strict=True)
+                ]
             for changes in itertools.product(*lists):
                 entries = as_one(changes)
                 if entries and frozenset(entries) not in known:
@@ -162,7 +172,11 @@ def searched(seed: int, folder: Path) -> dict[str, Any]:
     begun = time.process_time()
     if machine.two_races is not None:
         before: Any = judge_two(machine.two_races, two_studies.ACCURACY, silent, 1)
-        pool, judged_by, own = pool_of_two(before), two_studies._judge(two_studies.ACCURACY, 1), [*advice.proposals(before)]
+        pool, judged_by, own = (
+            pool_of_two(before),
+            two_studies._judge(two_studies.ACCURACY, 1),
+            [*advice.proposals(before)],
+        )
     else:
         with machine.located():
             before = judge(machine.whole("size"), ACCURACY, silent, 1)
@@ -178,7 +192,11 @@ def searched(seed: int, folder: Path) -> dict[str, Any]:
     }  # fmt: skip
     begun = time.process_time()
     if step.best is not None:
-        left = [f"{check.code} {check.status}" for check in step.best.after.checks if check.requested and check.status != "pass"]
+        left = [
+            f"{check.code} {check.status}"
+            for check in step.best.after.checks
+            if check.requested and check.status != "pass"
+        ]
         line["step"] = {"entries": step.best.entries, "left": left}
     if "step" in line and not line["step"]["left"]:
         return line
@@ -195,7 +213,9 @@ def main() -> None:
     cured = {line["seed"] for line in lines if line.get("then") == "suits"}
     sample = [seed for seed in ill if seed not in cured]
     random.Random(SEED).shuffle(sample)
-    done = {json.loads(line)["seed"] for line in path.read_text(encoding="utf-8").splitlines()} if path.exists() else set()
+    done = (
+        {json.loads(line)["seed"] for line in path.read_text(encoding="utf-8").splitlines()} if path.exists() else set()
+    )
     end = time.monotonic() + seconds
     with tempfile.TemporaryDirectory() as folder, path.open("a", encoding="utf-8") as file:
         for seed in sample:

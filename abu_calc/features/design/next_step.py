@@ -7,7 +7,7 @@ Each change is a set of entries as `--set` takes them. It is followed literally:
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, combinations, islice
+from itertools import chain, combinations
 from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
@@ -178,8 +178,9 @@ def _nearness(outcome: StartOutcome | Lost, design: Any) -> float:
     if isinstance(outcome, Lost) or outcome.hanging:
         return 0.0
     limits = design.case.table.limits
-    late = outcome.quiet_time_or_inf / limits.longest_quiet_time
-    return 1 / (1 + max(late, 10 ** ((outcome.level - limits.vibration_level_db) / 20)))
+    late: float = outcome.quiet_time_or_inf / limits.longest_quiet_time
+    loud: float = 10 ** ((outcome.level - limits.vibration_level_db) / 20)
+    return 1 / (1 + max(late, loud))
 
 
 def _key(check: Check) -> tuple[str, str]:
@@ -191,7 +192,8 @@ def next_step(
 ) -> NextStep:
     """The first change with which all checks pass, else the one with the best verdict of those tried.
 
-    It costs nothing where nothing is wrong. Where something is, all trials together take as long as the file as it is.
+    It costs nothing where nothing is wrong. Where something is, all trials that do not help take as long as the file as
+    it is.
     """
     best, rank, tried, hurried = None, RANK.index(worst(before.checks)), list[str](), False
     held, better, simulated = dict[Entries, float](), list[Entries](), 0
@@ -209,7 +211,7 @@ def next_step(
             after = judge.judged(variant_of(machine, ",".join(entries)), tell, trial)
             best, rank = Tried(entries, after), RANK.index(worst(after.checks))
             better.insert(0, entries)
-            left += work / 2
+            left += trial.work
         except NotBetterError:
             tried.append(in_words(entries))
         except TooLongError:

@@ -95,6 +95,14 @@ def never(_: object, member: Member, *__: object, **___: object) -> StartOutcome
     raise AssertionError(member)
 
 
+def not_judged(machine: Machine, *_: object) -> Any:
+    """No machine is judged."""
+    raise AssertionError(machine)
+
+
+NEVER = Judge(not_judged, never)
+
+
 @pytest.mark.parametrize(
     ("before", "after", "best", "calls"),
     [
@@ -127,7 +135,7 @@ def test_a_change_is_taken_if_the_verdict_gets_better_and_no_check_worse(
 
 def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
     before = judged(FAILS)
-    watcher = ChangeWatcher(before, RANK.index("fail"), never)
+    watcher = ChangeWatcher(before, RANK.index("fail"), NEVER)
     watcher.checked([OptionalCheck("ABU407", "handles", "fail", "no direction")])
     with pytest.raises(NotBetterError):
         watcher.checked([Check("ABU407", "handles", "warn", "…")])
@@ -280,7 +288,7 @@ def test_the_worst_start_cases_that_fail_are_repeated_first() -> None:
             ran.append(member)
             return result(member)
 
-        trial = ChangeWatcher(before, RANK.index(grade), once)
+        trial = ChangeWatcher(before, RANK.index(grade), Judge(NEVER.judged, once))
         trial.repeated(thicker)
         return trial
 
@@ -301,9 +309,9 @@ def test_a_trial_ends_before_further_start_cases_where_a_listed_one_warns(monkey
     late = Ensemble(drag, (outcome(Member("spread", drag)), outcome(Member("spread", drag / 3), quiet_time=1.5)), ())
     monkeypatch.setattr(judgement, "simulate_members", lambda *_, **__: late)
     monkeypatch.setattr(judgement, "search", lambda *_, **__: pytest.fail("further start cases were simulated"))
-    before: Any = SimpleNamespace(checks=(), outcomes=())
+    before: Any = SimpleNamespace(checks=(), outcomes=(), facts=SimpleNamespace(design=pinned()))
     with pytest.raises(NotBetterError):
-        judge(tables, 0.01, silent, 1, trial=ChangeWatcher(before, RANK.index("warn"), never))
+        judge(tables, 0.01, silent, 1, trial=ChangeWatcher(before, RANK.index("warn"), NEVER))
 
 
 def at(document: Mapping[str, Any], path: str) -> Any:
