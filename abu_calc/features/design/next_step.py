@@ -426,11 +426,12 @@ def proposals(before: Judgement) -> Iterator[Entries]:
     others = dict.fromkeys(check.overrides for check in bad if check.overrides)
     of_starts, codes = [], {check.code for check in bad}
     steady = steadier(design, before.region.boundaries or ()) if "ABU103" in codes else None
-    if steady is not None:
-        others[overrides({**steady, **pins(design.autobalancer)})] = None
+    first = () if steady is None else overrides({**steady, **pins(design.autobalancer)})
+    others |= dict.fromkeys([first] if first else ())
     if codes & OF_STARTS and design.frequency.balancing_possible:
         loud = LEVEL.code in codes
-        of_starts = [overrides(entries) for entries in changes_for_starts(before.facts, loud=loud)]
+        changes = map(overrides, changes_for_starts(before.facts, loud=loud))
+        of_starts = [_as_one(first, entries) for entries in changes]  # unstable, all would fail
     yield from together([*calculated[:1], *others], of_starts, calculated[1:])
 
 
