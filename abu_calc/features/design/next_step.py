@@ -35,11 +35,11 @@ from abu_calc.sizing.proposals import PROPOSED, mended
 Entries = tuple[str, ...]
 """Entries of a file, each as one `--set` takes it."""
 
-MOST_TRIALS: Final = 24
+MOST_TRIALS: Final = 48
 """Changes that are tried by start cases."""
 MOST_PAIRS: Final = 8
 """Two changes together that are tried at the end."""
-LEAST_WORK: Final = 1_000_000
+LEAST_WORK: Final = 2_000_000
 """Evaluations that all trials may take at least; else as many as the file as it is, the last one half as many more."""
 NEAR: Final = 0.4
 """Nearness of a start case to its limits above which a run at a tighter tolerance may find that it keeps them."""
