@@ -40,11 +40,13 @@ MOST_TRIALS: Final = 48
 MOST_PAIRS: Final = 8
 """Two changes together that are tried at the end."""
 LEAST_WORK: Final = 2_000_000
-"""Evaluations that all trials may take at least; else as many as the file as it is, the last one half as many more."""
+"""Evaluations that all trials that do not help may take at least; else as many as the file as it is."""
 NEAR: Final = 0.4
 """Nearness of a start case to its limits above which a run at a tighter tolerance may find that it keeps them."""
 PROMISING: Final = 4_000_000
 """Evaluations that a trial may take if the start cases that fail as the file is hold with the change."""
+STABLE: Final = "ABU103"
+"""Check of stability."""
 REPEATED: Final = 6
 """Start cases that fail as the file is, which run first with a change, the worst ones."""
 
@@ -109,8 +111,8 @@ class TooLongError(Exception):
 class ChangeWatcher(TrialWatcher):
     """A trial of one change of a machine: it ends as soon as the verdict cannot be better, or a check gets worse.
 
-    `worse_than`: rank of the grade that the verdict has to excel; `once`: how one start is run; `most`: the
-    evaluations that it may take; `best`: the machine with the best change so far.
+    `worse_than`: rank of the grade that the verdict has to excel; `most`: the evaluations that it may take, more if
+    start cases hold that fail with the `best` change so far; `held`: start cases that held, of the last how nearly.
     """
 
     def __init__(
@@ -119,6 +121,7 @@ class ChangeWatcher(TrialWatcher):
         self.worse_than, self.judge, self.most, self.best = worse_than, judge, most, best or before
         self.work, self.held = 0, 0.0
         self.ranks = {_key(check): RANK.index(check.status) for check in before.checks}
+        self.stable = all(check.status == "pass" for check in before.checks if check.code == STABLE)
         self.every = worse_than == RANK.index("warn")
 
     def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
@@ -196,11 +199,11 @@ def next_step(
     it is.
     """
     best, rank, tried, hurried = None, RANK.index(worst(before.checks)), list[str](), False
-    held, better, simulated = dict[Entries, float](), list[Entries](), 0
+    held, better = dict[Entries, float](), list[Entries]()
     work = max(sum(run.work for run in before.outcomes), LEAST_WORK)
     left = math.inf if patience.given() else work
     for entries in _with_pairs(proposals, held, better):
-        if rank == PASS or simulated == MOST_TRIALS:
+        if rank == PASS or len(held) == MOST_TRIALS:
             break
         if left <= 0 or patience.over():
             hurried = True
@@ -218,8 +221,8 @@ def next_step(
             hurried = True
         except AbuError:  # the file refuses it
             continue
-        left, simulated = left - trial.work, simulated + (trial.work > 0)
-        if trial.held:
+        left -= trial.work
+        if trial.work:
             held[entries] = trial.held
     return NextStep(best, tuple(tried), hurried)
 
@@ -425,7 +428,7 @@ def proposals(before: Judgement) -> Iterator[Entries]:
     calculated = [overrides(entries) for entries in mended(design)]
     others = dict.fromkeys(check.overrides for check in bad if check.overrides)
     of_starts, codes = [], {check.code for check in bad}
-    steady = steadier(design, before.region.boundaries or ()) if "ABU103" in codes else None
+    steady = steadier(design, before.region.boundaries or ()) if STABLE in codes else None
     first = () if steady is None else overrides({**steady, **pins(design.autobalancer)})
     others |= dict.fromkeys([first] if first else ())
     if codes & OF_STARTS and design.frequency.balancing_possible:
