@@ -37,7 +37,7 @@ Entries = tuple[str, ...]
 
 MOST_TRIALS: Final = 48
 """Changes that are tried by start cases."""
-MOST_PAIRS: Final = 8
+MOST_PAIRS: Final = 12
 """Two changes together that are tried at the end."""
 LEAST_WORK: Final = 2_000_000
 """Evaluations that all trials that do not help may take at least; else as many as the file as it is."""
@@ -241,7 +241,7 @@ def _with_pairs(
                 known.add(frozenset(entries))
                 yield entries
     for _ in range(MOST_PAIRS):
-        by_held = sorted(held, key=lambda entries: held[entries], reverse=True)
+        by_held = sorted(filter(held.get, held), key=lambda entries: held[entries], reverse=True)
         pairs = sorted(combinations(by_held, 2), key=lambda pair: sum(held[each] for each in pair), reverse=True)
         both = (_as_one(*pair) for pair in pairs)
         new = next((entries for entries in both if entries and frozenset(entries) not in known), None)
