@@ -205,8 +205,23 @@ def searched(seed: int, folder: Path) -> dict[str, Any]:
     return line | {"search_s": round(time.process_time() - begun, 1)}
 
 
+def share(cured: int, uncured: int, curable: int, searched: int) -> tuple[float, float, float]:
+    """Share of the curable machines that their next step cures, with its 95 % interval by Wilson's for a proportion.
+
+    Of the `uncured` ones a sample was `searched`, of which so many are `curable`.
+
+    >>> tuple(round(value, 2) for value in share(33, 50, 13, 20))
+    (0.5, 0.45, 0.6)
+    """
+    part, z = curable / searched, 1.96
+    middle, spread = part + z**2 / (2 * searched), z * math.sqrt((part * (1 - part) + z**2 / (4 * searched)) / searched)
+    low, high = ((middle + sign * spread) / (1 + z**2 / searched) for sign in (-1, 1))
+    best, least, most = (cured / (cured + uncured * each) for each in (part, high, low))
+    return best, least, most
+
+
 def main() -> None:
-    """Print each machine of the sample."""
+    """Print each machine of the sample, and the share."""
     source, seconds, path = Path(sys.argv[1]), float(sys.argv[2]), Path(sys.argv[3])
     lines = [json.loads(line) for line in source.read_text(encoding="utf-8").splitlines()]
     ill = [line["seed"] for line in lines if line["word"] not in ("suits", "refused")]
@@ -226,6 +241,19 @@ def main() -> None:
             text = json.dumps(searched(seed, Path(folder)), ensure_ascii=False)
             print(text, flush=True)
             print(text, file=file, flush=True)
+    found = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    curable = sum("cure" in line or (line.get("step") or {"left": [""]})["left"] == [] for line in found)
+    print(
+        len(ill),
+        "ill",
+        len(cured),
+        "cured",
+        curable,
+        "of",
+        len(found),
+        "curable",
+        share(len(cured), len(sample), curable, len(found)),
+    )
 
 
 if __name__ == "__main__":
