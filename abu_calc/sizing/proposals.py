@@ -124,7 +124,7 @@ def truer(design: Design) -> Iterator[Entries]:
     """A truer or a cleaner race; nothing can be done about a background that is too loud alone."""
     background = design.case.background_level
     if background is None or background < design.case.level_limit:
-        yield from truer_races(design.case)
+        yield from truer_races(design.case, design.eccentricity.least)
 
 
 def faster(design: Design) -> Iterator[Entries]:

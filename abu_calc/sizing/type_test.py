@@ -32,6 +32,7 @@ from abu_calc.sizing.actions import CALCULATED
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.places import body_suspension
+from abu_calc.sizing.vibration import smoother
 from abu_calc.standards.type_test import (
     balancing_factor,
     declared_uncertainty,
@@ -216,9 +217,7 @@ def more_easily(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, ob
     for value in eccentricities:
         yield {"autobalancer.race_eccentricity_mm": value}
     for share in (0.5, 0.25):
-        smooth: dict[str, object] = {
-            "autobalancer.rolling_friction_mm": float(f"{share * abu.rolling_friction_mm:.3g}")
-        }
+        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": smoother(abu.rolling_friction_mm, share)}
         yield smooth
         yield {**smooth, "autobalancer.race_eccentricity_mm": float(f"{share * abu.race_eccentricity_mm:.3g}")}
 

@@ -354,12 +354,35 @@ def level_of(after: Followed) -> float:
     return math.inf if levels is None else levels.highest.level_after
 
 
-def truer_races(case: Case) -> Iterator[dict[str, object]]:
-    """Entries of a race that is less eccentric, or has less friction, or both."""
+LEAST_FRICTION_MM: Final = 0.0005
+"""Lever arm of rolling friction that a hard, ground and clean race attains."""
+
+
+def smoother(friction_mm: float, share: float) -> float:
+    """A share of the lever arm of rolling friction [mm], no less than a clean race attains.
+
+    >>> smoother(0.004, 0.5), smoother(0.0008, 0.5), smoother(0.0003, 0.5)
+    (0.002, 0.0005, 0.0003)
+    """
+    return max(_rounded(share * friction_mm), min(LEAST_FRICTION_MM, friction_mm))
+
+
+def truer(eccentricity_mm: float, share: float, least: float) -> float:
+    """A share of a race eccentricity [mm], no less than standard fits hold [m].
+
+    >>> truer(0.01, 0.5, 2.61e-6), truer(0.004, 0.5, 2.61e-6), truer(0.002, 0.5, 2.61e-6)
+    (0.005, 0.0027, 0.002)
+    """
+    least_mm = math.ceil(10 * from_si(least, "um")) / 1e4
+    return max(_rounded(share * eccentricity_mm), min(least_mm, eccentricity_mm))
+
+
+def truer_races(case: Case, least: float) -> Iterator[dict[str, object]]:
+    """Entries of a race that is less eccentric, down to the `least` [m], or has less friction, or both."""
     abu = case.autobalancer
     for share in SHARES:
-        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": _rounded(share * abu.race_eccentricity_mm)}
-        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": _rounded(share * abu.rolling_friction_mm)}
+        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": truer(abu.race_eccentricity_mm, share, least)}
+        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": smoother(abu.rolling_friction_mm, share)}
         yield true
         yield smooth
         yield {**true, **smooth}

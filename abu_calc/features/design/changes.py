@@ -24,7 +24,7 @@ MOST_DRAGS, NEAR = 5, 1.15
 """Most drag rates that are tried, and the factor within which another drag rate counts as the same."""
 MOST_OTHERS, MOST_TRUER = 3, 6
 """Runners-up that are tried where a listed start case fails, and truer races."""
-MOST_OILS: Final = 3
+MOST_OILS: Final = (6, 3)
 """Oils of each viscosity index that are tried."""
 FASTER, DAMPED = 0.5, 2.0
 """Factors on the time of the run-up and on the damping of the suspension."""
@@ -55,7 +55,10 @@ def changes_for_starts(facts: StartFacts, *, loud: bool) -> Iterator[dict[str, o
     if ensemble is None:
         return
     table = design.case.table
-    oils, truer = list(_other_oils(facts)), list(islice(truer_races(design.case), MOST_TRUER))
+    oils, truer = (
+        list(_other_oils(facts)),
+        list(islice(truer_races(design.case, design.eccentricity.least), MOST_TRUER)),
+    )
     ways = [*truer, *oils[:BEFORE]] if loud else oils[:BEFORE]
     if not facts.listed_pass:
         others = (runner_up for runner_up, _ in design.choice.runners_up if usable(design.case, runner_up))
@@ -111,8 +114,8 @@ def _other_oils(facts: StartFacts) -> Iterator[dict[str, object]]:
     more, less = bool(ensemble.hanging) or max(bad, default=case.drag) < case.drag, min(bad, default=0.0) > case.drag
     oils = [(entries, drag) for entries, drag in usual_oils(case, design.autobalancer)
             if not ((more and drag < case.drag) or (less and drag > case.drag))]  # fmt: skip
-    for index in FLAT:
-        yield from islice((entries for entries, _ in oils if entries["oil.viscosity_index"] == index), MOST_OILS)
+    for index, most in zip(FLAT, MOST_OILS, strict=True):
+        yield from islice((entries for entries, _ in oils if entries["oil.viscosity_index"] == index), most)
     if "rolling_drag_per_s" in case.autobalancer.model_fields_set:
         for drag in other_drags(case.drag, only_more=more):
             if not (less and drag > case.drag):

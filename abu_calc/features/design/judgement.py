@@ -71,7 +71,12 @@ class Judgement:
 
 
 class TrialWatcher:
-    """What ends a judgement early, of a change that is tried; of the file as it is nothing does."""
+    """What ends a judgement early, of a change that is tried; of the file as it is nothing does.
+
+    `stable`: whether the file as it is is stable; if not, stability is judged before start cases.
+    """
+
+    stable = True
 
     def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
         """Called with each outcome of its start cases, in their order."""
@@ -98,11 +103,13 @@ def judge(
     design = size_design(tables)
     trial.checked(design.checks)
     trial.repeated(design)
+    early = None if trial.stable else true_region(design, accuracy)
+    trial.checked(() if early is None else (early.check,))
     facts = proven(design, accuracy, progress, workers, starts, trial)
     seats = _with_lives(seats, design, facts.ensemble, tables)
     # The search for the true limits of the speed range and the scenes may run beside each other.
     balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=workers)
-    region = true_region(design, accuracy)
+    region = early or true_region(design, accuracy)
     trial.checked((region.check,))
     runs, failures = simulated(design, accuracy, progress, workers=workers)
     work = None if only_checks and not failures else work_of(design, accuracy, progress, _grinding(runs, failures))

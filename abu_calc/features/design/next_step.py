@@ -7,7 +7,7 @@ Each change is a set of entries as `--set` takes them. It is followed literally:
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, islice
+from itertools import chain, combinations
 from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
@@ -16,6 +16,7 @@ from abu_calc.features.design.judgement import Judgement, TrialWatcher
 from abu_calc.features.design.judgement import judge as judge_file
 from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
+from abu_calc.features.design.start_rules import OF_STARTS as OF_BALANCE
 from abu_calc.features.design.start_search import loudness, slowness
 from abu_calc.features.design.verdict import WORDS
 from abu_calc.foundation import patience
@@ -35,10 +36,18 @@ from abu_calc.sizing.proposals import PROPOSED, mended
 Entries = tuple[str, ...]
 """Entries of a file, each as one `--set` takes it."""
 
-MOST_TRIALS: Final = 24
-"""Changes that are tried."""
-LEAST_WORK: Final = 1_000_000
-"""Evaluations that all trials may take at least; else as many as the file as it is, the last one half as many more."""
+MOST_TRIALS: Final = 48
+"""Changes that are tried by start cases."""
+MOST_PAIRS: Final = 12
+"""Two changes together that are tried at the end."""
+LEAST_WORK: Final = 2_000_000
+"""Evaluations that all trials that do not help may take at least; else as many as the file as it is."""
+NEAR: Final = 0.4
+"""Nearness of a start case to its limits above which a run at a tighter tolerance may find that it keeps them."""
+PROMISING: Final = 4_000_000
+"""Evaluations that a trial may take if the start cases that fail as the file is hold with the change."""
+STABLE: Final = "ABU103"
+"""Check of stability."""
 REPEATED: Final = 6
 """Start cases that fail as the file is, which run first with a change, the worst ones."""
 
@@ -64,10 +73,14 @@ class Judged(Protocol):
 
 
 class Judge(NamedTuple):
-    """How a kind of machine is judged, and how one of its start cases is run; `closer`: at a tighter tolerance."""
+    """How a kind of machine is judged, and how one of its start cases is run; `closer`: at a tighter tolerance.
+
+    `slack`: how far below its limit a start case has to stay for a check of the level to pass [dB].
+    """
 
     judged: Callable[[Machine, Progress, TrialWatcher], Judged]
     once: Once
+    slack: float = SLACK
 
 
 class Tried(NamedTuple):
@@ -129,13 +142,17 @@ class NoWorse(TrialWatcher):
 class ChangeWatcher(NoWorse):
     """A trial of one change of a machine: it ends as soon as the verdict cannot be better, or a check gets worse.
 
-    `worse_than`: rank of the grade that the verdict has to excel; `once`: how one start is run; `most`: the
-    evaluations that it may take.
+    `worse_than`: rank of the grade that the verdict has to excel; `most`: the evaluations that it may take, more if
+    start cases hold that fail with the `best` change so far; `held`: start cases that held, of the last how nearly.
     """
 
-    def __init__(self, before: Judged, worse_than: int, once: Once, most: float = math.inf) -> None:
+    def __init__(
+        self, before: Judged, worse_than: int, judge: Judge, most: float = math.inf, best: Judged | None = None
+    ) -> None:
         super().__init__(before.checks, worse_than)
-        self.before, self.once, self.most, self.work = before, once, most, 0
+        self.judge, self.most, self.best = judge, most, best or before
+        self.work, self.held = 0, 0.0
+        self.stable = all(check.status == "pass" for check in before.checks if check.code == STABLE)
         self.every = worse_than == RANK.index("warn")
 
     def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
@@ -145,31 +162,52 @@ class ChangeWatcher(NoWorse):
             raise TooLongError
         decides = self.every or outcome.member.promised
         if decides and not self._holds(outcome, design):
-            closer = self.once(design, outcome.member, closer=True)
-            if not self._holds(closer, design):
+            if _nearness(outcome, design) > NEAR:
+                outcome = self.judge.once(design, outcome.member, closer=True)
+                self.work += outcome.work
+            if not self._holds(outcome, design):
+                self.held += _nearness(outcome, design)
                 raise NotBetterError
+        self.held += 1
 
     def _holds(self, outcome: StartOutcome | Lost, design: Any) -> bool:
-        """True if a start case keeps the limits, or gave no answer, which checks judge."""
+        """True if a start case keeps the limits, all checks pass by it if they must, or it gave no answer."""
+        if isinstance(outcome, Lost):
+            return True
         limits = design.case.table.limits
-        return isinstance(outcome, Lost) or outcome.holds(limits, limits.vibration_level_db + SLACK)
+        if not self.every:
+            return outcome.holds(limits, limits.vibration_level_db + SLACK)
+        broken = any(rule.breaks(outcome, design) for rule in OF_BALANCE)
+        return not broken and outcome.level + self.judge.slack <= limits.vibration_level_db
 
     def repeated(self, design: Any) -> None:
-        """Run the start cases that fail without the change, or warn where all must pass; raise NotBetterError if one
-        still does.
+        """Run the start cases that fail with the best change so far, or warn where all must pass; raise NotBetterError
+        if one still does.
         """
-        limits, drag, old = design.case.table.limits, design.case.drag, self.before.facts.design.case.drag
-        level = limits.vibration_level_db
-        bad = [run for run in self.before.outcomes if not run.holds(limits, level)]
-        bad = [run for run in bad if self.every or run.member.promised]
+        own = self.best.facts.design
+        drag, old = design.case.drag, own.case.drag
+        decide = (run for run in self.best.outcomes if self.every or run.member.promised)
+        bad = [run for run in decide if not self._holds(run, own)]
         bad.sort(key=lambda run: (run.hanging, run.quiet_time_or_inf, run.level), reverse=True)
         for run in bad[:REPEATED]:
             member = replace(run.member, drag=run.member.drag * drag / old if old else drag)
             if not member.angles or len(member.angles) == design.autobalancer.ball_count:
-                self.seen(design, self.once(design, member))
+                self.seen(design, self.judge.once(design, member))
+        if bad:
+            self.most = max(self.most, PROMISING)
 
 
 PASS: Final = RANK.index("pass")
+
+
+def _nearness(outcome: StartOutcome | Lost, design: Any) -> float:
+    """How near a start case that fails comes to its limits, between 0 and 1."""
+    if isinstance(outcome, Lost) or outcome.hanging:
+        return 0.0
+    limits = design.case.table.limits
+    late: float = outcome.quiet_time_or_inf / limits.longest_quiet_time
+    loud: float = 10 ** ((outcome.level - limits.vibration_level_db) / 20)
+    return 1 / (1 + max(late, loud))
 
 
 def _key(check: Check) -> tuple[str, str]:
@@ -181,22 +219,26 @@ def next_step(
 ) -> NextStep:
     """The first change with which all checks pass, else the one with the best verdict of those tried.
 
-    It costs nothing where nothing is wrong. Where something is, all trials together take as long as the file as it is.
+    It costs nothing where nothing is wrong. Where something is, all trials that do not help take as long as the file as
+    it is.
     """
     best, rank, tried, hurried = None, RANK.index(worst(before.checks)), list[str](), False
+    held, better = dict[Entries, float](), list[Entries]()
     work = max(sum(run.work for run in before.outcomes), LEAST_WORK)
     left = math.inf if patience.given() else work
-    for entries in islice(proposals, MOST_TRIALS):
-        if rank == PASS:
+    for entries in _with_pairs(proposals, held, better):
+        if rank == PASS or len(held) == MOST_TRIALS:
             break
         if left <= 0 or patience.over():
             hurried = True
             break
-        trial = ChangeWatcher(before, rank, judge.once, left + work / 2)
+        trial = ChangeWatcher(before, rank, judge, left + work / 2, best and best.after)
         try:
             tell = within(progress, f"with {in_words(entries)}")
             after = judge.judged(variant_of(machine, ",".join(entries)), tell, trial)
             best, rank = Tried(entries, after), RANK.index(worst(after.checks))
+            better.insert(0, entries)
+            left += trial.work
         except NotBetterError:
             tried.append(in_words(entries))
         except TooLongError:
@@ -204,7 +246,33 @@ def next_step(
         except AbuError:  # the file refuses it
             continue
         left -= trial.work
+        if trial.work:
+            held[entries] = trial.held
     return NextStep(best, tuple(tried), hurried)
+
+
+def _with_pairs(
+    proposals: Iterable[Entries], held: Mapping[Entries, float], better: Sequence[Entries]
+) -> Iterator[Entries]:
+    """Changes, each alone and with the first of those that are `better`, then two of them together.
+
+    The first two are those with which the most start cases `held`.
+    """
+    known = set[frozenset[str]]()
+    for change in proposals:
+        for entries in (change, *(_as_one(each, change) for each in better[:1])):
+            if entries and frozenset(entries) not in known:
+                known.add(frozenset(entries))
+                yield entries
+    for _ in range(MOST_PAIRS):
+        by_held = sorted(filter(held.get, held), key=lambda entries: held[entries], reverse=True)
+        pairs = sorted(combinations(by_held, 2), key=lambda pair: sum(held[each] for each in pair), reverse=True)
+        both = (_as_one(*pair) for pair in pairs)
+        new = next((entries for entries in both if entries and frozenset(entries) not in known), None)
+        if new is None:
+            return
+        known.add(frozenset(new))
+        yield new
 
 
 def in_words(entries: Entries) -> str:
@@ -391,12 +459,13 @@ def proposals(before: Judgement) -> Iterator[Entries]:
     calculated = [overrides(entries) for entries in mended(design)]
     others = dict.fromkeys(check.overrides for check in bad if check.overrides)
     of_starts, codes = [], {check.code for check in bad}
-    steady = steadier(design, before.region.boundaries or ()) if "ABU103" in codes else None
-    if steady is not None:
-        others[overrides({**steady, **pins(design.autobalancer)})] = None
+    steady = steadier(design, before.region.boundaries or ()) if STABLE in codes else None
+    first = () if steady is None else overrides({**steady, **pins(design.autobalancer)})
+    others |= dict.fromkeys([first] if first else ())
     if codes & OF_STARTS and design.frequency.balancing_possible:
         loud = LEVEL.code in codes
-        of_starts = [overrides(entries) for entries in changes_for_starts(before.facts, loud=loud)]
+        changes = map(overrides, changes_for_starts(before.facts, loud=loud))
+        of_starts = [_as_one(first, entries) for entries in changes]  # unstable, all would fail
     yield from together([*calculated[:1], *others], of_starts, calculated[1:])
 
 

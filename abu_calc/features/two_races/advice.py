@@ -8,6 +8,7 @@ from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.judgement import TwoRaceJudgement
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.actions import overrides
+from abu_calc.sizing.vibration import smoother, truer
 from abu_calc.standards.balls import stock_diameters
 
 FACTORS: Final = (2.0, 0.5, 3.0)
@@ -61,31 +62,35 @@ def _larger(design: TwoRaceDesign) -> Iterator[float]:
 
 def _quieter(design: TwoRaceDesign) -> Iterator[dict[str, object]]:
     """Truer races, cleaner races, both; then other drag rates."""
-    given = design.bare.table.autobalancer[0]
-    keys = [key for key in ("race_eccentricity_mm", "rolling_friction_mm") if getattr(given, key) > 0]
     for factor in TRUER:
-        for chosen in (*((key,) for key in keys), tuple(keys)):
-            if chosen:
-                yield {key: _rounded(getattr(given, key) * factor) for key in chosen}
+        entries = _truer(design, factor)
+        yield from ({key: value} for key, value in entries.items())
+        yield entries
     for factor in FACTORS:
         yield {"rolling_drag_per_s": _rounded(design.case.drag * factor)}
+
+
+def _truer(design: TwoRaceDesign, factor: float) -> dict[str, object]:
+    """A less eccentric race with less friction, as far as standard fits and a clean race go."""
+    given, least = design.bare.table.autobalancer[0], max(race.design.eccentricity.least for race in design.races)
+    return {
+        "race_eccentricity_mm": truer(given.race_eccentricity_mm, factor, least),
+        "rolling_friction_mm": smoother(given.rolling_friction_mm, factor),
+    }
 
 
 def _sturdier(design: TwoRaceDesign) -> Iterator[dict[str, object]]:
     """Truer and cleaner races, the next larger ball, more room, a larger share of the mass; then all of them."""
     tables = design.bare.table.autobalancer
     larger = next(_larger(design), None)
-    truer: list[dict[str, object]] = [
-        {key: _rounded(getattr(tables[0], key) * factor) for key in ("race_eccentricity_mm", "rolling_friction_mm")}
-        for factor in TRUER
-    ]
+    races = [_truer(design, factor) for factor in TRUER]
     rooms: list[dict[str, object]] = [
         {key: _rounded(max(getattr(table, key) for table in tables) * factor) for key in ROOM} for factor in ROOMIER
     ]
     heavier: list[dict[str, object]] = [{"max_mass_fraction": share} for share in HEAVIER]
     balls: list[dict[str, object]] = [] if larger is None else [{"ball_diameter_mm": larger}]
-    combined = [{**room, **heavier[-1]} for room in rooms] + [{**truer[0], **rooms[0]}]
-    yield from (*truer, *balls, *rooms, *heavier, *combined)
+    combined = [{**room, **heavier[-1]} for room in rooms] + [{**races[0], **rooms[0]}]
+    yield from (*races, *balls, *rooms, *heavier, *combined)
 
 
 def _rounded(value: float) -> float:

@@ -113,7 +113,7 @@ def _judge(accuracy: float, workers: int) -> Judge:
         tolerance = (TIGHTER if closer else 1.0) * FIRST_TOLERANCE
         return start_once(design, member, accuracy, tolerance, work, early_end=True)
 
-    return Judge(judged, once)
+    return Judge(judged, once, slack=0.0)
 
 
 def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:

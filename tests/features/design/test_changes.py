@@ -97,7 +97,9 @@ def test_oils_are_proposed_by_where_start_cases_fail(
     made = design(oil=oil) if oil else design()
     oils = of(proposed(made, start(made), *(start(made, share, **changed) for share in shares)), "oil.grade")
     rates = [(entries["oil.viscosity_index"], followed(made, entries).case.drag) for entries in oils]
-    assert len(rates) == 2 * MOST_OILS and [index for index, _ in rates] == sorted(index for index, _ in rates)
+    assert max(MOST_OILS) < len(rates) <= sum(MOST_OILS) and [index for index, _ in rates] == sorted(
+        index for index, _ in rates
+    )
     assert any(rate > made.case.drag for _, rate in rates) is more
     assert any(rate < made.case.drag for _, rate in rates) is less
     for (index, rate), (next_index, next_rate) in pairwise(rates):

@@ -18,6 +18,7 @@ from abu_calc.features.design.judgement import TrialWatcher, judge
 from abu_calc.features.design.next_step import (
     LEAST_WORK,
     NUMBERS,
+    PROMISING,
     REPEATED,
     ChangeWatcher,
     Judge,
@@ -43,6 +44,11 @@ from tests.features.design.test_start_rules import DRAG, outcome
 from tests.sizing.machines import BASE, PINNED, machine
 
 KEY = "autobalancer.rolling_drag_per_s"
+FRICTION, RUN_OUT, THICK = (
+    "autobalancer.rolling_friction_mm=0.001",
+    "autobalancer.race_eccentricity_mm=0.005",
+    f"{KEY}=27",
+)
 LIMITS = {"ABU201": 100.0, "ABU203": 8.0, "ABU401": 109.0, "ABU702": 1.0}
 
 
@@ -95,6 +101,14 @@ def never(_: object, member: Member, *__: object, **___: object) -> StartOutcome
     raise AssertionError(member)
 
 
+def not_judged(machine: Machine, *_: object) -> Any:
+    """No machine is judged."""
+    raise AssertionError(machine)
+
+
+NEVER = Judge(not_judged, never)
+
+
 @pytest.mark.parametrize(
     ("before", "after", "best", "calls"),
     [
@@ -127,7 +141,7 @@ def test_a_change_is_taken_if_the_verdict_gets_better_and_no_check_worse(
 
 def test_a_check_that_nobody_asked_for_decides_nothing() -> None:
     before = judged(FAILS)
-    watcher = ChangeWatcher(before, RANK.index("fail"), never)
+    watcher = ChangeWatcher(before, RANK.index("fail"), NEVER)
     watcher.checked([OptionalCheck("ABU407", "handles", "fail", "no direction")])
     with pytest.raises(NotBetterError):
         watcher.checked([Check("ABU407", "handles", "warn", "…")])
@@ -280,7 +294,7 @@ def test_the_worst_start_cases_that_fail_are_repeated_first() -> None:
             ran.append(member)
             return result(member)
 
-        trial = ChangeWatcher(before, RANK.index(grade), once)
+        trial = ChangeWatcher(before, RANK.index(grade), Judge(NEVER.judged, once))
         trial.repeated(thicker)
         return trial
 
@@ -295,15 +309,105 @@ def test_the_worst_start_cases_that_fail_are_repeated_first() -> None:
     assert len(set(ran)) == 1, "the first that still fails ends the trial"
 
 
+@pytest.mark.parametrize(
+    ("values", "grade", "slack", "runs"),
+    [
+        ({"quiet_time": None}, "fail", 0.3, 0),
+        ({"quiet_time": 3.0}, "fail", 0.3, 0),
+        ({"quiet_time": 1.01}, "fail", 0.3, 1),
+        ({"level": 108.9}, "warn", 0.3, 1),
+        ({"level": 108.9}, "warn", 0.0, None),
+        ({"level": 108.9}, "fail", 0.3, None),
+        ({"creeping": True}, "warn", 0.3, 1),
+        ({"creeping": True}, "fail", 0.3, None),
+        ({"quiet_time": 0.9, "level": 108.0}, "warn", 0.3, None),
+    ],
+)
+def test_a_start_case_ends_a_trial_where_a_check_would_warn(
+    values: dict[str, Any], grade: Grade, slack: float, runs: int | None
+) -> None:
+    """Of a change after which all must pass; near its limits it is run again at a tighter tolerance. None: it holds."""
+    design, again = pinned(), list[Member]()
+
+    def once(_: object, member: Member, **__: object) -> StartOutcome:
+        again.append(member)
+        return replace(bad, work=3)
+
+    bad = replace(outcome(Member("spread", design.case.drag)), work=5, **values)
+    before: Any = SimpleNamespace(checks=(), outcomes=(), facts=SimpleNamespace(design=design))
+    trial = ChangeWatcher(before, RANK.index(grade), Judge(not_judged, once, slack))
+    if runs is None:
+        trial.seen(design, bad)
+        assert trial.held == 1 and not again
+        return
+    with pytest.raises(NotBetterError):
+        trial.seen(design, bad)
+    assert len(again) == runs and 0 <= trial.held < 1 and trial.work == 5 + 3 * runs
+
+
+def test_a_trial_that_seems_to_help_may_take_longer() -> None:
+    """Where the start cases that fail as the file is hold with the change."""
+    design = pinned()
+    late, good = (outcome(Member("spread", design.case.drag), quiet_time=time) for time in (1.5, 0.5))
+    for runs, most in (((late, late), PROMISING), ((), 10.0)):
+        before: Any = SimpleNamespace(checks=(), outcomes=runs, facts=SimpleNamespace(design=design))
+        trial = ChangeWatcher(before, RANK.index("fail"), Judge(not_judged, lambda *_, **__: good), 10.0)
+        trial.repeated(design)
+        assert trial.most == most and trial.held == len(runs)
+
+
+def step_of(
+    grades: Mapping[tuple[str, ...], Mapping[str, Grade]], held: Mapping[tuple[str, ...], float], work: int = 1,
+    changes: tuple[tuple[str, ...], ...] = ((FRICTION,), (RUN_OUT,), (THICK,)),
+) -> tuple[NextStep, list[tuple[str, ...]]]:  # fmt: skip
+    """The next step of a machine that fails, and the changes that were tried; those without grades leave it as it is.
+
+    `held`: start cases that hold with a change before it ends.
+    """
+    tried = list[tuple[str, ...]]()
+
+    def judged_with(given: Machine, _: Progress, trial: TrialWatcher) -> Any:
+        entries = tuple(f"{override.key}={override.value}" for override in given.overrides)
+        tried.append(entries)
+        trial.work, trial.held = work, held.get(entries, 0.0)
+        other = judged(grades.get(entries, FAILS))
+        trial.checked(other.checks)
+        return other
+
+    return next_step(abu_calc.read(BASE), judged(FAILS), changes, Judge(judged_with, never), silent), tried
+
+
+def test_two_changes_with_which_most_start_cases_hold_go_together_at_last() -> None:
+    """The best two first, none twice; what held none is left out, and so are two that contradict each other."""
+    held = {(FRICTION,): 2.5, (RUN_OUT,): 0.4, (THICK,): 7.0}
+    both = (THICK, FRICTION)
+    step, tried = step_of({both: PASSES}, held)
+    assert step.best is not None and step.best.entries == both
+    assert tried == [(FRICTION,), (RUN_OUT,), (THICK,), both]
+    _, tried = step_of({}, held)
+    assert tried[3:] == [both, (THICK, RUN_OUT), (FRICTION, RUN_OUT)]
+    _, tried = step_of({}, {(FRICTION,): 1.0})
+    assert len(tried) == 3
+    _, tried = step_of({}, {(THICK,): 1.0, (f"{KEY}=9",): 2.0}, changes=((THICK,), (f"{KEY}=9",)))
+    assert len(tried) == 2
+
+
+def test_changes_are_tried_with_one_that_helps_too() -> None:
+    """Its work is not charged: the others may take as much as without it."""
+    step, tried = step_of({(FRICTION,): WARNS, (FRICTION, THICK): PASSES}, {}, work=int(0.3 * LEAST_WORK))
+    assert step.best is not None and step.best.entries == (FRICTION, THICK)
+    assert tried == [(FRICTION,), (RUN_OUT,), (FRICTION, RUN_OUT), (THICK,), (FRICTION, THICK)]
+
+
 def test_a_trial_ends_before_further_start_cases_where_a_listed_one_warns(monkeypatch: pytest.MonkeyPatch) -> None:
     tables = machine(**PINNED)
     drag = pinned().case.drag
     late = Ensemble(drag, (outcome(Member("spread", drag)), outcome(Member("spread", drag / 3), quiet_time=1.5)), ())
     monkeypatch.setattr(judgement, "simulate_members", lambda *_, **__: late)
     monkeypatch.setattr(judgement, "search", lambda *_, **__: pytest.fail("further start cases were simulated"))
-    before: Any = SimpleNamespace(checks=(), outcomes=())
+    before: Any = SimpleNamespace(checks=(), outcomes=(), facts=SimpleNamespace(design=pinned()))
     with pytest.raises(NotBetterError):
-        judge(tables, 0.01, silent, 1, trial=ChangeWatcher(before, RANK.index("warn"), never))
+        judge(tables, 0.01, silent, 1, trial=ChangeWatcher(before, RANK.index("warn"), NEVER))
 
 
 def at(document: Mapping[str, Any], path: str) -> Any:
