@@ -78,6 +78,8 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
         match block:
             case Heading(text):
                 yield fill(escaped(text), width, 0, HEADING_HANG), "bold"
+            case Paragraph(text, whole=True):
+                yield " " * block.indent + escaped(text), ""
             case Paragraph(text, mark, indent, hang):
                 style = STYLES.get(mark or "", "")
                 yield fill(escaped(text), width, indent, hang), style.removeprefix("bold ") if hang else style

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from typing import Final
 
 from abu_calc.features.design.run_up_figure import amplitude_figure
-from abu_calc.features.design.screen import balls
 from abu_calc.features.design.section_drawing import face_drawing, section_drawing
 from abu_calc.features.design.sheet import arm_sheets
 from abu_calc.features.design.starts import StartView
 from abu_calc.features.design.step_numbers import explanation_blocks
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.summary import size_summary
+from abu_calc.features.design.tables import balls
 from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si

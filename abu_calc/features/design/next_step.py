@@ -330,15 +330,15 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
     """The change with what it does to the number that decides this check, and to all other checks."""
     left = dict.fromkeys(each.code for each in best.after.checks if each.requested and each.status != "pass")
     then = f"Then {' and '.join(left)} still warn{'s' * (len(left) == 1)}." if left else "All checks then pass."
-    found, text = _moved(check, before, best.after), "this check then passes"
+    found, text = _moved(check, before, best.after), f"{check.name} then passes"
     now = next((each for each in best.after.checks if _key(each) == _key(check)), check)
     if check.code in left:
-        text = "this check then warns"
+        text = f"{check.name} then warns"
     elif found is not None:
         number, old, new = found
         text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
     elif check.code not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
-        text = Moved("the value", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
+        text = Moved(f"the {check.name}", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
     oil, rate = getattr(best.after.facts.design.case, "oil", None), ""
     if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
         rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"

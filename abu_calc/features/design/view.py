@@ -5,17 +5,18 @@ from collections.abc import Iterator, Sequence
 from abu_calc.features.design.figures import idle_case, size_charts
 from abu_calc.features.design.oil import OilRecord, oil_blocks
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
-from abu_calc.features.design.screen import (
+from abu_calc.features.design.screen import first_lines
+from abu_calc.features.design.starts import EnsembleResult, FurtherStarts, SettlingOfStart
+from abu_calc.features.design.study import SizeResult
+from abu_calc.features.design.tables import (
     MOST_HANDLES,
-    about,
     balls,
     gap_table,
     handle_tables,
+    make,
     numbers_that_matter,
     section_picture,
 )
-from abu_calc.features.design.starts import EnsembleResult, FurtherStarts, SettlingOfStart
-from abu_calc.features.design.study import SizeResult
 from abu_calc.features.grinding.view import start_blocks
 from abu_calc.features.swing_arm.view import arm_facts, motion_blocks, printed_otherwise
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
@@ -78,9 +79,18 @@ def size_blocks(result: SizeResult) -> tuple[Block, ...]:
 
 
 def _blocks(result: SizeResult) -> tuple[Block, ...]:
+    details = _details(result)
+    contents = " · ".join(block.text for block in details if isinstance(block, Heading))
+    return *first_lines(result), Heading("Contents", "contents"), Paragraph(contents), *details
+
+
+def _details(result: SizeResult) -> tuple[Block, ...]:
+    """From the decision to the reasons."""
     return (
-        *about(result),
-        *numbers_that_matter(result),
+        Heading("Parts", "make"),
+        *make(result),
+        Heading("Levels and times", "levels"),
+        *numbers_that_matter(result)[1:],
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
         *_design(result),
