@@ -101,6 +101,8 @@ def _reason(check: Check) -> str:
     """
     value, limit, code = check.value, check.limit, CHECK_CODES[check.code]
     name = f"{code.fault}{check.name.removeprefix(code.name)}" if code.fault else check.name
+    if value is None and limit is not None and check.unit == "s":
+        return f"{name} (never, at most {limit:g} s)"
     if value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit):
         first = check.message.split(". ")[0]
         further = next((text for text in check.message.split(". ") if text.startswith("Further start cases")), None)
