@@ -168,6 +168,7 @@ def _idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
 
 
 def level_row(label: str, before: float | None, after: float | None, check: Check | None) -> Row:
+    """Row of a level [dB] without and with the autobalancer, None: not known, against the limit of a check."""
     limit = None if check is None else check.limit
     without = "" if before is None else level_in_digits(before)
     if after is None:

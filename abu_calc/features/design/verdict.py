@@ -100,11 +100,13 @@ def _reason(check: Check) -> str:
     What it says of further start cases stands last, and decides where it is said.
     """
     value, limit, code = check.value, check.limit, CHECK_CODES[check.code]
-    name = f"{code.fault}{check.name.removeprefix(code.name)}" if code.fault else check.name
+    named = bool(code.fault) and check.name.startswith(code.name)
+    fault = f"{code.fault}{check.name.removeprefix(code.name)}" if named else check.name
     if value is None and limit is not None and check.unit == "s":
-        return f"{name} (never, at most {limit:g} s)"
+        return f"{fault} (never, at most {limit:g} s)"
     if value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit):
-        first = check.message.split(". ")[0]
-        further = next((text for text in check.message.split(". ") if text.startswith("Further start cases")), None)
-        return f"{name} ({(further or first).rstrip('.')})"
-    return f"{name}{value_and_limit(check)}"
+        sentences = check.message.split(". ")
+        further = next((text for text in sentences if text.startswith("Further start cases")), None)
+        name = fault if check.status == "fail" else check.name
+        return f"{name} ({(further or sentences[0]).rstrip('.')})"
+    return f"{fault}{value_and_limit(check)}"
