@@ -46,7 +46,7 @@ def size_extras(result: SizeResult) -> Extras:
     )  # fmt: skip
     section = next(figure.shown for figure in figures if figure.section == SUMMARY)
     summary = size_summary(result, section.size[1] if isinstance(section, Drawing) else 0.0)
-    held = frozenset({"warnings"}) if summary.whole else frozenset()
+    held = frozenset({"contents", "make", "levels", *(["warnings"] if summary.whole else [])})
     return Extras(figures, explanation_blocks(result)[1:], summary.blocks, held)
 
 

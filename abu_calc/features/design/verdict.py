@@ -23,7 +23,7 @@ MOST_REASONS: Final = 2
 """Most reasons in the sentence; the screen has a line for each."""
 STARTS: Final = ("ABU401", "ABU402", "ABU404", "ABU701", "ABU702", "ABU703", "ABU704")
 FOLLOW: Final[Mapping[str, tuple[str, ...]]] = {
-    "ABU101": ("ABU103", *STARTS), "ABU103": STARTS, "ABU201": STARTS,
+    "ABU101": ("ABU103", *STARTS), "ABU103": STARTS, "ABU201": ("ABU103", "ABU202", *STARTS),
     "ABU701": ("ABU401", "ABU402", "ABU404", "ABU702"),
 }  # fmt: skip
 """Checks that fail because another one does: one fault counts once."""
