@@ -342,6 +342,8 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
     oil, rate = getattr(best.after.facts.design.case, "oil", None), ""
     if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
         rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"
+    if any(entry.partition("=")[0].endswith("rolling_drag_per_s") for entry in best.entries):
+        rate = " (an oil or grease that gives this drag rate)"
     return Action(f"Set {in_words(best.entries)}{rate}: {text} ({SIMULATED}). {then}", best.entries)
 
 
