@@ -1,5 +1,6 @@
 """Verdict of a design in one word and one sentence: whether the machine suits, and what decides it."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Self
 
@@ -109,4 +110,5 @@ def _reason(check: Check) -> str:
         further = next((text for text in sentences if text.startswith("Further start cases")), None)
         name = fault if check.status == "fail" else check.name
         return f"{name} ({(further or sentences[0]).rstrip('.')})"
-    return f"{fault}{value_and_limit(check)}"
+    oil = re.search(r"\((hot|cold) oil", check.message.split(". ")[0])
+    return f"{fault}{f' in {oil[1]} oil' if oil else ''}{value_and_limit(check)}"
