@@ -110,5 +110,5 @@ def _reason(check: Check) -> str:
         further = next((text for text in sentences if text.startswith("Further start cases")), None)
         name = fault if check.status == "fail" else check.name
         return f"{name} ({(further or sentences[0]).rstrip('.')})"
-    oil = re.search(r"\((hot|cold) oil", check.message.split(". ")[0])
+    oil = re.search(r"\((hot|cold) oil", check.message) if check.status == "warn" else None
     return f"{fault}{f' in {oil[1]} oil' if oil else ''}{value_and_limit(check)}"
