@@ -238,12 +238,12 @@ NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
     ),
     "ABU401": (
         Number("vibration.level_after_db", "the expected level", "dB", attrgetter("level_after")),
-        Number("ensemble.level_db.worst", "the loudest start case", "dB", _of_starts(attrgetter("level"))),
+        Number("ensemble.level_db.worst", "the loudest listed start case", "dB", _of_starts(attrgetter("level"))),
         Number("ensemble.further_starts.level_db", "the loudest further start case", "dB",
                _of_starts(loudness, further=True)),
     ),
     "ABU702": (
-        Number("ensemble.quiet_time_s.worst", "the slowest start case", "s", _of_starts(slowness)),
+        Number("ensemble.quiet_time_s.worst", "the slowest listed start case", "s", _of_starts(slowness)),
         Number("ensemble.further_starts.quiet_time_s", "the slowest further start case", "s",
                _of_starts(slowness, further=True)),
     ),

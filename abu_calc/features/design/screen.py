@@ -21,7 +21,7 @@ from abu_calc.features.design.tables import (
 from abu_calc.features.design.verdict import Verdict, faults
 from abu_calc.foundation.checks import Check, Grade, worst
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
-from abu_calc.reporting.parts import WORD
+from abu_calc.reporting.parts import WORD, replaced_entries
 from abu_calc.reporting.screen import BLANK, many
 from abu_calc.simulation.result import Result
 
@@ -29,6 +29,7 @@ LEAST_SHARE: Final = 1e-6
 """Part of the required capacity [g·mm] that is not told."""
 AMPLE: Final = 1.5
 """Capacity over the required one above which the reason is told."""
+REST: Final = "Balls at rest after, s"
 LABEL: Final = 9
 """Columns of the labels at the left."""
 MOST_FAULTS: Final = 3
@@ -58,7 +59,7 @@ Row = tuple[str, str, str, str, str]
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The first screen: `first_lines`, then the verdict once more, and where the rest stands."""
-    return (*first_lines(result), BLANK, *last_lines(result, result.verdict, len(other_notes(result))))
+    return (*first_lines(result), *last_lines(result, result.verdict, len(other_notes(result))))
 
 
 def first_lines(result: SizeResult) -> tuple[Block, ...]:
@@ -68,7 +69,7 @@ def first_lines(result: SizeResult) -> tuple[Block, ...]:
         *unusual_values(result), BLANK,
         *labelled("Make" if result.status == "pass" else "Best", _make(result)), BLANK,
         numbers(result), BLANK, *_runs(result.ensemble), *_assumed(result), *_arm(result),
-        *next_lines(result.verdict, result.checks),
+        *replaced(result), *next_lines(result.verdict, result.checks),
     )  # fmt: skip
 
 
@@ -93,38 +94,40 @@ def labelled(label: str, lines: Sequence[str]) -> list[Block]:
 
 
 def _make(result: SizeResult) -> list[str]:
-    """Balls and race, housing, run-out, what it carries."""
+    """Balls and race, housing, run-outs, what it carries; of what no change mends the balls alone."""
     abu, section, split = result.autobalancer, result.section, result.eccentricity
     groove = "" if abu.groove_radius_mm is None else (
         f", groove R {number(abu.groove_radius_mm, 4)} ± {number(section.groove_tolerance_mm, 1)} mm"
     )  # fmt: skip
     kind = f"{abu.ball_material} {abu.corrector}s"
-    size = f"Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm"
-    bore = f"bore {section.bore_diameter_mm:g} {split.bore_class or section.bore_class}"
-    spindle = "no standard fit holds it" if split.spindle_class is None else f"spindle {split.spindle_class}"
-    return [
+    first = (
         f"{abu.ball_count} {kind} Ø{round(abu.ball_diameter_mm, 3):g} mm{inch(abu)} in a race R "
-        f"{abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm{groove}, {section.hardness}",
-        f"housing {size}, {bore}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g in all, "
+        f"{abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm{groove}, {section.hardness}"
+    )
+    if leave_out(result.verdict):
+        return [first]
+    fit = "without a standard fit" if split.spindle_class is None else f"{split.bore_class} on {split.spindle_class}"
+    return [
+        first,
+        f"housing Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
+        f"{section.bore_diameter_mm:g} {fit}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g, "
         f"{number(100 * abu.mass_fraction, 2)} %",
-        f"race run-out {number(split.race_tir_um, 3)} µm TIR at most (eccentricity {number(split.total_um, 3)} µm, "
-        f"{spindle})",
+        f"run-out at most: race {split.race_tir_um:.3g} µm TIR, spindle {split.spindle_tir_um:.3g} µm TIR "
+        f"(eccentricity {split.total_um:.3g} µm)",
         _capacity(result),
     ]
 
 
 def _capacity(result: SizeResult) -> str:
     """What the balls carry and must carry, and why that is more than the imbalance."""
-    imbalance, bare = result.imbalance_g_mm, result.required_capacity_g_mm
-    own = result.autobalancer.capacity_g_mm
+    bare, own, model = result.required_capacity_g_mm, result.autobalancer.capacity_g_mm, result.model
     limit = next((check.limit for check in result.checks if check.code == "ABU201"), None) or bare
-    parts = f"imbalance {number(imbalance, 3)}"
-    if bare > imbalance + LEAST_SHARE:
-        parts += f" + run-out {number(bare - imbalance, 3)}"
-    if bare and limit > bare:
-        parts = f"{limit / bare:.3g} × ({parts})"
+    named = ("imbalance", result.imbalance_g_mm), ("wheel run-out", model.runout_part_g_mm)
+    parts = [(name, part) for name, part in (*named, ("race", model.eccentricity_part_g_mm)) if part > LEAST_SHARE]
+    needed = " + ".join(f"{name} {part:.3g}" for name, part in parts)
+    margin = f"{limit / bare:.3g} × ({needed})" if bare and limit > bare else needed
     large = "; larger balls roll more easily" if own > AMPLE * limit else ""
-    return f"carries {number(own, 3)} g·mm, {parts} required{large}"
+    return f"carries {own:.4g} g·mm {'≥' if own >= limit else '<'} {margin}{large}"
 
 
 def numbers(result: SizeResult) -> Grid:
@@ -146,7 +149,7 @@ def numbers(result: SizeResult) -> Grid:
 def number_table(rows: Sequence[Row], checks: Sequence[Check]) -> Grid:
     """Rows of levels and times, none a pass where the balls do not balance; then checks that these do not show."""
     if any(check.status == "fail" for check in checks if check.code in NOT_IN_BALANCE):
-        rows = [(*row[:4], "" if row[4] == "pass" else row[4]) for row in rows]
+        rows = [(*row[:4], "" if row[4] == "pass" else row[4]) for row in rows if row[0] != REST]
     return Grid(("Vibration, dB", "without", "with", "limit", ""), (*rows, *fault_rows(checks)), frozenset({1, 2, 3}))
 
 
@@ -219,7 +222,7 @@ def _grinding(result: SizeResult) -> Iterator[Row]:
     settled = "not known" if after is None else level_in_digits(after)
     yield "Grinding, pressed when quiet", without, settled, "", _louder(after, before)
     if after is not None and early is not None and early > after + TENTH:
-        yield "  pressed earlier", "", level_in_digits(early), "", _louder(early, before)
+        yield "  pressed earlier (not judged)", "", level_in_digits(early), "", _louder(early, before)
 
 
 def _louder(level: float | None, before: float | None) -> str:
@@ -244,13 +247,13 @@ def time_rows(
     creeps = WORD[check.status] if late and check is not None else ""
     return [
         (label, "", _seconds(slowest, limit), told, _grade(slowest, check)),
-        ("Balls at rest after, s", "", _seconds(rested), "", creeps),
+        (REST, "", _seconds(rested), "", creeps),
     ]
 
 
-def _seconds(time: float, limit: float | None = None) -> str:
+def _seconds(time: float | None, limit: float | None = None) -> str:
     """A time in digits that show on which side of its limit it lies."""
-    if math.isinf(time):
+    if time is None or math.isinf(time):
         return "never"
     digits = 3 if limit is not None and f"{time:.2f}" == f"{limit:.2f}" and time > limit else 2
     return f"{time:.{digits}f}"
@@ -288,11 +291,11 @@ def _runs(many_starts: EnsembleResult | None) -> list[Block]:
         low, high = ends.get(row.key, (row.low, row.high))
         ends[row.key] = min(low, row.low), max(high, row.high)
     named = [
-        f"{name} {' … '.join(number(factor * end, 3) for end in ends.pop(key))} {unit}"
+        f"{name} {' … '.join(f'{factor * end:.3g}' for end in ends.pop(key))} {unit}"
         for key, (name, factor, unit) in RUN_NAMES.items() if key in ends
     ]  # fmt: skip
-    others = ", and others as usual" if ends else ""
-    over = f" over {', '.join(named)}{others}" if named else " at the values of the file"
+    others = "; friction, speed, suspension as usual" if ends else ""
+    over = f": {', '.join(named)}{others}" if named else " at the values of the file"
     return labelled("Runs", [f"{many(many_starts.runs, 'start case')}{over}"])
 
 
@@ -300,36 +303,50 @@ def _assumed(result: SizeResult) -> list[Block]:
     """The assumed value that moves the verdict most, and what to do about it."""
     for text in result.warnings:
         if INERTIA in text and "Measure" in text:
-            return labelled("Assumed", [f"a point mass. {text[text.index('Measure') :].partition(': --set')[0]}"])
+            said = text[text.index("Measure") :].partition(": --set")[0]
+            return labelled("Assumed", [f"a point mass. {said.replace('machine.', '').replace(' at the wheel', '')}"])
     if not result.data_gaps:
         return []
     gap = result.data_gaps[0]
-    return labelled("Assumed", [f"{_moves(gap)} {TODO.get(gap.key, '')}".rstrip()])
+    limit = next((check.limit for check in result.checks if check.code == "ABU401"), None)
+    return labelled(
+        "Assumed", [f"{_moves(gap, math.inf if limit is None else limit)} {TODO.get(gap.key, '')}".rstrip()]
+    )
 
 
-def _moves(gap: DataGap) -> str:
-    low, high = gap.usual_range
-    moved = [f"expected {_ends(gap.level_db, '{:.1f}')} dB"] if gap.level_db[0] != gap.level_db[1] else []
-    if gap.quiet_time_s is not None and gap.quiet_time_s[0] != gap.quiet_time_s[1]:
-        moved.append(f"quiet after {_ends(gap.quiet_time_s, '{:.2f}')} s")
-    gives = f" At {low:g} … {high:g}, as usual: {', '.join(moved)}." if moved else ""
-    return f"{gap.key.rpartition('.')[2]} = {gap.value:g}.{gives}"
+def _moves(gap: DataGap, limit: float = math.inf) -> str:
+    """What both ends of the usual range give, beside the limit of the level [dB] where one exceeds it."""
 
+    def at(end: int) -> str:
+        time = None if gap.quiet_time_s is None or gap.key != DRAG else gap.quiet_time_s[end]
+        quiet = "" if gap.quiet_time_s is None or gap.key != DRAG else f"quiet after {_seconds(time)} s"
+        level = f"{gap.level_db[end]:.1f} dB" if gap.level_db[0] != gap.level_db[1] else ""
+        return f"{level or quiet or 'no change'} at {gap.usual_range[end]:g}"
 
-def _ends(values: Sequence[float | None], layout: str) -> str:
-    low, high = ("never" if value is None else layout.format(value) for value in values)
-    return f"{low} … {high}"
+    beyond = f", limit {limit:g} dB" if max(gap.level_db) > limit else ""
+    return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {at(0)}, {at(1)}{beyond}."
 
 
 def next_lines(verdict: Verdict, checks: Sequence[Check]) -> list[Block]:
     """The change that was tried with what it does, and the command that makes it; nothing for what suits."""
     if verdict.next is None:
-        return labelled("Next", ["leave the autobalancer out"]) if verdict.word == "does-not-suit" else []
+        return labelled("Next", ["leave the autobalancer out"]) if leave_out(verdict) else []
     tried = [
         check for grade in ("fail", "not-done", "warn") for check in checks if check.status == grade and check.overrides
     ]
-    text = [tried[0].remedy or ""] if tried else []
-    return [*labelled("Next", text or [""]), Paragraph(verdict.next, whole=True)]
+    promised = (tried[0].remedy or "").partition(": ")[2] if tried else ""
+    return [*labelled("Next", [promised]), Paragraph(verdict.next, whole=True)]
+
+
+def replaced(result: Result) -> list[Block]:
+    """Entries that the command replaced, to be written into the file."""
+    entries = replaced_entries(result.provenance)
+    return labelled("Replaced", [f"{'; '.join(entries)}. Write into the file what shall stay."]) if entries else []
+
+
+def leave_out(verdict: Verdict) -> bool:
+    """True if the machine does not suit and no change was found."""
+    return verdict.word == "does-not-suit" and verdict.next is None
 
 
 def last_lines(result: Result, verdict: Verdict, notes: int = 0) -> list[Block]:

@@ -9,7 +9,7 @@ from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, velocity_from_level
 from abu_calc.reporting.blocks import number
-from abu_calc.reporting.parts import replaced_entries, value_and_limit
+from abu_calc.reporting.parts import replaced_entries
 from abu_calc.simulation.result import Provenance
 
 WORDS: Final[dict[Grade, str]] = {
@@ -25,7 +25,7 @@ MOST_REASONS: Final = 2
 STARTS: Final = ("ABU401", "ABU402", "ABU404", "ABU701", "ABU702", "ABU703", "ABU704")
 FOLLOW: Final[Mapping[str, tuple[str, ...]]] = {
     "ABU101": ("ABU103", *STARTS), "ABU103": STARTS, "ABU201": ("ABU103", "ABU202", *STARTS),
-    "ABU701": ("ABU401", "ABU402", "ABU404", "ABU702"),
+    "ABU701": ("ABU401", "ABU402", "ABU404", "ABU702"), "ABU401": ("ABU702",),
 }  # fmt: skip
 """Checks that fail because another one does: one fault counts once."""
 LEAST_BENEFIT: Final = 3.0
@@ -111,4 +111,11 @@ def _reason(check: Check) -> str:
         name = fault if check.status == "fail" else check.name
         return f"{name} ({(further or sentences[0]).rstrip('.')})"
     oil = re.search(r"\((hot|cold) oil", check.message) if check.status == "warn" else None
-    return f"{fault}{f' in {oil[1]} oil' if oil else ''}{value_and_limit(check)}"
+    return f"{fault}{f' in {oil[1]} oil' if oil else ''} ({_beside(check, value, limit)})"
+
+
+def _beside(check: Check, value: float, limit: float) -> str:
+    """The value with its unit, and the limit, in digits that tell them apart."""
+    digits = next((each for each in range(3, 9) if number(value, each) != number(limit, each)), 8)
+    unit = f" {check.unit}" if check.unit else ""
+    return f"{number(value, digits)}{unit}, at {check.bound} {number(limit, digits)}"

@@ -20,11 +20,11 @@ def init(
     how: Delivery,
     file: Annotated[Path, typer.Argument(metavar="FILE", help="New file, ending in .toml.")],
     layout: Annotated[str | None, option("--layout NAME", "straight, angle or face.", MACHINE)] = None,
-    wheel: Annotated[float | None, option("--wheel MM", "Diameter of the wheel.", MACHINE)] = None,
-    mass: Annotated[float | None, option("--mass KG", "Mass without wheel and cable.", MACHINE)] = None,
-    speed: Annotated[float | None, option("--speed RPM", "Rated speed of the spindle.", MACHINE)] = None,
+    wheel: Annotated[str | None, option("--wheel MM", "Diameter of the wheel.", MACHINE)] = None,
+    mass: Annotated[str | None, option("--mass KG", "Mass without wheel and cable.", MACHINE)] = None,
+    speed: Annotated[str | None, option("--speed RPM", "Rated speed of the spindle.", MACHINE)] = None,
     room: Annotated[str | None, option("--room ØxWIDTH", "Room for the autobalancer, mm.", MACHINE)] = None,
-    level: Annotated[float | None, option("--level DB", "Idle level measured without it.", MACHINE)] = None,
+    level: Annotated[str | None, option("--level DB", "Idle level measured without it.", MACHINE)] = None,
     handle: Annotated[
         list[str] | None, option("--handle NAME=x,y,z", "Handle, from the centre of mass, mm; repeatable.", MACHINE)
     ] = None,
@@ -95,7 +95,7 @@ def _short(answers: tuple[Any, ...]) -> str:
 
     def ask(words: str, usual: str) -> str:
         """An answer from the terminal; the usual one where none is given."""
-        return str(typer.prompt(words, default=usual, show_default=bool(usual), err=True))
+        return str(typer.prompt(f"{words} [{usual}]" if usual else words, default="", show_default=False, err=True))
 
     text = machine_text(*completed(Answers(*answers), ask if sys.stdin.isatty() else None))
     read(text)

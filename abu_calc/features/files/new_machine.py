@@ -20,21 +20,22 @@ ECCENTRIC: Final = ((9000.0, 0.006), (0.0, 0.010))
 """Eccentricity of a ground race [mm], from a speed [rpm] on; assumed."""
 ROOM: Final = re.compile(r"Ø?\s*([\d.]+)\s*[x×X*]\s*([\d.]+)\s*(?:mm)?")
 HANDLE: Final = re.compile(r"\s*([^=]+?)\s*=\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*")
+UNITS: Final = {"wheel": "mm", "mass": "kg", "speed": "rpm", "level": "dB"}
 COLUMN: Final = 34
 """Column in which comments begin."""
 
 
 class Answers(NamedTuple):
-    """What the options give: layout, mass [kg], speed [rpm], wheel diameter [mm], room of the autobalancer as text,
-    measured idle level [dB], handles as texts; None: not given.
+    """What the options give as texts: layout, wheel diameter [mm], mass [kg], speed [rpm], room of the balls [mm],
+    measured idle level [dB], handles; None: not given.
     """
 
     layout: str | None
-    wheel: float | None
-    mass: float | None
-    speed: float | None
+    wheel: str | None
+    mass: str | None
+    speed: str | None
     room: str | None
-    level: float | None
+    level: str | None
     handles: Sequence[str]
 
 
@@ -100,16 +101,32 @@ def completed(answers: Answers, ask: Callable[[str, str], str] | None) -> tuple[
         )  # fmt: skip
     usual = set[str]()
     for question in QUESTIONS:
-        if question.option not in given and ask is not None and (missing or question.needed):
-            proposed = question.usual(given)
-            answer = ask(question.words, proposed).strip()
-            if answer:
-                given[question.option] = [answer] if question.option == "handle" else answer
-            if answer == proposed:
-                usual.add(question.option)
-        if question.option in given:
-            given[question.option] = _checked(question.option, given[question.option])
+        option = question.option
+        if option in given:
+            given[option] = _checked(option, given[option])
+        elif ask is not None and missing:
+            given |= _asked(question, given, ask, usual)
     return given, frozenset(usual)
+
+
+def _asked(
+    question: Question, given: Mapping[str, Any], ask: Callable[[str, str], str], usual: set[str]
+) -> dict[str, Any]:
+    """The answer to a question, asked again until it is one; an empty one is the usual one, or none."""
+    proposed, words = question.usual(given), question.words
+    while True:
+        typed = ask(words, proposed).strip()
+        if not (typed or proposed):
+            return {}
+        answer: Any = typed or proposed
+        try:
+            checked = _checked(question.option, [answer] if question.option == "handle" else answer)
+        except InputError as error:
+            words = f"{str(error).splitlines()[0]}. {question.words}"
+            continue
+        if not typed:
+            usual.add(question.option)
+        return {question.option: checked}
 
 
 def _checked(option: str, value: Any) -> Any:
@@ -133,12 +150,11 @@ def _checked(option: str, value: Any) -> Any:
                 raise InputError("a name and three lengths are needed", place=place, found=text,
                                  allowed="NAME=x,y,z in mm, as side=62,120,-8")  # fmt: skip
         return [(match[1], [float(match[k]) for k in (2, 3, 4)]) for _, match in handles if match is not None]
-    try:
-        number = float(value)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number) or number <= 0:
-        raise InputError("a number above zero is needed", place=place, found=str(value))
+    unit = UNITS[option]
+    match = re.fullmatch(rf"([\d.]+(?:e\d+)?)\s*(?:{re.escape(unit)})?", str(value).strip(), re.IGNORECASE)
+    number = float(match[1]) if match is not None and match[1].count(".") < 2 else math.nan
+    if not (math.isfinite(number) and number > 0):
+        raise InputError("a number above zero is needed", place=place, found=str(value), allowed=f"a number in {unit}")
     return number
 
 

@@ -44,7 +44,7 @@ def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
 def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     """The first screen: verdict, what to make, the deciding numbers, the next command, the verdict once more."""
     notes = len(result.warnings)
-    return (*_first_lines(result), BLANK, *last_lines(result, result.verdict, notes))
+    return (*_first_lines(result), *last_lines(result, result.verdict, notes))
 
 
 def _first_lines(result: TwoRaceSizeResult) -> tuple[Block, ...]:
