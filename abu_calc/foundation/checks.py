@@ -43,6 +43,8 @@ class CheckCode:
     name: str
     question: str
     action: str
+    fault: str = ""
+    """What is wrong where it is not passed, in a few words; empty: the name says it."""
     pass_if: str = ""
     warn_if: str = ""
     fail_if: str = ""

@@ -98,13 +98,14 @@ class Heading(NamedTuple):
 class Paragraph(NamedTuple):
     """Running text, wrapped to the width there is; `mark` sets it off (pass, warn, fail, not-done, warning).
 
-    `hang`: by how much lines but the first are indented more.
+    `hang`: by how much lines but the first are indented more; `whole`: a command on one line, however long it is.
     """
 
     text: str
     mark: str | None = None
     indent: int = 2
     hang: int = 0
+    whole: bool = False
 
 
 class Facts(NamedTuple):

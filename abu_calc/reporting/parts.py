@@ -55,11 +55,12 @@ def value_of(record: Record, name: str) -> str:
     return shown(type(record), name, getattr(record, name))
 
 
-def check_blocks(checks: Sequence[Check]) -> list[Block]:
-    """All checks as a table; those that did not simply pass with their reasons and remedies below."""
+def check_blocks(checks: Sequence[Check], *, with_reasons: bool = True) -> list[Block]:
+    """All checks as a table; `with_reasons`: those that did not simply pass with reasons and remedies below."""
     rows = tuple((WORD[check.status], check.code, check.name, _value(check), limit_of(check)) for check in checks)
     table = Grid(("", "code", "check", "value", "limit"), rows, frozenset({3}))
-    return [Heading("Checks", "checks"), table, *reasons(checks), *not_requested(checks)]
+    below = [*reasons(checks), *not_requested(checks)] if with_reasons else []
+    return [Heading("Checks", "checks"), table, *below]
 
 
 def reasons(checks: Iterable[Check]) -> list[Paragraph]:

@@ -4,18 +4,17 @@ Parts without room are counted, never left out in silence.
 """
 
 from bisect import bisect_right
-from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import Final
 
-from abu_calc.foundation.checks import Check, verdict_words
+from abu_calc.foundation.checks import verdict_words
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.parts import not_requested, told, unlike, warning_lines, without_entries
 from abu_calc.reporting.text import height
 from abu_calc.simulation.result import Result
 
-LINES: Final = 48
+LINES: Final = 40
 """Lines of one screen, at 80 columns."""
 LEAST: Final = 8
 """Lines kept for the warnings and for the body, where others ask for all."""
@@ -36,8 +35,8 @@ def one_screen(
     First come the checks that did not pass, then the body, then the warnings; each as far as there is room. In the
     lines that are left then, `picture` draws what it can, below the body.
     """
-    passed = [Paragraph(_passed(result.checks))] if result.checks else []
-    last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
+    verdict = [block for block in about[1:2] if isinstance(block, Paragraph) and result.checks]
+    last: list[Block] = [BLANK, *verdict, Paragraph(_next(result, more))]
     optional = not_requested(result.checks)
     if LINES - height([*about, *optional, *last]) >= 2 * LEAST:  # else the whole report alone lists them
         last[1:1] = optional
@@ -132,20 +131,6 @@ def many(count: int, name: str, plural: str | None = None) -> str:
     ('1 check', '2 entries')
     """
     return f"{count} {name if count == 1 else plural or f'{name}s'}"
-
-
-ONE_LINE: Final = 78
-"""Most letters of a list of codes that are written out."""
-
-
-def _passed(checks: Iterable[Check]) -> str:
-    """The codes of the checks that passed, in a line; how often, where several things were checked."""
-    codes = Counter(check.code for check in checks if check.status == "pass")
-    names = [code if times == 1 else f"{code} ({times})" for code, times in sorted(codes.items())]
-    text = f"Passed checks: {', '.join(names) or 'none'}."
-    if len(text) <= ONE_LINE:
-        return text
-    return f"Passed checks: {names[0]}, {', '.join(name.removeprefix('ABU') for name in names[1:])}."
 
 
 def _next(result: Result, more: Sequence[str]) -> str:

@@ -33,7 +33,7 @@ HEADING_HANG = 6
 FACT_WIDTHS = (35, 17)
 """Label and symbol: the same in every block, so that values stand in one column; they take the rest of the line."""
 
-BEFORE_UNIT = re.compile(r"(?<=\d) (?=(?:g·mm|1/s|mm|Hz|rpm|dB|µm|MPa|kg|[sNgW%])(?!\w))")
+BEFORE_UNIT = re.compile(r"(?<=±) |(?<=\d) (?=±|(?:g·mm|1/s|mm|Hz|rpm|dB|µm|MPa|kg|[sNgW%])(?!\w))")
 """Blanks at which no line is broken."""
 TIE = "\u00a0"
 
@@ -78,6 +78,8 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
         match block:
             case Heading(text):
                 yield fill(escaped(text), width, 0, HEADING_HANG), "bold"
+            case Paragraph(text, whole=True):
+                yield " " * block.indent + escaped(text), ""
             case Paragraph(text, mark, indent, hang):
                 style = STYLES.get(mark or "", "")
                 yield fill(escaped(text), width, indent, hang), style.removeprefix("bold ") if hang else style

@@ -129,7 +129,7 @@ def test_no_report_names_a_file_that_is_not_there() -> None:
 
 def test_a_valid_file_counts_its_defaults(tmp_path: Path) -> None:
     file = tmp_path / "new.toml"
-    assert abu("init", str(file)).status == 0
+    assert abu("init", "--all-keys", str(file)).status == 0
     assert "valid, 1 default used" in flat(abu("validate", str(file)).out)
     hands = file.read_text("utf-8").replace('model = "springs"', 'model = "hands"')
     file.write_text(hands, encoding="utf-8")

@@ -56,10 +56,11 @@ def test_the_verdict_counts_checks_and_warnings() -> None:
     assert verdict_line(sample("pass"), "Nothing was judged").text == "Nothing was judged"
 
 
-def test_passed_checks_stand_in_one_line_and_the_first_open_one_is_explained() -> None:
-    text = as_text(one_screen(sample("pass", "fail", "pass"), [Heading("sample")]))
-    assert "Passed checks: ABU401, ABU403." in text and "`abu explain ABU402`" in text
-    assert "Passed" not in as_text(one_screen(sample(), [Heading("sample")]))
+def test_the_verdict_stands_at_the_top_and_at_the_end_and_the_first_open_check_is_explained() -> None:
+    result = sample("pass", "fail", "pass")
+    text = as_text(one_screen(result, [Heading("sample"), verdict_line(result)]))
+    assert text.count("FAIL: 2 of 3 checks pass") == 2 and "`abu explain ABU402`" in text
+    assert "FAIL" not in as_text(one_screen(sample(), [Heading("sample")]))
 
 
 def test_reasons_that_fill_the_screen_leave_their_entries_to_the_report() -> None:

@@ -21,7 +21,7 @@ MARKS: Final = {
     "plain-dop853": "P", "plain-rk45": "K",
 }  # fmt: skip
 WIDTH: Final = 58
-HEIGHT: Final = 16
+HEIGHT: Final = 11
 
 ABOUT: Final = (
     "Errors are against the reference, with every effect that has data. Amplitude: relative to the larger of itself "

@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 from typing import Final
 
-from abu_calc.features.design.run_up_figure import amplitude_figure
-from abu_calc.features.design.screen import balls
+from abu_calc.dynamics.scene import Scene
 from abu_calc.features.design.section_drawing import face_drawing, section_drawing
 from abu_calc.features.design.sheet import arm_sheets
 from abu_calc.features.design.starts import StartView
 from abu_calc.features.design.step_numbers import explanation_blocks
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.summary import size_summary
+from abu_calc.features.design.tables import balls
 from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si
@@ -18,8 +18,10 @@ from abu_calc.registry import imported
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
 from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, caught, level, settling
+from abu_calc.reporting.charts.run_up_chart import run_up_chart
 from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.parts import value_of
+from abu_calc.simulation.run_up_amplitude import Course, both_courses
 
 SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
 ROOM: Final = 130.0
@@ -44,7 +46,7 @@ def size_extras(result: SizeResult) -> Extras:
     )  # fmt: skip
     section = next(figure.shown for figure in figures if figure.section == SUMMARY)
     summary = size_summary(result, section.size[1] if isinstance(section, Drawing) else 0.0)
-    held = frozenset({"warnings"}) if summary.whole else frozenset()
+    held = frozenset({"contents", "make", "levels", *(["warnings"] if summary.whole else [])})
     return Extras(figures, explanation_blocks(result)[1:], summary.blocks, held)
 
 
@@ -324,3 +326,28 @@ def _costs(result: SizeResult) -> Iterator[Figure]:
 def _limit(result: SizeResult, code: str) -> tuple[float, str] | None:
     limit = next((check.limit for check in result.checks if check.code == code and check.limit is not None), None)
     return None if limit is None else (limit, f"limit {number(limit)} dB")
+
+
+RUN_UP_ACCURACY: Final = 0.02
+"""Accuracy of the two runs that are drawn."""
+
+
+def amplitude_figure(scene: Scene, section: str, case: str = "") -> Iterator[Figure]:
+    """The figure of a scene that runs up; none if neither run can be trusted. `case`: start case in words."""
+    with_balls, bare = (_in_user_units(course) for course in both_courses(scene, RUN_UP_ACCURACY))
+    if not with_balls and not bare:
+        return
+    where = "at the race" if scene.races else "of the spindle"
+    first = f"{case}: largest" if case else "Largest"
+    missing = "" if with_balls or not scene.races else " No trustworthy run with balls."
+    missing += "" if bare else " No trustworthy run without balls."
+    caption = (
+        f"{first} displacement {where} in each revolution against speed, with balls "
+        "and without. Balls do not help below the natural frequencies. At full speed they settle: the curve falls "
+        f"there.{missing}"
+    )
+    yield Figure("run-up-amplitude", section, run_up_chart(with_balls, bare, "without balls"), caption)
+
+
+def _in_user_units(course: Course) -> list[tuple[float, float]]:
+    return [(from_si(speed, "rpm"), from_si(amplitude, "um")) for speed, amplitude in course]

@@ -330,12 +330,12 @@ NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
     ),
     "ABU401": (
         Number("vibration.level_after_db", "the expected level", "dB", attrgetter("level_after")),
-        Number("ensemble.level_db.worst", "the loudest start case", "dB", _of_starts(attrgetter("level"))),
+        Number("ensemble.level_db.worst", "the loudest listed start case", "dB", _of_starts(attrgetter("level"))),
         Number("ensemble.further_starts.level_db", "the loudest further start case", "dB",
                _of_starts(loudness, further=True)),
     ),
     "ABU702": (
-        Number("ensemble.quiet_time_s.worst", "the slowest start case", "s", _of_starts(slowness)),
+        Number("ensemble.quiet_time_s.worst", "the slowest listed start case", "s", _of_starts(slowness)),
         Number("ensemble.further_starts.quiet_time_s", "the slowest further start case", "s",
                _of_starts(slowness, further=True)),
     ),
@@ -429,18 +429,20 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
     """The change with what it does to the number that decides this check, and to all other checks."""
     left = dict.fromkeys(each.code for each in best.after.checks if each.requested and each.status != "pass")
     then = f"Then {' and '.join(left)} still warn{'s' * (len(left) == 1)}." if left else "All checks then pass."
-    found, text = _moved(check, before, best.after), "this check then passes"
+    found, text = _moved(check, before, best.after), f"{check.name} then passes"
     now = next((each for each in best.after.checks if _key(each) == _key(check)), check)
     if check.code in left:
-        text = "this check then warns"
+        text = f"{check.name} then warns"
     elif found is not None:
         number, old, new = found
         text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
     elif check.code not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
-        text = Moved("the value", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
+        text = Moved(f"the {check.name}", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
     oil, rate = getattr(best.after.facts.design.case, "oil", None), ""
     if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
         rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"
+    if any(entry.partition("=")[0].endswith("rolling_drag_per_s") for entry in best.entries):
+        rate = " (an oil or grease that gives this drag rate)"
     return Action(f"Set {in_words(best.entries)}{rate}: {text} ({SIMULATED}). {then}", best.entries)
 
 

@@ -1,571 +1,356 @@
-"""First screen of `abu size`: verdict, what to make, levels, quiet times, actions, data gap, next commands."""
+"""First screen of `abu size`: does the machine suit, what to make, the deciding numbers, what to do next."""
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Final, NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Final
 
-from abu_calc.features.design.data_gaps import DRAG, RANGES, DataGap
-from abu_calc.features.design.records import AutobalancerRecord, Vibration
-from abu_calc.features.design.section_drawing import legend, section_lines
-from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
+from abu_calc.features.design.data_gaps import DRAG, DataGap
+from abu_calc.features.design.starts import EnsembleResult
 from abu_calc.features.design.study import SizeResult
-from abu_calc.features.swing_arm.view import arm_bounds, arm_line, short_advice
-from abu_calc.foundation.checks import RANK, Check
-from abu_calc.foundation.units import to_si
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, level_text, number
-from abu_calc.reporting.parts import WORD, SaidSentences, file_of, paste_lines, unlike, value_and_limit
-from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by, verdict_line
-from abu_calc.reporting.text import height
-from abu_calc.simulation.vibration_records import HandleLevels
-from abu_calc.sizing.case import WHEEL_PLANE
-from abu_calc.sizing.vibration import decibels
-from abu_calc.standards.balls import inch_size
+from abu_calc.features.design.tables import (
+    INERTIA,
+    LOUDER,
+    TENTH,
+    highest_first,
+    inch,
+    level_in_digits,
+    other_notes,
+    title_with_speed,
+    unusual_values,
+)
+from abu_calc.features.design.verdict import Verdict, faults
+from abu_calc.foundation.checks import Check, Grade, worst
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.parts import WORD, replaced_entries
+from abu_calc.reporting.screen import BLANK, many
+from abu_calc.simulation.result import Result
 
-INERTIA: Final = "modelled as a point mass"
-"""Words of the warning that a machine has no inertia; it is the first note."""
+LEAST_SHARE: Final = 1e-6
+"""Part of the required capacity [g·mm] that is not told."""
+AMPLE: Final = 1.5
+"""Capacity over the required one above which the reason is told."""
+REST: Final = "Balls at rest after, s"
+LABEL: Final = 9
+"""Columns of the labels at the left."""
+MOST_FAULTS: Final = 3
+"""Checks with a row of their own, beside those that the table shows."""
+SHOWN: Final = frozenset({"ABU401", "ABU404", "ABU702"})
+"""Checks that the rows of the table show."""
+NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU701"})
+"""Checks without which no value of a table is a pass."""
+TODO: Final = {
+    "autobalancer.race_eccentricity_mm": "Specify the run-out that the shop holds.",
+    "autobalancer.rolling_friction_mm": "Find it: `abu measure-plan`, `abu identify`.",
+    DRAG: "Name the oil: oil.grade, oil.viscosity_index, oil.fill_ml.",
+    "suspension.natural_frequencies_hz": "Measure how the machine is held.",
+    "suspension.damping_ratios": "Measure how the machine is held.",
+}
+"""What to do about an assumed value."""
+RUN_NAMES: Final = {
+    "autobalancer.race_eccentricity_mm": ("race eccentricity", 1e3, "µm"),
+    "wheel.imbalance_g_mm": ("imbalance", 1.0, "g·mm"),
+    "autobalancer.rolling_drag_per_s": ("drag rate", 1.0, "1/s"),
+}
+"""Names of varied values that are told, with factors and units."""
 
-MOST_KEPT: Final = 14
-"""Most lines that the tables leave to the actions."""
-
-LEAST_NOTES: Final = 3
-"""Room in lines that is not worth a heading and a note."""
-
-MOST_HANDLES: Final = 2
-"""Handles on the screen: those with the highest weighted acceleration."""
-
-LEAST_SHOWN: Final = 0.005
-"""Weighted acceleration [m/s²] that two decimals still show."""
-
-WITHOUT: Final = "Idle, without autobalancer"
-EXPECTED: Final = "  expected, manufacture and friction"
-LOUDER: Final = "LOUDER THAN WITHOUT"
-"""Labels of cases of the idle level, and the grade of a case under load."""
-
-LONGEST_NAME: Final = 10
-"""Letters of a handle's name in the table."""
-
-TENTH: Final = 0.05
-"""Difference of two levels [dB] that are printed alike, or nearly."""
-
-
-class TableCase(NamedTuple):
-    """One case of a table: its label, its number as text, its limit and its grade."""
-
-    label: str
-    value: str
-    limit: str = ""
-    grade: str = ""
+Row = tuple[str, str, str, str, str]
+"""Label, without, with, limit, grade."""
 
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
-    """The report on one screen: tables first, then actions, then notes as far as there is room."""
-    about = [Heading(title_with_speed(result)), verdict_line(result), *unusual_values(result), *small_benefit(result)]
-    about += arm_line(short_advice(result.swing_arm.advice)) if result.swing_arm else []
-    tables = numbers_that_matter(result)
-    body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
-    groups = action_groups(result.checks, marked(tables))
-    heads = [group[0] for group in groups]
-    notes = point_mass(result) + other_notes(result)
-    last = _closing(result, len(notes), len(result.data_gaps))
-    room = LINES - height([*about, *last])
-    body = cut(body, room - min(MOST_KEPT, 3 + taken_by(heads)) if heads else room)
-    room -= height(body)
-    below: list[Block] = []
-    if heads:
-        codes = [[check.code for check in alike] for alike in unlike(result.checks)]
-        actions = [block for group in groups for block in group]
-        shown = actions if 2 + taken_by(actions) <= room else fitted(heads, codes, room - 2)
-        below += [Heading("Actions", "actions"), *shown]
-    hidden = len(result.data_gaps)
-    for count in range(len(result.data_gaps), 0, -1):  # the fewer are hidden, the shorter are the last lines
-        table = [BLANK, *gap_table(result.data_gaps[:count])]
-        closing = _closing(result, len(notes), hidden - count)
-        if height([*about, *body, *below, *table, *closing]) <= LINES:
-            below, last, hidden = [*below, *table], closing, hidden - count
-            break
-    room = LINES - height([*about, *body, *below, *last])
-    fitting = fitted(notes, [], room - 2) if notes and room > LEAST_NOTES else []
-    if fitting and fitting[0] is notes[0]:  # a heading over nothing but a count says less than the last lines
-        below += [Heading("Notes", "warnings"), *fitting]
-        last = _closing(result, 0, hidden)
-    return (*about, *body, *below, *last)
+    """The first screen: `first_lines`, then the verdict once more, and where the rest stands."""
+    return (*first_lines(result), *last_lines(result, result.verdict, len(other_notes(result))))
 
 
-def title_with_speed(result: SizeResult) -> str:
-    """Name of the machine with its rated speed."""
-    return f"{result.title}, {result.model.speed_rad_per_s * 30 / math.pi:.6g} rpm"
-
-
-LEAST_BENEFIT: Final = 3.0
-"""Reduction of the expected idle level [dB] below which the first screen names it."""
-
-
-def small_benefit(result: SizeResult) -> list[Block]:
-    """A line if the autobalancer is expected to lower the idle level but little; nothing otherwise."""
-    before, after = result.vibration.level_before_db, result.vibration.level_after_db
-    if before is None or after is None or (lowered := before - after) >= LEAST_BENEFIT:
-        return []
-    if lowered <= TENTH:
-        return [Paragraph("The autobalancer is not expected to lower the idle level.", "warn")]
-    text = f"The autobalancer is expected to lower the idle level by {lowered:.1f} dB only."
-    return [Paragraph(f"{text} `abu explain budget` explains what remains.", "warn")]
-
-
-def arm_change(result: SizeResult) -> list[Block]:
-    """The line that says what to change on a swing arm; nothing without one."""
-    return arm_line(result.swing_arm.advice) if result.swing_arm else []
-
-
-def about(result: SizeResult) -> list[Block]:
-    """First lines of the whole report: title, verdict, what to make."""
-    return [Heading(result.title), verdict_line(result), *small_benefit(result), *arm_change(result), BLANK,
-            *make(result)]  # fmt: skip
-
-
-def _eccentricity(result: SizeResult) -> str:
-    """The total that the simulation uses, run-outs of race and spindle, and the fit."""
-    split = result.eccentricity
-    fit = "no standard fit" if split.bore_class is None else f"{split.bore_class}/{split.spindle_class}"
+def first_lines(result: SizeResult) -> tuple[Block, ...]:
+    """Verdict, what to make, the deciding numbers with their limits, what was assumed, the next command."""
     return (
-        f"{number(split.total_um, 3)} µm at most: race TIR {number(split.race_tir_um, 3)} µm, {fit}, spindle TIR "
-        f"{number(split.spindle_tir_um, 3)} µm"
+        Heading(title_with_speed(result)), verdict_paragraph(result.verdict, result.checks),
+        *unusual_values(result), BLANK,
+        *labelled("Make" if result.status == "pass" else "Best", _make(result)), BLANK,
+        numbers(result), BLANK, *_runs(result.ensemble), *_assumed(result), *_arm(result),
+        *replaced(result), *next_lines(result.verdict, result.checks),
+    )  # fmt: skip
+
+
+def verdict_words(verdict: Verdict) -> str:
+    """The verdict as its sentence begins, in capitals: no verdict is told by its colour alone.
+
+    >>> verdict_words(Verdict(word="does-not-suit", sentence="Does not suit: …", next=None, promise=None))
+    'DOES NOT SUIT'
+    """
+    return verdict.word.replace("-but", ", but").replace("-", " ").upper()
+
+
+def verdict_paragraph(verdict: Verdict, checks: Sequence[Check]) -> Paragraph:
+    """The sentence, its first words in capitals."""
+    words = verdict_words(verdict)
+    return Paragraph(f"{words}{verdict.sentence[len(words) :]}", worst(checks))
+
+
+def labelled(label: str, lines: Sequence[str]) -> list[Block]:
+    """Lines beside a label."""
+    return [Paragraph(f"{label if k == 0 else '':<{LABEL}}{line}", hang=LABEL) for k, line in enumerate(lines)]
+
+
+def _make(result: SizeResult) -> list[str]:
+    """Balls and race, housing, run-outs, what it carries; of what no change mends the balls alone."""
+    abu, section, split = result.autobalancer, result.section, result.eccentricity
+    groove = "" if abu.groove_radius_mm is None else (
+        f", groove R {number(abu.groove_radius_mm, 4)} ± {number(section.groove_tolerance_mm, 1)} mm"
+    )  # fmt: skip
+    kind = f"{abu.ball_material} {abu.corrector}s"
+    first = (
+        f"{abu.ball_count} {kind} Ø{round(abu.ball_diameter_mm, 3):g} mm{inch(abu)} in a race R "
+        f"{abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm{groove}, {section.hardness}"
     )
+    if leave_out(result.verdict):
+        return [first]
+    fit = "without a standard fit" if split.spindle_class is None else f"{split.bore_class} on {split.spindle_class}"
+    return [
+        first,
+        f"housing Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
+        f"{section.bore_diameter_mm:g} {fit}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g, "
+        f"{number(100 * abu.mass_fraction, 2)} %",
+        f"run-out at most: race {split.race_tir_um:.3g} µm TIR, spindle {split.spindle_tir_um:.3g} µm TIR "
+        f"(eccentricity {split.total_um:.3g} µm)",
+        _capacity(result),
+    ]
 
 
-def make(result: SizeResult) -> list[Block]:
-    """Parts to make or buy, in a few rows."""
-    abu, section = result.autobalancer, result.section
-    title = "Make" if result.status == "pass" else "Best found"
-    share = f"{number(100 * abu.mass_fraction, 2)} % of the machine"
-    capacity = _required(result)
-    groove = abu.groove_radius_mm
-    shape = "" if groove is None else (
-        f"groove R {number(groove, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, "
-    )  # fmt: skip
-    rows = (
-        TableCase("Balls", f"{balls(abu)}{_inch(abu)}, {abu.ball_material}"
-                  f"{'' if abu.corrector == 'ball' else f' {abu.corrector}s'}"),
-        TableCase(
-            "Race",
-            f"R {abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm, {shape}{section.hardness}",
-        ),
-        TableCase(
-            "Housing",
-            f"{abu.housing.split(':')[0]}, Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
-            f"{section.bore_diameter_mm:g} mm {section.bore_class}",
-        ),
-        TableCase("Eccentricity", _eccentricity(result)),
-        TableCase("Capacity", f"{number(abu.capacity_g_mm, 5)} g·mm ({capacity})"),
-        TableCase("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
-    )  # fmt: skip
-    return [Grid((title, ""), tuple((row.label, row.value) for row in rows))]
+def _capacity(result: SizeResult) -> str:
+    """What the balls carry and must carry, and why that is more than the imbalance."""
+    bare, own, model = result.required_capacity_g_mm, result.autobalancer.capacity_g_mm, result.model
+    limit = next((check.limit for check in result.checks if check.code == "ABU201"), None) or bare
+    named = ("imbalance", result.imbalance_g_mm), ("wheel run-out", model.runout_part_g_mm)
+    parts = [(name, part) for name, part in (*named, ("race", model.eccentricity_part_g_mm)) if part > LEAST_SHARE]
+    needed = " + ".join(f"{name} {part:.3g}" for name, part in parts)
+    margin = f"{limit / bare:.3g} × ({needed})" if bare and limit > bare else needed
+    large = "; larger balls roll more easily" if own > AMPLE * limit else ""
+    return f"carries {own:.4g} g·mm {'≥' if own >= limit else '<'} {margin}{large}"
 
 
-def _required(result: SizeResult) -> str:
-    """Required capacity with its margin, and the imbalance, of which it is the larger part."""
-    needed, bare = _needed(result), result.required_capacity_g_mm
-    margin = f"{needed / bare:.3g} × {number(bare, 5)}" if bare and needed > bare else number(needed, 5)
-    return f"required: {margin}; imbalance {number(result.imbalance_g_mm, 4)}"
-
-
-def _needed(result: SizeResult) -> float:
-    """Required capacity times its margin [g·mm], as ABU201 judges it."""
-    check = next((check for check in result.checks if check.code == "ABU201"), None)
-    return result.required_capacity_g_mm if check is None or check.limit is None else check.limit
-
-
-def _most(result: SizeResult, code: str) -> str:
-    check = next((check for check in result.checks if check.code == code), None)
-    return "" if check is None or check.limit is None else f" (limit {check.limit:g} {check.unit or ''})"
-
-
-def numbers_that_matter(result: SizeResult) -> list[Block]:
-    """Levels and quiet times, case by case, with limit and grade."""
-    numbers = {check.code: k for k, alike in enumerate(unlike(result.checks), 1) for check in alike}
+def numbers(result: SizeResult) -> Grid:
+    """Levels, accelerations and times, each with its limit and grade; then checks that these do not show."""
     checks = {check.code: check for check in result.checks}
-    levels, settling = _levels(result, checks, numbers), _settling(result, checks, numbers)
-    place = _place(result.vibration)
-    vibration = _table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels)
-    tables = [_with_weighted(vibration, result.vibration), *handle_tables(result, numbers)]
-    if settling:
-        tables.append(_table("Quiet time, s", "time", settling))
-    return [block for table in tables for block in (BLANK, table)]
-
-
-def _with_weighted(table: Grid, vibration: Vibration) -> Grid:
-    """The table of levels with the weighted acceleration of the loudest axis beside those calculated.
-
-    Without handles no other table shows it. Rows that are louder than without leave no room for it.
-    """
-    places = vibration.handles
-    axes = places[0].axes or () if [place.name for place in places] == [WHEEL_PLANE] else ()
-    before = max((axis.a_h_before_m_per_s2 or 0.0 for axis in axes), default=0.0)
-    after = max((axis.a_h_after_m_per_s2 or 0.0 for axis in axes), default=0.0)
-    if before < LEAST_SHOWN or any(row[-1] == LOUDER for row in table.rows):
-        return table
-    shown = {WITHOUT: _acceleration(before), EXPECTED: _acceleration(after)}
-    rows = tuple((label, level, shown.get(label, ""), *others) for label, level, *others in table.rows)
-    title, column, *limit = table.header
-    return Grid((title, column, "a_h, m/s²", *limit), rows, frozenset({1, 2, 3}))
-
-
-def handle_tables(result: SizeResult, numbers: Mapping[str, int], most: int = MOST_HANDLES) -> list[Grid]:
-    """Idle levels and weighted accelerations of the handles, axis by axis; nothing if all places move alike.
-
-    `most`: how many handles are shown, those with the highest vector total.
-    """
-    handles = [] if result.body.kind == "point mass" else result.vibration.handles
-    if [handle.name for handle in handles] == [WHEEL_PLANE]:
-        return []
-    shown = sorted(handles, key=_total, reverse=True)[:most]
-    check = next((check for check in result.checks if check.code == "ABU404"), None)
-    rows = [row for handle in handles if handle in shown for row in _handle_rows(handle, check, numbers)]
-    title = "Handles, idle" if len(handles) == len(shown) else f"{len(shown)} of {len(handles)} handles"
-    head: tuple[str, ...] = (title, "x, dB", "a_h", "y, dB", "a_h", "z, dB", "a_h", "a_hv, m/s²")
-    count = len(head)
-    if check is not None:
-        head = (*head, "" if check.limit is None else f"≤ {_acceleration(check.limit)}")
-    return [Grid(head, tuple(row[: len(head)] for row in rows), frozenset(range(1, count + 1)))] if rows else []
-
-
-def _total(handle: HandleLevels) -> float:
-    after = handle.a_hv_after_m_per_s2
-    return (handle.a_hv_before_m_per_s2 or 0.0) if after is None else after
-
-
-def _handle_rows(handle: HandleLevels, check: Check | None, numbers: Mapping[str, int]) -> list[tuple[str, ...]]:
-    """Rows of one handle: without the autobalancer, with it, and the band that an estimated inertia leaves."""
-    axes = handle.axes or ()
-    without = [(axis.level_before_db, axis.a_h_before_m_per_s2) for axis in axes]
-    fitted = [(axis.level_after_db, axis.a_h_after_m_per_s2) for axis in axes]
-
-    def cells(values: Sequence[tuple[float | None, float | None]]) -> tuple[str, ...]:
-        return tuple(cell for level, weighted in values for cell in (_tenth(level), _acceleration(weighted)))
-
-    name = handle.name if len(handle.name) <= LONGEST_NAME else f"{handle.name[: LONGEST_NAME - 1]}…"
-    rows: list[tuple[str, ...]] = [(f"{name}, without", *cells(without), _acceleration(handle.a_hv_before_m_per_s2))]
-    if handle.level_after_db is not None:
-        after = handle.a_hv_after_m_per_s2
-        decides = check is not None and after == check.value
-        rows.append(
-            ("  with", *cells(fitted), _acceleration(after), _graded(after, check, numbers, decides=decides)[1])
-        )
-    if handle.a_hv_after_band_m_per_s2 is not None:
-        low, high = map(_acceleration, handle.a_hv_after_band_m_per_s2)
-        rows.append(("    95 % band", *[""] * 6, f"{low}…{high}"))
-    return [row + ("",) * (9 - len(row)) for row in rows]
-
-
-def _tenth(level: float | None) -> str:
-    """A level; a dash where it is not known, or an axis is at rest."""
-    return f"{level:.1f}" if level else "–"
-
-
-def _acceleration(value: float | None) -> str:
-    """A weighted acceleration; a dash where it is not known, or too small to show."""
-    if value is None or value < LEAST_SHOWN:
-        return "–"
-    return number(value, 3) if value >= 1 else f"{value:.2f}"
-
-
-def _table(title: str, column: str, cases: Sequence[TableCase]) -> Grid:
-    return Grid((title, column, "limit", ""), tuple(tuple(case) for case in cases), frozenset({1, 2}))
-
-
-def marked(blocks: Sequence[Block]) -> frozenset[int]:
-    """Numbers of the actions to which the tables point: their cases stand there with number and limit."""
-    cells = [row[-1] for block in blocks if isinstance(block, Grid) for row in block.rows]
-    return frozenset(int(cell.split()[-1]) for cell in cells if cell.startswith(("WARN ", "FAIL ")))
-
-
-def _graded(value: float | None, check: Check | None, numbers: Mapping[str, int], *, decides: bool) -> tuple[str, str]:
-    """Limit and grade of one case; `decides`: whether it fails the check or only warns."""
-    if check is None or check.limit is None:
-        return "", ""
-    limit = number(check.limit, 3)
-    if value is not None and value <= check.limit:
-        return limit, "pass"
-    word = "FAIL" if decides and check.status == "fail" else "WARN"
-    return limit, f"{word} {numbers[check.code]}" if check.code in numbers else ""
-
-
-def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[TableCase]:
-    vibration, many_starts, check = result.vibration, result.ensemble, checks.get("ABU401")
-    cases = [TableCase(WITHOUT, _db(vibration.level_before_db))]
-
-    def judged(label: str, level: float | None, *, decides: bool) -> TableCase:
-        limit = None if check is None else check.limit
-        text = _db(level) if level is None or level < 0 or limit is None else decibels(level, limit).removesuffix(" dB")
-        return TableCase(label, text, *_graded(level, check, numbers, decides=decides))
-
+    many_starts = result.ensemble
+    rows = [*_idle(result, checks.get("ABU401")), *_handles(result, checks.get("ABU404")), *_other_speeds(result),
+            *_grinding(result)]  # fmt: skip
     if many_starts is not None:
-        cases.append(judged("Idle, with: median of the start cases", many_starts.predicted_level_db, decides=True))
+        further = many_starts.further_starts
+        times, rests = [many_starts.quiet_time_s.worst], [many_starts.rest_time_s.worst]
+        if further is not None:
+            times, rests = [*times, further.quiet_time_s], [*rests, further.rest_time_s]
+        rare = None if further is None else math.inf if further.rare_quiet_time_s is None else further.rare_quiet_time_s
+        rows += time_rows(times, rests, rare, checks.get("ABU702"))
+    return number_table(rows, result.checks)
+
+
+def number_table(rows: Sequence[Row], checks: Sequence[Check]) -> Grid:
+    """Rows of levels and times, none a pass where the balls do not balance; then checks that these do not show."""
+    if any(check.status == "fail" for check in checks if check.code in NOT_IN_BALANCE):
+        rows = [(*row[:4], "" if row[4] == "pass" else row[4]) for row in rows if row[0] != REST]
+    return Grid(("Vibration, dB", "without", "with", "limit", ""), (*rows, *fault_rows(checks)), frozenset({1, 2, 3}))
+
+
+def _idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
+    """Idle level: as expected, and of the loudest start case."""
+    vibration, many_starts = result.vibration, result.ensemble
     over_range = [entry.level_after_db for entry in vibration.by_speed or ()]
     expected = max((level for level in (vibration.level_after_db, *over_range) if level is not None), default=None)
-    cases.append(judged(EXPECTED, expected, decides=True))
-    if many_starts is not None and many_starts.level_db.worst is not None:
-        loudest = many_starts.level_db.worst
-        if expected is None or loudest > expected + TENTH:
-            label = f"  loudest of {many(many_starts.members, 'start case')}, any oil"
-            cases.append(judged(label, loudest, decides=check is not None and check.status == "fail"))
-    further = None if many_starts is None else many_starts.further_starts
-    if further is not None and check is not None and check.limit is not None and further.level_db > check.limit:
-        label = f"  loudest of {many(further.members, 'further start case')}"
-        cases.append(judged(label, further.level_db, decides=check.status == "fail"))
-    if vibration.worst_arrangement is not None:
-        bound = result.friction_bound
-        label = "  bound of friction" + (f": {bound.reached_within_1_db} of {bound.runs} runs near" if bound else "")
-        worst, upright = vibration.worst_arrangement, vibration.worst_arrangement_vertical
-        cases.append(TableCase(label, _db(worst.level_after_db)))
-        if upright is not None and upright.level_after_db >= worst.level_after_db + TENTH:
-            cases.append(TableCase("    spindle held vertical", _db(upright.level_after_db)))
-    cases += _measured(result)
-    if (new := result.new_wheel) is not None:
-        least = number(new.break_even_imbalance_g_mm, 3)
-        cases.append(TableCase(f"New wheel: balls help above {least} g·mm", _db(new.level_db)))
-    return [*cases, *_at_idle_speed(result), *_under_load(result.vibration_loaded)]
+    before = vibration.level_before_db
+    yield level_row(f"Idle, {vibration.place}, expected", before, expected, check)
+    levels = [] if many_starts is None else [many_starts.level_db.worst]
+    if many_starts is not None and many_starts.further_starts is not None:
+        levels.append(many_starts.further_starts.level_db)
+    loudest = max((level for level in levels if level is not None), default=None)
+    if many_starts is not None and loudest is not None and (expected is None or loudest > expected + TENTH):
+        *cells, grade = level_row(f"  loudest of {many(many_starts.runs, 'start case')}", None, loudest, check)
+        label, without, after, limit = cells
+        yield label, without, after, limit, _louder(loudest, before) or grade
 
 
-def _at_idle_speed(result: SizeResult) -> list[TableCase]:
-    """Levels at the motor's idle speed, if that is not the rated speed."""
-    idle = result.vibration.at_idle_speed
-    if idle is None:
-        return []
-    label = f"At the motor's idle speed, {idle.speed_rpm:.0f} rpm"
-    return [
-        TableCase(f"{label}, without", _db(idle.level_before_db)),
-        TableCase(f"{label}, expected", _db(idle.level_after_db) or "none"),
-    ]
-
-
-def _measured(result: SizeResult) -> list[TableCase]:
-    after = result.measured_after
+def level_row(label: str, before: float | None, after: float | None, check: Check | None) -> Row:
+    """Row of a level [dB] without and with the autobalancer, None: not known, against the limit of a check."""
+    limit = None if check is None else check.limit
+    without = "" if before is None else level_in_digits(before)
     if after is None:
-        return []
-    level = after.measured.removesuffix(" dB") if after.unit == "dB" else f"{after.measured_level_db:.1f}"
-    place = "" if after.place == _place(result.vibration) else f", {after.place}"
-    if after.difference_db is None:
-        return [TableCase(f"  measured{place}", level)]
-    distance = f"{abs(after.difference_db):.1f} dB {'above' if after.difference_db >= 0 else 'below'} median"
-    return [TableCase(f"  measured{place}: {distance}", level)]
+        return label, without, "–", "" if limit is None else f"{limit:g}", _grade(None, check)
+    return label, without, level_in_digits(after, limit), "" if limit is None else f"{limit:g}", _grade(after, check)
 
 
-def _under_load(loaded: Vibration | None) -> list[TableCase]:
+def _grade(value: float | None, check: Check | None) -> str:
+    """Grade of a value that a check limits: beyond the limit it only warns if the check does."""
+    if value is None or check is None or check.limit is None:
+        return ""
+    return "pass" if value <= check.limit else WORD["warn" if check.status in ("pass", "warn") else "fail"]
+
+
+def _handles(result: SizeResult, check: Check | None) -> Iterator[Row]:
+    """Weighted acceleration of the handles that shake most."""
+    shown, more = highest_first(result)
+    for handle in shown:
+        before, after = handle.a_hv_before_m_per_s2, handle.a_hv_after_m_per_s2
+        limit = "" if check is None or check.limit is None else f"{check.limit:.3g}"
+        cells = ("" if value is None else f"{value:.2f}" for value in (before, after))
+        first, second = cells
+        yield (
+            f"Handle {handle.name}, a_hv in m/s²"[:40],
+            first,
+            second,
+            limit,
+            "" if after is None else _grade(after, check),
+        )
+    if more > 0:
+        yield f"  {many(more, 'more handle')}: --full", "", "", "", ""
+
+
+def _other_speeds(result: SizeResult) -> Iterator[Row]:
+    idle = result.vibration.at_idle_speed
+    if idle is not None:
+        before, after = (level_in_digits(level) for level in (idle.level_before_db, idle.level_after_db))
+        yield f"Motor idle, {idle.speed_rpm:.0f} rpm, expected", before, after, "", ""
+
+
+def _grinding(result: SizeResult) -> Iterator[Row]:
     """Levels at the workpiece; a face works as it idles, so that it has none."""
+    loaded = result.vibration_loaded
     if loaded is None or loaded.at_once_stays is None:
-        return []
+        return
     before, after, early = loaded.level_before_db, loaded.level_after_db, loaded.level_at_once_db
-    cases = [
-        TableCase("Grinding, without autobalancer", _db(before) or "not known"),
-        TableCase("Grinding, with: pressed after settling", _db(after) or "not known", "", _louder(after, before)),
-    ]
+    without = "not known" if before is None else level_in_digits(before)
+    settled = "not known" if after is None else level_in_digits(after)
+    yield "Grinding, pressed when quiet", without, settled, "", _louder(after, before)
     if after is not None and early is not None and early > after + TENTH:
-        cases.append(TableCase("  pressed earlier", _db(early), "", _louder(early, before)))
-    starts = loaded.starts
-    known = max((level for level in (after, early) if level is not None), default=None)
-    if starts is not None and starts.worst_db is not None and known is not None and starts.worst_db > known + TENTH:
-        label = f"  loudest of {many(starts.count, 'start case')}"
-        cases.append(TableCase(label, _db(starts.worst_db), "", _louder(starts.worst_db, before)))
-    return cases
+        yield "  pressed earlier (not judged)", "", level_in_digits(early), "", _louder(early, before)
 
 
 def _louder(level: float | None, before: float | None) -> str:
-    louder = level is not None and before is not None and level > before
-    return LOUDER if louder else ""
+    return LOUDER if level is not None and before is not None and level > before else ""
 
 
-def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[TableCase]:
-    many_starts, check = result.ensemble, checks.get("ABU702")
-    if many_starts is None:
-        return []
-    given = result.model.drag_per_s
+def time_rows(
+    quiet: Sequence[float | None], rest: Sequence[float | None], rare: float | None, check: Check | None
+) -> list[Row]:
+    """Quiet and rest time of the slowest start case [s], None: never.
 
-    def judged(label: str, time: float | None, *, decides: bool) -> TableCase:
-        return TableCase(label, _seconds(time), *_graded(time, check, numbers, decides=decides))
-
-    cases = [judged("Median of the start cases", many_starts.quiet_time_s.typical, decides=True)]
-    by_drag: dict[float, list[SettlingOfStart]] = {}
-    for entry in many_starts.settling_by_start:
-        by_drag.setdefault(entry.drag_per_s, []).append(entry)
-    slowest_by_drag = {drag: max(entries, key=_time_of) for drag, entries in by_drag.items()}
-    others = [drag for drag in slowest_by_drag if drag != given]
-    # A file from the template gives the default.
-    usual = DRAG in dict(result.provenance.defaults) or given == RANGES[DRAG].assumed
-    oils = _oils(result, "default" if usual else "as given")
-    shown = [given] * (given in slowest_by_drag)
-    shown += [max(others, key=lambda drag: _time_of(slowest_by_drag[drag]))] if others else []
-    for drag in shown:
-        slowest = slowest_by_drag[drag]
-        oil = oils[0] if drag == given else oils[1] if drag < given else oils[2]
-        label = f"Slowest, drag rate {number(drag, 3)} 1/s {oil}: {slowest.start}"
-        cases.append(judged(label, slowest.quiet_time_s, decides=drag == given))
+    `rare`: the quiet time that one of 1000 exceeds, which is told if it alone is late.
+    """
+    slowest, rested = (
+        max((math.inf if time is None else time for time in times), default=0.0) for times in (quiet, rest)
+    )
+    label, limit = "Quiet after, s: slowest start", None if check is None else check.limit
+    late = check is not None and check.status != "pass" and limit is not None and slowest <= limit
+    if late and rare is not None and limit is not None and rare > limit:
+        slowest, label, late = rare, "Quiet after, s: one start of 1000", False
+    told = "" if limit is None else f"{limit:.2f}"
+    creeps = WORD[check.status] if late and check is not None else ""
     return [
-        *cases,
-        *(
-            judged(label, time, decides=check is not None and check.status == "fail")
-            for label, time in _late_ones(many_starts.further_starts, check)
-        ),
-        TableCase("Rest time (the balls keep their places), slowest", _seconds(many_starts.rest_time_s.worst)),
+        (label, "", _seconds(slowest, limit), told, _grade(slowest, check)),
+        (REST, "", _seconds(rested), "", creeps),
     ]
 
 
-def _oils(result: SizeResult, given: str) -> tuple[str, str, str]:
-    """The oil at work, hot and cold in words; `given`: for a drag rate that is not by the oil."""
-    if result.oil is None:
-        return given, "hot oil", "cold oil"
-    cold, work, hot = (f"{each.temperature_C:g} °C" for each in result.oil.temperatures)
-    return given if result.oil.overridden else f"oil {work}", f"hot oil {hot}", f"cold oil {cold}"
+def _seconds(time: float | None, limit: float | None = None) -> str:
+    """A time in digits that show on which side of its limit it lies."""
+    if time is None or math.isinf(time):
+        return "never"
+    digits = 3 if limit is not None and f"{time:.2f}" == f"{limit:.2f}" and time > limit else 2
+    return f"{time:.{digits}f}"
 
 
-def _late_ones(further: FurtherStarts | None, check: Check | None) -> list[tuple[str, float | None]]:
-    """Quiet time of the slowest further start case, or that estimated of one of 1000 if it alone is over the limit."""
-    if further is None or check is None or check.limit is None:
+def fault_rows(checks: Sequence[Check]) -> list[Row]:
+    """Checks that are not passed and that no other row shows, each in a row with its value and limit."""
+    grades: tuple[Grade, ...] = ("fail", "not-done", "warn")
+    bad = [check for grade in grades for check in faults(checks, grade) if check.code not in SHOWN]
+    rows = [_fault_row(check) for check in bad[:MOST_FAULTS]]
+    more = len(bad) - MOST_FAULTS
+    return rows + ([(f"{many(more, 'more check')}: --full", "", "", "", "")] if more > 0 else [])
+
+
+def _fault_row(check: Check) -> Row:
+    unit = f", {check.unit}" if check.unit else ""
+    value = "" if check.value is None else number(check.value, 4)
+    sign = "" if check.bound == "most" else "≥ "
+    limit = "" if check.limit is None else f"{sign}{number(check.limit, 4)}"
+    return f"{check.name}{unit if value else ''}", "", value, limit, WORD[check.status]
+
+
+def _arm(result: SizeResult) -> list[Block]:
+    """What is not as it should be with a swing arm."""
+    arm = result.swing_arm
+    return [] if arm is None or arm.advice.startswith("nothing") else labelled("Arm", [arm.advice])
+
+
+def _runs(many_starts: EnsembleResult | None) -> list[Block]:
+    """What the start cases cover, promised values first."""
+    if many_starts is None:
         return []
-    slowest = f"Slowest of {many(further.members, 'further start case')}, over the band", further.quiet_time_s
-    rare = further.rare_quiet_time_s
-    kept = further.quiet_time_s is not None and further.quiet_time_s <= check.limit
-    late = kept and (rare is None or rare > check.limit)
-    return [("One start case of 1000, estimated", rare) if late else slowest]
+    ends = dict[str, tuple[float, float]]()
+    for row in many_starts.band:
+        low, high = ends.get(row.key, (row.low, row.high))
+        ends[row.key] = min(low, row.low), max(high, row.high)
+    named = [
+        f"{name} {' … '.join(f'{factor * end:.3g}' for end in ends.pop(key))} {unit}"
+        for key, (name, factor, unit) in RUN_NAMES.items() if key in ends
+    ]  # fmt: skip
+    others = "; friction, speed, suspension as usual" if ends else ""
+    over = f": {', '.join(named)}{others}" if named else " at the values of the file"
+    return labelled("Runs", [f"{many(many_starts.runs, 'start case')}{over}"])
 
 
-def _time_of(entry: SettlingOfStart) -> float:
-    return math.inf if entry.quiet_time_s is None else entry.quiet_time_s
-
-
-def action_groups(checks: Sequence[Check], in_tables: frozenset[int]) -> list[list[Paragraph]]:
-    """Checks that did not simply pass, numbered, each with its action and the entries to paste.
-
-    `in_tables`: numbers whose case stands in a table above; if these have an action, it alone is printed.
-    """
-    groups, printed, said = list[list[Paragraph]](), set[tuple[str, ...]](), SaidSentences()
-    for k, alike in enumerate(unlike(checks), 1):
-        first = alike[0]
-        todo = said.unsaid(first.remedy or "", first.overrides)
-        codes = ", ".join(check.code for check in alike[:3]) + (f" and {len(alike) - 3} more" * (len(alike) > 3))
-        start = f"{k} {WORD[first.status]} {codes}"
-        if k in in_tables and todo:
-            text = f"{start}: {todo}"
-        else:
-            action = f" Action: {todo}" if todo else ""
-            text = f"{start} {first.name}{value_and_limit(first)}: {first.message}.{action}"
-        lines = [Paragraph(text, first.status, hang=2)]
-        if first.overrides not in printed:
-            lines += paste_lines(first.overrides)
-            printed.add(first.overrides)
-        groups.append(lines)
-    return groups
-
-
-def gap_table(gaps: Sequence[DataGap]) -> list[Block]:
-    """Assumed values, ranked, with levels and quiet times at both ends of their usual range; nothing without any."""
-    if not gaps:
+def _assumed(result: SizeResult) -> list[Block]:
+    """The assumed value that moves the verdict most, and what to do about it."""
+    for text in result.warnings:
+        if INERTIA in text and "Measure" in text:
+            said = text[text.index("Measure") :].partition(": --set")[0]
+            return labelled("Assumed", [f"a point mass. {said.replace('machine.', '')}"])
+    if not result.data_gaps:
         return []
-    head = ("Data gap and its usual range", "expected, dB", "quiet time, s")
-    rows = tuple(
-        (
-            f"{gap.key.rpartition('.')[2]} {_ends(gap.usual_range, '{:g}')}",
-            _ends(gap.level_db, "{:.1f}"),
-            "" if gap.quiet_time_s is None else _ends(gap.quiet_time_s, "{:.2f}"),
-        )
-        for gap in gaps
+    gap = result.data_gaps[0]
+    limit = next((check.limit for check in result.checks if check.code == "ABU401"), None)
+    return labelled(
+        "Assumed", [f"{_moves(gap, math.inf if limit is None else limit)} {TODO.get(gap.key, '')}".rstrip()]
     )
-    return [Grid(head, rows, frozenset({1, 2}))]
 
 
-def _ends(values: tuple[float | None, float | None], layout: str) -> str:
-    low, high = ("never" if value is None else layout.format(value) for value in values)
-    return low if low == high else f"{low} … {high}"
+def _moves(gap: DataGap, limit: float = math.inf) -> str:
+    """What both ends of the usual range give, beside the limit of the level [dB] where one exceeds it."""
+
+    def at(end: int) -> str:
+        time = None if gap.quiet_time_s is None or gap.key != DRAG else gap.quiet_time_s[end]
+        quiet = "" if gap.quiet_time_s is None or gap.key != DRAG else f"quiet after {_seconds(time)} s"
+        level = f"{gap.level_db[end]:.1f} dB" if gap.level_db[0] != gap.level_db[1] else ""
+        return f"{level or quiet or 'no change'} at {gap.usual_range[end]:g}"
+
+    beyond = f", limit {limit:g} dB" if max(gap.level_db) > limit else ""
+    return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {at(0)}, {at(1)}{beyond}."
 
 
-def point_mass(result: SizeResult) -> list[Paragraph]:
-    """The note on a machine without inertia: it moves the numbers most, so that it comes first."""
-    return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA in text]
+def next_lines(verdict: Verdict, checks: Sequence[Check]) -> list[Block]:
+    """The change that was tried with what it does, and the command that makes it; nothing for what suits."""
+    if verdict.next is None:
+        return labelled("Next", ["leave the autobalancer out"]) if leave_out(verdict) else []
+    tried = [
+        check for grade in ("fail", "not-done", "warn") for check in checks if check.status == grade and check.overrides
+    ]
+    promised = (tried[0].remedy or "").partition(": ")[2] if tried else ""
+    return [*labelled("Next", [promised]), Paragraph(verdict.next, whole=True)]
 
 
-def other_notes(result: SizeResult) -> list[Paragraph]:
-    """Warnings beside the missing data and the unusual values."""
-    return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA not in text and UNUSUAL not in text]
+def replaced(result: Result) -> list[Block]:
+    """Entries that the command replaced, to be written into the file."""
+    entries = replaced_entries(result.provenance)
+    return labelled("Replaced", [f"{'; '.join(entries)}. Write into the file what shall stay."]) if entries else []
 
 
-UNUSUAL: Final = " is unusual"
-"""Words of every warning about a value of the file that lies outside its usual range."""
-MOST_UNUSUAL: Final = 2
-"""Most such warnings on the first screen."""
+def leave_out(verdict: Verdict) -> bool:
+    """True if the machine does not suit and no change was found."""
+    return verdict.word == "does-not-suit" and verdict.next is None
 
 
-def unusual_values(result: SizeResult, most: int | None = MOST_UNUSUAL) -> list[Block]:
-    """Values that may be slips of a unit, which stand beside the verdict that they decide; `most` None: all of them."""
-    texts = [text for text in result.warnings if UNUSUAL in text]
-    shown: list[Block] = [Paragraph(f"! {text}", "warn", hang=2) for text in texts[:most]]
-    more = len(texts) - len(shown)
-    return [*shown, Paragraph(f"! {many(more, 'more unusual value')}: --full.", "warn")] if more else shown
-
-
-def starts_and_defaults(result: SizeResult) -> str:
-    """Start cases that balance, the motor's idle speed and the number of defaults, in sentences."""
-    starts, used = result.ensemble, len(result.provenance.defaults)
-    sentences = list[str]()
-    if starts is not None:
-        count = many(starts.members, "start case")
-        balance = (
-            f"All {count} balance" if starts.balanced == starts.members else f"{starts.balanced} of {count} balance"
-        )
-        stall = "no ball stalls" if not starts.hanging else f"balls stall in {starts.hanging}"
-        sentences.append(f"{balance}; {stall}.")
-    if result.idle_speed_rpm is not None:
-        sentences.append(f"The motor idles at {result.idle_speed_rpm:.0f} rpm.")
-    if used:
-        sentences.append(f"{many(used, 'default')} used.")
-    if converted := len(result.provenance.converted):
-        sentences.append(f"{many(converted, 'value')} converted.")
-    return " ".join(sentences)
-
-
-def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
-    """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
-    hidden = [many(count, name) for count, name in ((gaps, "more data gap"), (notes, "note")) if count]
-    sentences = [starts_and_defaults(result), f"{', '.join(hidden)}: --full." if hidden else ""]
-    asked = [check for check in sorted(result.checks, key=_rank) if check.requested and check.status != "pass"]
-    code = asked[0].code if asked else "ABU401"
-    commands = ["--full", "--explain", "--output report.html", f"`abu explain {code}`"]
-    if result.swing_arm:
-        commands[2:2] = [f"`abu stability {file_of(result)} --scene swing-arm-cutting`"]
-    return [BLANK, Paragraph(" ".join(filter(None, sentences))), Paragraph("More: " + "   ".join(commands))]
-
-
-def _rank(check: Check) -> int:
-    return RANK.index(check.status)
-
-
-def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:
-    """The section in at most so many lines, and one that says what it shows; nothing where that is too few."""
-    lines = section_lines(result.autobalancer, result.section, rows)
-    if not lines:
-        return ()
-    column = result.autobalancer.outer_diameter_mm / (max(map(len, lines)) - 1)
-    caption = f"Section, {number(column, 2)} mm a column: {legend(result.section)}."
-    return (Picture(tuple(lines), caption),)
-
-
-def balls(autobalancer: AutobalancerRecord) -> str:
-    """Count and size, inch sizes to the micrometre."""
-    return f"{autobalancer.ball_count} × Ø{round(autobalancer.ball_diameter_mm, 3):g} mm"
-
-
-def _inch(autobalancer: AutobalancerRecord) -> str:
-    """The fraction of an inch by which balls are ordered, in brackets; nothing for metric ones and rollers."""
-    inch = inch_size(to_si(autobalancer.ball_diameter_mm, "mm")) if autobalancer.corrector == "ball" else ""
-    return f" ({inch})" if inch else ""
-
-
-def _place(vibration: Vibration) -> str:
-    """Place of the level; of several places the loudest."""
-    return vibration.place
-
-
-def _db(level: float | None) -> str:
-    return "" if level is None else level_text(level, 4 if level >= 100 else 3).removesuffix(" dB")
-
-
-def _seconds(time: float | None) -> str:
-    return "never" if time is None or math.isinf(time) else number(time, 3 if time >= 1 else 2)
+def last_lines(result: Result, verdict: Verdict, notes: int = 0) -> list[Block]:
+    """The verdict once more, and where the rest stands."""
+    more = f", {many(notes, 'note')}" if notes else ""
+    commands = f"--full: all numbers{more}   -o report.html   -o section.svg"
+    return [Paragraph(f"{verdict_words(verdict)}   {commands}", worst(result.checks))]

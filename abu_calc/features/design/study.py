@@ -3,6 +3,7 @@
 `SizeModel` holds the SI numbers behind a sized design, for those who check it by hand.
 """
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
@@ -49,7 +50,7 @@ from abu_calc.simulation.design_scenes import SceneFailure, SceneRun
 from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK, first_tolerance, start_once
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
-from abu_calc.simulation.records import SceneModel, SimulatedScene
+from abu_calc.simulation.records import SceneModel, SimulatedScene, finite
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
@@ -342,10 +343,10 @@ def _judge(accuracy: float, workers: int) -> Judge:
 
 def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading: Provenance) -> Verdict:
     """The verdict with what the autobalancer does at the loudest place, and the change that mends the machine."""
-    design, ensemble, quiet = judged.design, judged.facts.ensemble, None
-    levels = design.idle.worst
-    if ensemble is not None:
-        quiet = ensemble.typical(outcome.quiet_time_or_inf for outcome in ensemble.rated)
+    design = judged.design
+    levels, quiet = design.idle.worst, finite(max((run.quiet_time_or_inf for run in judged.outcomes), default=math.inf))
+    if any(check.code == "ABU702" and check.status != "pass" for check in checks):
+        quiet = None  # the sentence tells it otherwise
     told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
     entries = () if step.best is None else step.best.entries
     sought = judged.facts.starts == FULL and not patience.over()

@@ -5,7 +5,9 @@ from collections.abc import Sequence
 from itertools import accumulate
 from typing import Final, NamedTuple
 
-from abu_calc.features.design.screen import (
+from abu_calc.features.design.screen import verdict_paragraph
+from abu_calc.features.design.study import SizeResult
+from abu_calc.features.design.tables import (
     action_groups,
     arm_change,
     gap_table,
@@ -14,16 +16,14 @@ from abu_calc.features.design.screen import (
     numbers_that_matter,
     other_notes,
     point_mass,
-    small_benefit,
     starts_and_defaults,
     title_with_speed,
     unusual_values,
 )
-from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.parts import unlike
-from abu_calc.reporting.screen import many, verdict_line
+from abu_calc.reporting.screen import many
 
 ENTRIES: Final = Paragraph(
     "The lines below an action are entries of the machine file, each behind the table in which it stands."
@@ -59,7 +59,6 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     changed = any(check.overrides for check in result.checks if check.status != "pass")
     body: list[Block] = [
         *unusual_values(result, most=None),
-        *small_benefit(result),
         *arm_change(result),
         *make(result),
         *tables,
@@ -83,7 +82,9 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     further = [Paragraph(f"See Warnings for {many(left, 'more note')}.")] if left else []
     if notes:
         body += [Heading("Notes"), *(note for group in fitting for note in group), *further]
-    return Summary((Heading(title_with_speed(result)), verdict_line(result), *body), not left)
+    return Summary(
+        (Heading(title_with_speed(result)), verdict_paragraph(result.verdict, result.checks), *body), not left
+    )
 
 
 def first_that_fit(groups: Sequence[Sequence[Paragraph]], room_mm: float) -> list[Sequence[Paragraph]]:

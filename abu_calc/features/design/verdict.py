@@ -1,11 +1,14 @@
 """Verdict of a design in one word and one sentence: whether the machine suits, and what decides it."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Self
 
-from abu_calc.foundation.checks import Check, Grade, worst
+from abu_calc.foundation.checks import CHECK_CODES, RANK, Check, Grade, worst
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si, velocity_from_level
+from abu_calc.reporting.blocks import number
 from abu_calc.reporting.parts import replaced_entries
 from abu_calc.simulation.result import Provenance
 
@@ -13,15 +16,20 @@ WORDS: Final[dict[Grade, str]] = {
     "pass": "suits", "warn": "suits-but", "fail": "does-not-suit", "not-done": "not-known"
 }  # fmt: skip
 """The word for the worst grade of all checks."""
-SENTENCES: Final[dict[Grade, str]] = {
-    "warn": "The machine suits with a reservation", "fail": "The machine does not suit",
-    "not-done": "Whether the machine suits is not known",
+BEGINNINGS: Final[dict[Grade, str]] = {
+    "pass": "Suits.", "warn": "Suits, but", "fail": "Does not suit:", "not-done": "Not known:"
 }  # fmt: skip
-VERBS: Final[dict[Grade, tuple[str, str]]] = {
-    "warn": ("this check warns", "these checks warn"), "fail": ("this check fails", "these checks fail"),
-    "not-done": ("this check is not evaluated", "these checks are not evaluated"),
+"""How the sentence begins."""
+MOST_REASONS: Final = 2
+"""Most reasons in the sentence; the screen has a line for each."""
+STARTS: Final = ("ABU401", "ABU402", "ABU404", "ABU701", "ABU702", "ABU703", "ABU704")
+FOLLOW: Final[Mapping[str, tuple[str, ...]]] = {
+    "ABU101": ("ABU103", *STARTS), "ABU103": STARTS, "ABU201": ("ABU103", "ABU202", *STARTS),
+    "ABU701": ("ABU401", "ABU402", "ABU404", "ABU702"), "ABU401": ("ABU702",),
 }  # fmt: skip
-"""How the sentence begins, and its verb for one check and for several."""
+"""Checks that fail because another one does: one fault counts once."""
+LEAST_BENEFIT: Final = 3.0
+"""Reduction of the idle level [dB] below which the sentence says how little it is."""
 
 
 @record
@@ -40,18 +48,21 @@ class Verdict(Record):
         cls, checks: Sequence[Check], benefit: str, reading: Provenance, entries: Sequence[str] = (),
         promise: Mapping[str, str | float | None] | None = None, *, incurable: bool = False,
     ) -> Self:  # fmt: skip
-        """Verdict of these checks: those of the worst grade decide; `benefit`: a sentence if all pass.
+        """Verdict of these checks: those of the worst grade decide; `benefit`: a sentence for those that suit.
 
         `reading`: the file, with the entries that a command replaces already, which the next one replaces, too.
 
         `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: whether none was found.
         """
         grade = worst(checks)
+        reasons = list(dict.fromkeys(map(_reason, faults(checks, grade))))
+        more = len(reasons) - MOST_REASONS
+        named = "; ".join(reasons[:MOST_REASONS]) + (f"; and {more} more" if more > 0 else "")
+        sentence = " ".join([BEGINNINGS[grade], *([f"{named}."] if named else [])])
+        if grade in ("pass", "warn"):
+            sentence += f" {benefit}"
         if grade == "pass":
-            return cls(word=WORDS[grade], sentence=benefit, next=None, promise=None)
-        deciding = [check for check in checks if check.requested and check.status == grade]
-        reasons = "; ".join(dict.fromkeys(map(_reason, deciding)))
-        sentence = f"{SENTENCES[grade]}, for {VERBS[grade][len(deciding) > 1]}: {reasons}."
+            return cls(word=WORDS[grade], sentence=sentence, next=None, promise=None)
         if incurable and grade == "fail":
             sentence += " No change of the file was found that mends it."
         step = None
@@ -64,25 +75,47 @@ class Verdict(Record):
         return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise)
 
 
+def faults(checks: Sequence[Check], grade: Grade) -> list[Check]:
+    """The checks of a grade, without those that follow from another one as bad."""
+    bad = [check for check in checks if check.requested and check.status != "pass"]
+    causes = (check for check in bad if RANK.index(check.status) <= RANK.index(grade))
+    following = {code for check in causes for code in FOLLOW.get(check.code, ())}
+    return [check for check in bad if check.status == grade and check.code not in following]
+
+
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:
     """What the autobalancer does to the level [dB] at a place, and after how long [s], in a sentence."""
     if before is None or after is None:
         return "All checks pass."
     moves = "falls" if after < before else "rises"
-    text = f"The idle level at the {place} {moves} from {before:.1f} to {after:.1f} dB (limit {limit:g} dB)"
-    return f"{text}." if quiet is None else f"{text}; the machine is quiet {quiet:.2g} s after full speed."
+    little = f" by {before - after:.1f} dB only," if 0 <= before - after < LEAST_BENEFIT else ""
+    low, high = (number(from_si(velocity_from_level(level), "mm_per_s"), 2) for level in (after, before))
+    text = f"Vibration at the {place} {moves}{little} from {before:.1f} to {after:.1f} dB ({high} to {low} mm/s)"
+    late = "" if quiet is None else f"; quiet after {quiet:.2f} s at the latest"
+    return f"{text}, limit {limit:g}{late}."
 
 
 def _reason(check: Check) -> str:
-    """Name of a check with its value and limit; if the value keeps the limit, with what its message says first.
+    """What is wrong with a check, with its value and limit; if the value keeps the limit, with what its message says.
 
     What it says of further start cases stands last, and decides where it is said.
     """
-    value, limit = check.value, check.limit
-    kept = value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit)
-    if kept:
-        first = check.message.split(". ")[0]
-        further = next((text for text in check.message.split(". ") if text.startswith("Further start cases")), None)
-        return f"{check.name} ({(further or first).rstrip('.')})"
+    value, limit, code = check.value, check.limit, CHECK_CODES[check.code]
+    named = bool(code.fault) and check.name.startswith(code.name)
+    fault = f"{code.fault}{check.name.removeprefix(code.name)}" if named else check.name
+    if value is None and limit is not None and check.unit == "s":
+        return f"{fault} (never, at most {limit:g} s)"
+    if value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit):
+        sentences = check.message.split(". ")
+        further = next((text for text in sentences if text.startswith("Further start cases")), None)
+        name = fault if check.status == "fail" else check.name
+        return f"{name} ({(further or sentences[0]).rstrip('.')})"
+    oil = re.search(r"\((hot|cold) oil", check.message) if check.status == "warn" else None
+    return f"{fault}{f' in {oil[1]} oil' if oil else ''} ({_beside(check, value, limit)})"
+
+
+def _beside(check: Check, value: float, limit: float) -> str:
+    """The value with its unit, and the limit, in digits that tell them apart."""
+    digits = next((each for each in range(3, 9) if number(value, each) != number(limit, each)), 8)
     unit = f" {check.unit}" if check.unit else ""
-    return f"{check.name} ({value:.4g}{unit}, at {check.bound} {limit:.4g}{unit})"
+    return f"{number(value, digits)}{unit}, at {check.bound} {number(limit, digits)}"

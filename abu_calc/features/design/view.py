@@ -5,19 +5,22 @@ from collections.abc import Iterator, Sequence
 from abu_calc.features.design.figures import idle_case, size_charts
 from abu_calc.features.design.oil import OilRecord, oil_blocks
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
-from abu_calc.features.design.screen import (
+from abu_calc.features.design.screen import first_lines
+from abu_calc.features.design.starts import EnsembleResult, FurtherStarts, SettlingOfStart
+from abu_calc.features.design.study import SizeResult
+from abu_calc.features.design.tables import (
     MOST_HANDLES,
-    about,
+    action_groups,
     balls,
     gap_table,
     handle_tables,
+    make,
     numbers_that_matter,
     section_picture,
 )
-from abu_calc.features.design.starts import EnsembleResult, FurtherStarts, SettlingOfStart
-from abu_calc.features.design.study import SizeResult
 from abu_calc.features.grinding.view import start_blocks
 from abu_calc.features.swing_arm.view import arm_facts, motion_blocks, printed_otherwise
+from abu_calc.foundation.checks import Check
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.characters import pictured
 from abu_calc.reporting.parts import (
@@ -26,6 +29,7 @@ from abu_calc.reporting.parts import (
     facts,
     file_of,
     measured_after_blocks,
+    not_requested,
     options_of,
     provenance_blocks,
     shown_blocks,
@@ -78,10 +82,19 @@ def size_blocks(result: SizeResult) -> tuple[Block, ...]:
 
 
 def _blocks(result: SizeResult) -> tuple[Block, ...]:
+    details = _details(result)
+    contents = " · ".join(block.text for block in details if isinstance(block, Heading))
+    return *first_lines(result), Heading("Contents", "contents"), Paragraph(contents), *details
+
+
+def _details(result: SizeResult) -> tuple[Block, ...]:
+    """From the decision to the reasons."""
     return (
-        *about(result),
-        *numbers_that_matter(result),
-        *check_blocks(result.checks),
+        Heading("Parts", "make"),
+        *make(result),
+        Heading("Levels and times", "levels"),
+        *numbers_that_matter(result)[1:],
+        *_checks(result.checks),
         *warning_blocks(result.warnings),
         *_design(result),
         *_section(result),
@@ -100,6 +113,13 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
         *default_blocks(result.provenance.defaults),
         *provenance_blocks(result.provenance),
     )
+
+
+def _checks(checks: Sequence[Check]) -> list[Block]:
+    """All checks as a table; those that did not simply pass with their actions, by the numbers of the tables above."""
+    groups = action_groups(checks, frozenset())
+    return [*check_blocks(checks, with_reasons=False), *(line for group in groups for line in group),
+            *not_requested(checks)]  # fmt: skip
 
 
 def _design(result: SizeResult) -> list[Block]:
@@ -265,6 +285,8 @@ def _hanging(result: SizeResult) -> str:
     bound, drag = result.frequency.hanging_drag_per_s, result.model.drag_per_s
     if bound is None:
         return "Balls may stall at a resonance at any drag rate, because nothing damps the resonance."
+    if not bound:
+        return "No ball stalls at a resonance, at any drag rate."
     if drag > bound:
         times = number(drag / bound, 3)
         return f"No ball stalls above a drag rate of {number(bound, 3)} 1/s. The given rate is {times} times that."

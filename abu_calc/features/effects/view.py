@@ -36,7 +36,7 @@ def effects_grid(entries: Sequence[EffectEntry]) -> Grid:
          entry.why)
         for entry in entries
     )  # fmt: skip
-    return Grid(("effect", "simulated", "influence", "because"), rows, frozenset({2}))
+    return Grid(("effect", "simulated", "influence / accuracy", "because"), rows, frozenset({2}))
 
 
 def effects_blocks(result: EffectsResult) -> tuple[Block, ...]:

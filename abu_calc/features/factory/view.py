@@ -50,8 +50,7 @@ def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
         Paragraph(NOTE),
         *([Paragraph(" ".join(where))] if where else []),
         *_devices(result.devices),
-        *_soft_races(result.soft_races),
-        Paragraph(f"{result.background} More: --full, with a remark on each row.".strip()),
+        Paragraph(f"{result.background} More: --full, with soft races and a remark on each row.".strip()),
     )
 
 
@@ -59,6 +58,7 @@ def factory_blocks(result: FactoryResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
         *factory_screen(result)[:-1],
+        *_soft_races(result.soft_races),
         Heading("Without the autobalancer, and what it lowers, dB"),
         _lowered(result.rows),
         Paragraph(LOWERED),

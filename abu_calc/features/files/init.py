@@ -1,7 +1,8 @@
-"""`abu init [--preset NAME|--scene|--readings [--method NAME]|--recordings] FILE`: write a commented file."""
+"""`abu init FILE`: write the file of a new machine, or a commented file of another kind, or a copy of a preset."""
 
+import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -10,11 +11,24 @@ from abu_calc.cli.output import Delivery
 from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.write import Target, check_target
+
+MACHINE = "The machine"
 
 
 def init(
     how: Delivery,
     file: Annotated[Path, typer.Argument(metavar="FILE", help="New file, ending in .toml.")],
+    layout: Annotated[str | None, option("--layout NAME", "straight, angle or face.", MACHINE)] = None,
+    wheel: Annotated[str | None, option("--wheel MM", "Diameter of the wheel.", MACHINE)] = None,
+    mass: Annotated[str | None, option("--mass KG", "Mass without wheel and cable.", MACHINE)] = None,
+    speed: Annotated[str | None, option("--speed RPM", "Rated speed of the spindle.", MACHINE)] = None,
+    room: Annotated[str | None, option("--room ØxWIDTH", "Room for the autobalancer, mm.", MACHINE)] = None,
+    level: Annotated[str | None, option("--level DB", "Idle level measured without it.", MACHINE)] = None,
+    handle: Annotated[
+        list[str] | None, option("--handle NAME=x,y,z", "Handle, from the centre of mass, mm; repeatable.", MACHINE)
+    ] = None,
+    all_keys: Annotated[bool, option("--all-keys", "Write every key with a comment instead.")] = False,
     preset: Annotated[str | None, option("--preset NAME", "Copy this preset.")] = None,
     scene: Annotated[bool, option("--scene", "Write a scene file for `abu simulate`.")] = False,
     readings: Annotated[bool, option("--readings", "Write a file of readings for `abu balance`.")] = False,
@@ -29,17 +43,13 @@ def init(
         bool, option("--recordings", "Write a list of recordings for `abu declare --recordings`.")
     ] = False,
 ) -> Outcome:
-    """Write a complete file with a comment at every key, to edit.
+    """Write the short file of a new machine from a few answers.
 
-    Without options, the command writes a machine file for `abu size FILE`.
+    In a terminal the command asks for what the options do not give, with usual values. The file is for `abu size`.
     """
-    from abu_calc.inputs.read_machine import read_file
-    from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
-    from abu_calc.inputs.reading.sources import text_of
-    from abu_calc.reporting.write import Target, check_target
-
     check_target(file, force=how.force, suffixes=(".toml",))
-    asked = [name for name, wanted in (("scene", scene), ("readings", readings), ("recordings", recordings)) if wanted]
+    kinds = (("scene", scene), ("readings", readings), ("recordings", recordings), ("all-keys", all_keys))
+    asked = [name for name, wanted in kinds if wanted]
     if len(asked) + (preset is not None) > 1:
         options = [f"--{name}" for name in asked] + (["--preset"] if preset is not None else [])
         raise InputError(
@@ -47,15 +57,49 @@ def init(
         )
     if method is not None and not readings:
         raise InputError("--method goes with --readings", remedy="Add --readings, or leave --method out.")
-    if preset is not None:
-        text, kind = text_of(preset), kind_of(read_file(preset).document.content)
+    answers = (layout, wheel, mass, speed, room, level, tuple(handle or ()))
+    if asked or preset is not None:
+        given = [name for name, value in zip(NAMES, answers, strict=True) if value not in (None, ())]
+        if given:
+            raise InputError(
+                f"--{given[0]} describes a machine of a short file", remedy="Leave it out here, or the other option."
+            )
+        text, command = _whole(preset, "machine" if all_keys else asked[0] if asked else "", method)
     else:
-        kind = BY_NAME[asked[0] if asked else "machine"]
-        text = kind.call("template", method) if method is not None else kind.call("template")
-    said = [Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")]
+        text, command = _short(answers), "size"
+    said = [Paragraph(f"{file} is written. Edit it, then: abu {command} {file}", "pass")]
     if any(line.startswith("[expected]") for line in text.splitlines()):
         said.append(Paragraph(f"[expected] holds the preset's results. After an edit: abu verify --update {file}"))
     return Outcome("init", {"file": str(file), "preset": preset}, tuple(said), further=(Target(file, text),))
+
+
+NAMES = ("layout", "wheel", "mass", "speed", "room", "level", "handle")
+
+
+def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]:
+    """A preset, or the commented file of a kind, and the command for it."""
+    from abu_calc.inputs.read_machine import read_file
+    from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
+    from abu_calc.inputs.reading.sources import text_of
+
+    if preset is not None:
+        return text_of(preset), kind_of(read_file(preset).document.content).command
+    chosen = BY_NAME[kind]
+    return (chosen.call("template", method) if method is not None else chosen.call("template")), chosen.command
+
+
+def _short(answers: tuple[Any, ...]) -> str:
+    """The short file of a machine, read as a check before it is written."""
+    from abu_calc.features.files.new_machine import Answers, completed, machine_text
+    from abu_calc.inputs.read_machine import read
+
+    def ask(words: str, usual: str) -> str:
+        """An answer from the terminal; the usual one where none is given."""
+        return str(typer.prompt(f"{words} [{usual}]" if usual else words, default="", show_default=False, err=True))
+
+    text = machine_text(*completed(Answers(*answers), ask if sys.stdin.isatty() else None))
+    read(text)
+    return text
 
 
 def register(app: typer.Typer) -> None:

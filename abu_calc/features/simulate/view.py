@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from abu_calc.features.design.run_up_figure import amplitude_figure
+from abu_calc.features.design.figures import amplitude_figure
 from abu_calc.features.effects.view import effects_grid
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.features.simulate.study import SampledMotion, SimulateResult

@@ -13,6 +13,8 @@ from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen
 from abu_calc.sizing.actions import set_options
 
+NAMED: Final = 5
+"""Most values that vary which are named."""
 BAR: Final = 24
 """Signs of a bar that is full."""
 FULL: Final = "█"
@@ -180,6 +182,8 @@ def _about(result: SweepResult) -> list[Block]:
         text = f"1 {singular} {verb} ({confidence})."
     kept = f" Samples: {result.store}." if result.store else ""
     varied = many(len(result.varied), "value varies", "values vary")
+    if len(result.varied) <= NAMED:
+        varied += f": {', '.join(value.key for value in result.varied)}"
     return [
         Heading(f"{result.title}: sweep"),
         Paragraph(text, _mark(result)),

@@ -68,7 +68,7 @@ def size_two_races(
         None if ensemble is None else TwoRaceEnsemble.of(ensemble, design),
         table.limits.vibration_level_db,
     )
-    quiet = None if many is None else many.quiet_time_s.typical
+    quiet = None if many is None else many.quiet_time_s.worst
     told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
     return TwoRaceSizeResult(
         title=table.machine.name,

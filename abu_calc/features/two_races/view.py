@@ -1,5 +1,15 @@
 """The screen and the whole report of `abu size` for a machine with two races."""
 
+from abu_calc.features.design.screen import (
+    Row,
+    labelled,
+    last_lines,
+    level_row,
+    next_lines,
+    number_table,
+    time_rows,
+    verdict_paragraph,
+)
 from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
 from abu_calc.registry import imported
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
@@ -13,7 +23,7 @@ from abu_calc.reporting.parts import (
     provenance_blocks,
     warning_blocks,
 )
-from abu_calc.reporting.screen import one_screen, verdict_line
+from abu_calc.reporting.screen import BLANK, many
 
 
 def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
@@ -32,17 +42,40 @@ def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
 
 
 def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
-    """The one screen: verdict, what to make, levels, quiet time, then checks that did not pass."""
-    return one_screen(result, (Heading(result.title), verdict_line(result)), (*_make(result), *_numbers(result)))
+    """The first screen: verdict, what to make, the deciding numbers, the next command, the verdict once more."""
+    notes = len(result.warnings)
+    return (*_first_lines(result), *last_lines(result, result.verdict, notes))
+
+
+def _first_lines(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+    many_starts = result.ensemble
+    runs = [] if many_starts is None else labelled(
+        "Runs", [f"{many(many_starts.runs, 'start case')} over all phases of the imbalances, in hot and cold oil"]
+    )  # fmt: skip
+    return (
+        Heading(result.title), verdict_paragraph(result.verdict, result.checks), BLANK, *_make(result), BLANK,
+        _table(result), BLANK, *runs, *next_lines(result.verdict, result.checks),
+    )  # fmt: skip
+
+
+def _table(result: TwoRaceSizeResult) -> Grid:
+    """Levels of all places and times, with limits and grades; then checks that these do not show."""
+    checks, vibration, many_starts = {check.code: check for check in result.checks}, result.vibration, result.ensemble
+    level, rows = checks.get("ABU401"), list[Row]()
+    for place in vibration.handles:
+        before = place.level_before_db
+        rows.append(level_row(f"{place.name}, median", before, place.level_after_db, level))
+        if place.level_after_worst_db is not None:
+            rows.append(level_row("  loudest start case", None, place.level_after_worst_db, level))
+    if many_starts is not None:
+        rows += time_rows([many_starts.quiet_time_s.worst], [many_starts.rest_time_s.worst], None, checks.get("ABU702"))
+    return number_table(rows, result.checks)
 
 
 def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
-        Heading(result.title),
-        verdict_line(result),
-        Heading("Make", "make"),
-        *_make(result),
+        *_first_lines(result),
         Heading("Vibration and quiet time", "vibration"),
         *_numbers(result),
         *(block for index in range(len(result.autobalancers)) for block in _race(result, index)),

@@ -23,8 +23,8 @@ QUICK = {0, 2, 3}
 RANDOM = [pytest.param(seed, marks=pytest.mark.slow if seed in QUICK else pytest.mark.hard) for seed in range(40)]
 
 ACTION = re.compile(
-    r"Set (?P<entries>.+?)(?: \(drag rate \S+ 1/s at \S+ °C\))?: "
-    r"(?:this check then (?P<verb>passes|warns)"
+    r"Set (?P<entries>.+?)(?: \(drag rate \S+ 1/s at \S+ °C\)| \(an oil or grease that gives this drag rate\))?: "
+    r"(?:[^:]+? then (?P<verb>passes|warns)"
     r"|(?P<what>[^:]+?) (?:falls|rises) from (?P<before>\S+) to (?P<after>\S+)(?: \S+)?) \(simulated\)\. "
     r"(?:All checks then pass|Then (?P<left>.+) still warns?)\."
 )

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from abu_calc.features.design.data_gaps import RANGES, SLOWEST, DataGap, assumed_values, data_gaps
-from abu_calc.features.design.screen import gap_table
 from abu_calc.features.design.study import SizeResult, size
+from abu_calc.features.design.tables import gap_table
 from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.read_machine import Machine, read_machine
 from abu_calc.reporting.blocks import Grid

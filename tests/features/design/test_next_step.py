@@ -216,7 +216,7 @@ def test_an_action_tells_its_number_and_what_still_warns() -> None:
     then = "(simulated). Then ABU701 and ABU103 still warn."
     assert level.remedy == f"Set oil.grade = VG 100: the expected level falls from 112.0 to 100.0 dB {then}"
     assert time.remedy == f"Set oil.grade = VG 100: the slowest start case falls from never to 0.500 s {then}"
-    assert balance.remedy == f"Set oil.grade = VG 100: this check then warns {then}"
+    assert balance.remedy == f"Set oil.grade = VG 100: name of ABU701 then warns {then}"
     assert {check.overrides for check in (level, time, balance)} == {entries} and stable.remedy is None
     every = NextStep(Tried(entries, judged(dict.fromkeys(codes, "pass"))))
     assert all((check.remedy or "").endswith("All checks then pass.") for check in actions(before, every))
@@ -226,7 +226,10 @@ def test_the_value_of_a_check_without_a_number_of_its_own_is_told() -> None:
     """Not where it stays, as if the limit alone moved."""
     before, after = judged({"ABU303": "fail"}), judged({"ABU303": "pass"})
     (check,) = before.checks
-    for value, text in ((150.0, "the value falls from 300 to 150 MPa"), (300.0, "this check then passes")):
+    for value, text in (
+        (150.0, "the name of ABU303 falls from 300 to 150 MPa"),
+        (300.0, "name of ABU303 then passes"),
+    ):
         before.checks = (replace(check, value=300.0, limit=200.0, unit="MPa"),)
         after.checks = (replace(before.checks[0], status="pass", value=value),)
         (told,) = actions(before, NextStep(Tried(("a.b=1",), after)))

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.design.screen import make, numbers_that_matter
 from abu_calc.features.design.summary import SHEETS_MM, first_that_fit, height_mm, size_summary
+from abu_calc.features.design.tables import make, numbers_that_matter
 from abu_calc.foundation.checks import Check
 from abu_calc.reporting.blocks import Grid, Heading, Paragraph
 from tests.reporting.drawings.samples import whole

@@ -5,8 +5,8 @@ import shlex
 import pytest
 
 import abu_calc
-from abu_calc.features.design.verdict import Verdict, benefit
-from abu_calc.foundation.checks import Check, Grade, OptionalCheck
+from abu_calc.features.design.verdict import Verdict, benefit, faults
+from abu_calc.foundation.checks import Check, Grade, OptionalCheck, coded
 from abu_calc.simulation.result import Provenance
 from tests.remembered import recalled
 
@@ -14,28 +14,28 @@ LEVEL = Check("ABU401", "idle level", "pass", "Loudest start case. It is loud", 
 
 
 def of_grades(*grades: Grade) -> Verdict:
-    checks = [Check("ABU702", f"check {k}", grade, f"reason {k}. And more") for k, grade in enumerate(grades)]
+    checks = [Check("ABU402", f"check {k}", grade, f"reason {k}. And more") for k, grade in enumerate(grades)]
     return Verdict.of(checks, "It helps.", Provenance.today())
 
 
 @pytest.mark.parametrize(
     ("grades", "word", "sentence"),
     [
-        (("pass", "pass"), "suits", "It helps."),
+        (("pass", "pass"), "suits", "Suits. It helps."),
         (
             ("pass", "warn", "pass"),
             "suits-but",
-            "The machine suits with a reservation, for this check warns: check 1 (reason 1).",
+            "Suits, but check 1 (reason 1). It helps.",
         ),
         (
             ("warn", "not-done", "pass"),
             "not-known",
-            "Whether the machine suits is not known, for this check is not evaluated: check 1 (reason 1).",
+            "Not known: check 1 (reason 1).",
         ),
         (
             ("not-done", "fail", "warn", "fail"),
             "does-not-suit",
-            "The machine does not suit, for these checks fail: check 1 (reason 1); check 3 (reason 3).",
+            "Does not suit: check 1 (reason 1); check 3 (reason 3).",
         ),
     ],
 )
@@ -54,7 +54,7 @@ def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> N
     moved = {"path": "ensemble.quiet_time_s.worst", "from": 1.25, "to": 0.5}
     reading = Provenance.today("my machine.toml", overrides=(("a.b", 1), ("x.y", 2)))
     verdict = Verdict.of([LEVEL, late], "", reading, ("a.b=2", 'c.d="x y"'), moved)
-    assert verdict.sentence == "The machine does not suit, for this check fails: quiet time (1.25 s, at most 1 s)."
+    assert verdict.sentence == "Does not suit: the machine becomes quiet too late (1.250 s, at most 1.000)."
     creeps = Check(
         "ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further start cases: 1 of 72 still creeps. More", 0.1, 1.0, "s"
     )
@@ -82,9 +82,10 @@ def test_what_no_change_mends_is_told_so() -> None:
 def test_what_the_autobalancer_does_in_a_sentence() -> None:
     told = benefit("left handle", 111.04, 98.66, 109.0, 0.123)
     assert told == (
-        "The idle level at the left handle falls from 111.0 to 98.7 dB (limit 109 dB); the machine is quiet 0.12 s "
-        "after full speed."
+        "Vibration at the left handle falls from 111.0 to 98.7 dB (18 to 4.3 mm/s), limit 109; quiet after 0.12 s at "
+        "the latest."
     )
+    assert "falls by 1.5 dB only, from 110.0 to 108.5 dB" in benefit("spindle", 110.0, 108.5, 109.0, None)
     assert "rises from 90.0 to 91.0 dB" in benefit("spindle", 90.0, 91.0, 109.0, None)
 
 
@@ -94,3 +95,20 @@ def test_the_result_holds_it() -> None:
     verdict = result.to_dict()["verdict"]
     assert verdict["word"] == "suits" and f"to {result.vibration.level_after_db:.1f} dB" in verdict["sentence"]
     assert abu_calc.size(abu_calc.read("avtovaz-707-222"), starts="none").verdict.word == "not-known"
+
+
+def test_one_fault_counts_once() -> None:
+    """What follows from a support that moves with the imbalance is not told beside it."""
+    codes = {
+        "ABU101": "fail",
+        "ABU103": "fail",
+        "ABU401": "not-done",
+        "ABU701": "fail",
+        "ABU304": "fail",
+        "ABU203": "warn",
+    }
+    checks = [coded(code, grade, "why", 3.0, 2.0, "Hz") for code, grade in codes.items()]  # type: ignore[arg-type]
+    assert [check.code for check in faults(checks, "fail")] == ["ABU101", "ABU304"]
+    assert [check.code for check in faults(checks, "warn")] == ["ABU203"] and not faults(checks, "not-done")
+    sentence = Verdict.of(checks, "", Provenance.today()).sentence
+    assert "balls go to the heavy side (3.000 Hz, at most 2.000); the race does not stay round (3" in sentence

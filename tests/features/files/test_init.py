@@ -14,10 +14,10 @@ from tests.inputs.samples import BEARINGS
 @pytest.mark.slow
 def test_init_writes_what_size_takes(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
-    assert abu("init", str(file)).status == 0
+    assert abu("init", "--all-keys", str(file)).status == 0
     assert abu("validate", str(file)).status == 0
     assert abu("size", str(file), "--quiet").status == 0
-    assert abu("init", str(file)).status == 2
+    assert abu("init", "--all-keys", str(file)).status == 2
     copy = tmp_path / "copy.toml"
     copied = abu("init", "--preset", "msh-230", str(copy))
     assert copied.status == 0 and "abu verify --update" in copied.out
@@ -51,7 +51,7 @@ def test_another_suffix_and_a_file_that_is_there_are_refused(tmp_path: Path) -> 
 
 def test_only_a_copied_preset_speaks_of_what_it_expects(tmp_path: Path) -> None:
     own, copied = tmp_path / "own.toml", tmp_path / "copied.toml"
-    assert "[expected]" not in abu("init", str(own)).out
+    assert "[expected]" not in abu("init", "--all-keys", str(own)).out
     assert "[expected] holds the preset's results" in " ".join(
         abu("init", str(copied), "--preset", "msh-230").out.split()
     )

@@ -147,7 +147,7 @@ def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.slow
 def test_a_wrong_table_is_named_with_its_file(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
-    assert abu("init", str(file)).status == 0
+    assert abu("init", "--all-keys", str(file)).status == 0
     with file.open("a", encoding="utf-8") as text:
         text.write('\n[sweep.vary]\n"wheel.mas_kg" = "1:2:2"\n')
     seen = abu("sweep", str(file))
