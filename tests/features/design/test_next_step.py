@@ -64,7 +64,9 @@ def judged(
         frequency=SimpleNamespace(balancing_possible=True), checks=(),
     )  # fmt: skip
     facts = SimpleNamespace(design=design, ensemble=Ensemble(DRAG, (run,), ()), searched=None)
-    return SimpleNamespace(checks=checks, outcomes=(SimpleNamespace(work=work),), facts=facts, level_after=level)
+    return SimpleNamespace(
+        checks=checks, outcomes=(SimpleNamespace(work=work),), facts=facts, level_after=level, arm=None
+    )
 
 
 FAILS: dict[str, Grade] = {"ABU701": "fail", "ABU702": "pass"}
