@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def meanwhile(work: Callable[..., T], *given: Any, workers: int) -> Callable[[],
     One worker: the task is done when its outcome is asked for. An interrupted program does not wait for the thread.
     """
     if workers == 1:
-        return partial(work, *given)
+        return cache(partial(work, *given))
     future = Future[T]()
 
     def run() -> None:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Final, NamedTuple
 
 from abu_calc.foundation.checks import RANK, Check
@@ -38,6 +39,8 @@ OVER: Final = 1.05
 """Factor over the speed that carries balls over."""
 WIDER: Final = 4
 """Race eccentricities of two digits above the least that standard fits hold."""
+ARM: Final = "swing_arm."
+"""Start of the keys of the swing arm, on which the choice of balls and race does not rest."""
 
 
 def more_room(design: Design) -> Iterator[Entries]:
@@ -191,12 +194,24 @@ def easier(design: Design) -> Iterator[Entries]:
         yield from more_easily(design.case, declared_estimate(design.case, design.autobalancer, wheel.imbalance))
 
 
+def on_arm(code: str, design: Design) -> Iterator[Entries]:
+    """Entries of the swing arm that meet the bound of a check."""
+    if design.swing_arm is not None:
+        from abu_calc.sizing.swing_arm import changes  # its formulas are for machines on an arm alone
+
+        for values in changes(design.swing_arm, design.case, code):
+            yield {f"{ARM}{key}": value for key, value in values.items()}
+
+
 class Proposed(NamedTuple):
     """Changes that are worth a trial; `same`: with the balls and the race as they are."""
 
     changes: Callable[[Design], Iterator[Entries]]
     same: bool = False
 
+
+ON_ARM: Final = frozenset({"ABU501", "ABU502", "ABU503", "ABU504"})
+"""Codes of the checks of the bounds of a swing arm."""
 
 PROPOSED: Final[Mapping[str, Proposed]] = {
     "ABU101": Proposed(faster, same=True), "ABU102": Proposed(carrying_over, same=True),
@@ -209,6 +224,7 @@ PROPOSED: Final[Mapping[str, Proposed]] = {
     "ABU309": Proposed(stronger),
     "ABU401": Proposed(truer, same=True), "ABU402": Proposed(truer, same=True),
     "ABU403": Proposed(less_force, same=True), "ABU404": Proposed(truer, same=True), "ABU431": Proposed(easier),
+    **{code: Proposed(partial(on_arm, code)) for code in sorted(ON_ARM)},
 }  # fmt: skip
 """What is proposed for checks of sizing, in the order in which it is tried."""
 
@@ -226,7 +242,8 @@ def mended(design: Design) -> list[Entries]:
         seen.add(check.code)
         if found := _first(now, check):
             change, now = found
-            steps.append({**steps[-1], **change, **pins(now.autobalancer)})
+            pinned = {} if all(key.startswith(ARM) for key in change) else pins(now.autobalancer)
+            steps.append({**steps[-1], **change, **pinned})
     return steps[:0:-1]
 
 

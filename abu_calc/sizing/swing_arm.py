@@ -1,12 +1,13 @@
 """Step 9: bounds for a machine on a swing arm, over all contact angles, and changes that meet them.
 
-Changes come with their size: stiffness first, damping second. Source: Kovalenko 2010, corrected.
+Source: Kovalenko 2010, corrected.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import Final, Literal
+from functools import partial
+from typing import Final
 
 from abu_calc.formulas.swing_arm import (
     MODULATION,
@@ -26,10 +27,9 @@ from abu_calc.formulas.swing_arm import (
     stiffness_limit,
     worst_contact_angle,
 )
-from abu_calc.foundation.checks import CHECK_CODES, Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.machine import SwingArm
 from abu_calc.sizing.case import Case
 
@@ -141,29 +141,28 @@ def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
     return (
         coded("ABU501", verdict(stiff), "The arm must be supercritical at the lowest speed and the worst contact "
               "angle (safer of two formulas). That is necessary, not sufficient",
-              arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].action),
-        _damped(arm, bounds.damping_limit, bounds.damping_limit_bunched),
+              arm.contact_stiffness, limit, "N/m"),
+        _damping_check(arm, bounds.damping_limit, bounds.damping_limit_bunched),
         coded("ABU504", verdict(stiffness > 0), f"Static stiffness with the contact. {lifted}",
-              stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].action, "least"),
+              stiffness, 0.0, "N/m", bound="least"),
         _pressing(arm, bounds.pressed_angle),
     )  # fmt: skip
 
 
-def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
+def _damping_check(arm: Arm, limit: float, bunched: float | None) -> Check:
     """Check of the damping against the imbalance.
 
     It warns if balls that are on the heavy side at a start need more.
     """
-    damped = arm.joint_damping > limit
+    enough = arm.joint_damping > limit
     safe = bunched is not None and arm.joint_damping > bunched
     message = "The damping overcomes parametric resonance at twice the natural frequency while the disk is pressed"
-    if not damped:
+    if not enough:
         message = "Parametric resonance at twice the natural frequency overcomes the damping while the disk is pressed"
     elif not safe:
         message += ". While the balls are together on the heavy side, as in a start, it does not"
-    more = None if bunched is None else f"A pivot damping above {bunched:.3g} N·s/m overcomes that, too (calculated)."
-    return coded("ABU502", verdict(damped, safe), message, arm.joint_damping, limit, "N·s/m",
-                 CHECK_CODES["ABU502"].action if not damped else None if safe else more, "least")  # fmt: skip
+        message += "" if bunched is None else f". That needs {bunched:.3g} N·s/m"
+    return coded("ABU502", verdict(enough, safe), message, arm.joint_damping, limit, "N·s/m", bound="least")
 
 
 def _lifted(angles: tuple[float, float] | None) -> str:
@@ -179,156 +178,79 @@ def _pressing(arm: Arm, angle: float | None) -> Check:
     touch = from_si(arm.touch_angle, "deg")
     if angle is None or math.sin(arm.contact_angle) < LEAST_SINE:
         return coded("ABU503", "not-done", "The arm does not stand, or points along the normal, so that no force "
-                     "presses", None, touch, "°", "Turn the contact angle nearer to 90°.", "least")  # fmt: skip
+                     "presses", None, touch, "°", bound="least")  # fmt: skip
     pressed = angle > arm.touch_angle
     return coded("ABU503", verdict(pressed), "The resting angle must be beyond the touching angle",
-                 from_si(angle, "deg"), touch, "°", None if pressed else CHECK_CODES["ABU503"].action,
-                 "least")  # fmt: skip
+                 from_si(angle, "deg"), touch, "°", bound="least")  # fmt: skip
 
+
+MARGINS: Final = (1.05, 1.2, 1.5, 2.0, 3.0)
+"""Factors over a bound that are proposed."""
 
 PRESSED: Final = 45.0
-"""Force [N] to press with where nothing else says how much; the upper feed force of ISO 28927-4."""
+"""Force [N] to press with if nothing else gives one; the upper feed force of ISO 28927-4."""
 
-OFF_THE_NORMAL: Final = math.radians(10)
-"""Least angle to the normal that is proposed."""
+OFF_THE_NORMAL: Final = 10.0
+"""Least angle to the normal that is proposed [°]."""
 
 DIGITS: Final = 3
 ROUNDING: Final = 1e-9
-WHOLE: Final = 2.0
-"""A new value beyond this multiple of the old one is told as a multiple."""
+
+INERTIA, DAMPING, PRESSING = "moment_of_inertia_kg_m2", "joint_damping_N_s_per_m", "pressing_moment_N_m"
+ANGLE, JOINT, CONTACT = "contact_angle_deg", "joint_stiffness_N_per_m", "contact_stiffness_N_per_m"
+"""Keys of [swing_arm] that are changed."""
 
 
-@dataclass(frozen=True)
-class ArmRepair:
-    """A key of [swing_arm] with another value."""
-
-    key: str
-    old: float
-    new: float
-
-    @property
-    def text(self) -> str:
-        """Change in words, with the step from the old value.
-
-        >>> ArmRepair("joint_damping_N_s_per_m", 2.0, 2.5).text, ArmRepair("joint_damping_N_s_per_m", 0.01, 0.35).text
-        ('joint_damping_N_s_per_m = 2.5 (+25 %)', 'joint_damping_N_s_per_m = 0.35 (35 times)')
-        """
-        if self.key.endswith("_deg"):
-            step = f"{self.new - self.old:+.3g}°"
-        elif not self.old:
-            step = "from 0"
-        elif self.new >= WHOLE * self.old:
-            times = self.new / self.old
-            step = f"{times:.0f} times" if times >= 100 else f"{times:.3g} times"
-        else:
-            share = 100 * (self.new / self.old - 1)
-            step = f"{share:+.0f} %" if share > -99 else f"{share:+.2f} %"
-        return f"{self.key} = {bounded(self.new)} ({step})"
-
-    @property
-    def reach(self) -> float:
-        """Distance from the old value: the logarithm of the ratio; 0 for an angle, which is at hand."""
-        if self.key.endswith("_deg") or not self.old or not self.new:
-            return 0.0
-        return abs(math.log(self.new / self.old))
+def changes(bounds: SwingArmBounds, case: Case, code: str) -> Iterator[dict[str, float]]:
+    """Values by keys of [swing_arm] that meet the bound of a check, from near to far."""
+    ways: Mapping[str, Callable[[SwingArmBounds], Iterator[dict[str, float]]]] = {
+        "ABU501": partial(_supercritical, case), "ABU502": _damped, "ABU503": _pressed, "ABU504": _standing,
+    }  # fmt: skip
+    yield from ways[code](bounds)
 
 
-@dataclass(frozen=True)
-class Way:
-    """Choices in mending an arm; `margin` over each bound."""
+def _supercritical(case: Case, bounds: SwingArmBounds) -> Iterator[dict[str, float]]:
+    """A softer contact or more inertia, by more and more above the bound at the lowest speed.
 
-    margin: float = 1.05
-    softer_contact: bool = False
-    joint: Literal["as it is", "stiffer", "softer"] = "as it is"
-    """Stiff enough for every contact angle, or soft enough for the torque that presses."""
-    inertia: float = 1.0
-    """Least factor on the present inertia, whatever the bounds say."""
-    damping: float = 1.0
-
-
-def changes(
-    arm: Arm, own_inertia: float, imbalance: float, lowest_speed: float, way: Way
-) -> tuple[ArmRepair, ...] | None:
-    """Least changes by `way`, in the units of [swing_arm], with which the bounds hold; None: there are none.
-
-    At `lowest_speed` [rad/s]; `own_inertia`: without the autobalancer. They rest on each other: what is stiffer needs
-    more inertia, and the damping is that which the arm changed so far needs.
+    The contact comes first: on a heavier arm the balls lower the level less.
     """
-    best = _standing(_supercritical(_held(arm, way), own_inertia, lowest_speed, way), way)
-    if best is None:
-        return None
-    limit = damping_limit(best, imbalance, resonance(best, _gain(best)))
-    if best.joint_damping <= limit or way.damping > 1:
-        best = replace(best, joint_damping=up(max(way.margin * limit, way.damping * arm.joint_damping)))
-    angle = pressed_angle(best)
-    if angle is None or angle <= best.touch_angle:
-        best = replace(best, pressing_moment=up(way.margin * least_pressing_moment(best) or PRESSED * best.length))
-    return tuple(ArmRepair(key, old, new) for key, old, new in _differences(arm, best, own_inertia))
+    limit = min(bounds.contact_stiffness_limit, bounds.contact_stiffness_limit_exact)
+    table = case.table.swing_arm
+    added = bounds.arm.inertia - (table.moment_of_inertia_kg_m2 if table else 0.0)
+    for margin in MARGINS:
+        if limit > 0:
+            yield {CONTACT: -up(-limit / margin)}
+        yield {INERTIA: up(margin * bounds.arm.inertia * (bounds.resonance / case.speed_range[0]) ** 2 - added)}
 
 
-def _gain(arm: Arm) -> float:
-    """The larger of series and exact, the safer."""
-    ratio = arm.disk_radius / arm.length
-    exact = contact_gain(worst_contact_angle(arm.friction, ratio), arm.friction, ratio)
-    return max(series_gain(arm.friction, ratio), exact)
+def _damped(bounds: SwingArmBounds) -> Iterator[dict[str, float]]:
+    """Damping against parametric resonance, with the balls together on the heavy side or with the imbalance alone."""
+    for limit in (bounds.damping_limit_bunched, bounds.damping_limit):
+        if limit is not None:
+            yield {DAMPING: up(MARGINS[0] * limit)}
 
 
-def _held(arm: Arm, way: Way) -> Arm | None:
-    """Arm with another pivot, if `way` asks for one; None if it cannot be softer."""
-    if way.joint == "stiffer":
-        return replace(arm, joint_stiffness=up(max(arm.joint_stiffness, way.margin * standing_stiffness(arm))))
-    if way.joint == "softer":
-        torque = arm.length**2 * arm.touch_angle
-        softer = -up(-arm.pressing_moment / torque / way.margin) if torque > 0 else arm.joint_stiffness
-        return replace(arm, joint_stiffness=softer) if softer < arm.joint_stiffness else None
-    return arm
+def _standing(bounds: SwingArmBounds) -> Iterator[dict[str, float]]:
+    """A contact angle or a pivot with which the arm stands and can press."""
+    if bounds.arm.contact_angle > math.pi / 2:
+        yield {ANGLE: 180.0 - OFF_THE_NORMAL}
+    else:
+        edge = MARGINS[0] * from_si((bounds.lifted_contact_angles or (0.0, 0.0))[1], "deg")
+        yield {ANGLE: min(float(math.ceil(max(edge, OFF_THE_NORMAL))), 90.0)}
+    yield {JOINT: up(MARGINS[0] * bounds.joint_stiffness_standing)}
 
 
-def _supercritical(arm: Arm | None, own: float, speed: float, way: Way) -> Arm | None:
-    """More inertia or a softer contact, where the contact is too stiff."""
-    if arm is None:
-        return None
-    limit, square = stiffness_limit(arm, speed, _gain(arm)), arm.length**2
-    if arm.contact_stiffness < limit and way.inertia == 1:
-        return arm
-    if way.softer_contact:
-        return replace(arm, contact_stiffness=-up(-limit / way.margin)) if limit > 0 else None
-    needed = square * (way.margin * _gain(arm) * arm.contact_stiffness + arm.joint_stiffness) / speed**2
-    added = arm.inertia - own
-    return replace(arm, inertia=up(max(needed - added, way.inertia * own)) + added)
-
-
-def _standing(arm: Arm | None, way: Way) -> Arm | None:
-    """A contact angle at which it stands and presses."""
-    if arm is None or (arm_stiffness(arm) > 0 and math.sin(arm.contact_angle) >= LEAST_SINE):
-        return arm
-    if arm.contact_angle > math.pi / 2:
-        return replace(arm, contact_angle=math.pi - OFF_THE_NORMAL)
-    edge = max(way.margin * (lifted_angles(arm) or (0.0, 0.0))[1], OFF_THE_NORMAL)
-    whole = to_si(math.ceil(from_si(edge, "deg") - 1e-9), "deg")
-    return replace(arm, contact_angle=min(whole, math.pi / 2))
-
-
-def _differences(arm: Arm, best: Arm, own: float) -> list[tuple[str, float, float]]:
-    """Keys of the table whose values differ, in its units."""
-    pairs: Mapping[str, tuple[float, float]] = {
-        "moment_of_inertia_kg_m2": (own, _plain(own + best.inertia - arm.inertia)),
-        "contact_stiffness_N_per_m": (arm.contact_stiffness, best.contact_stiffness),
-        "joint_stiffness_N_per_m": (arm.joint_stiffness, best.joint_stiffness),
-        "contact_angle_deg": (_degrees(arm), _degrees(best)),
-        "joint_damping_N_s_per_m": (arm.joint_damping, best.joint_damping),
-        "pressing_moment_N_m": (arm.pressing_moment, best.pressing_moment),
-    }
-    return [(key, old, new) for key, (old, new) in pairs.items() if old != new]
-
-
-def _degrees(arm: Arm) -> float:
-    return _plain(from_si(arm.contact_angle, "deg"))
-
-
-def _plain(value: float) -> float:
-    """Value without the rounding of a conversion to SI and back."""
-    return float(f"{value:.12g}")
+def _pressed(bounds: SwingArmBounds) -> Iterator[dict[str, float]]:
+    """More pressing torque or a softer pivot; another contact angle if no force can press at this one."""
+    arm, least = bounds.arm, bounds.least_pressing_moment
+    if bounds.pressed_angle is None or math.sin(arm.contact_angle) < LEAST_SINE:
+        yield next(_standing(bounds))
+        return
+    for moment in (MARGINS[0] * least, least + PRESSED * arm.length):
+        if moment:
+            yield {PRESSING: up(moment)}
+    if least:
+        yield {JOINT: -up(-arm.joint_stiffness * arm.pressing_moment / least / MARGINS[0])}
 
 
 def up(value: float) -> float:

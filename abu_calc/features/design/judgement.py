@@ -5,7 +5,7 @@
 
 import math
 import statistics
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -102,19 +102,20 @@ def judge(
     trial.checked(_of(seats, tables))
     design = size_design(tables)
     trial.checked(design.checks)
+    # The balanced state on an arm may be judged beside all that is simulated.
+    on_arm = None if design.swing_arm is None else meanwhile(_judged_arm, design, workers=workers)
     trial.repeated(design)
     early = None if trial.stable else true_region(design, accuracy)
     trial.checked(() if early is None else (early.check,))
+    if only_checks and on_arm is not None:
+        trial.checked(on_arm().checks)
     facts = proven(design, accuracy, progress, workers, starts, trial)
     seats = _with_lives(seats, design, facts.ensemble, tables)
-    # The search for the true limits of the speed range and the scenes may run beside each other.
-    balanced = None if design.swing_arm is None else meanwhile(_balanced, design, workers=workers)
     region = early or true_region(design, accuracy)
     trial.checked((region.check,))
     runs, failures = simulated(design, accuracy, progress, workers=workers)
     work = None if only_checks and not failures else work_of(design, accuracy, progress, _grinding(runs, failures))
-    arm, moved = _arm(design, failures, accuracy, progress, balanced)
-    stays = _on_work(design, runs, accuracy, progress)
+    arm, stays = None if on_arm is None else on_arm(), _on_work(design, runs)
     given = () if facts.ensemble is None else facts.ensemble.given
     lost = (
         not_simulated(
@@ -130,6 +131,8 @@ def judge(
         *checks_of_starts(facts), *lost,
     )  # fmt: skip
     trial.checked(checks)
+    moved = None if only_checks else _motion(design)
+    arm = arm and replace(arm, checks=(*of_arm, *stays), simulated=True)
     return Judgement(facts, seats, region, arm, moved, runs, failures, work, checks)
 
 
@@ -231,45 +234,28 @@ def _mean(failure: SceneFailure, work: Work | SceneFailure | None) -> str | None
     )
 
 
-def _balanced(design: Design) -> Check:
-    """Check of the balanced state on a swing arm."""
-    from abu_calc.features.swing_arm.verdict import balanced_check
-
-    return balanced_check(design)
-
-
-def _arm(
-    design: Design, failures: Sequence[SceneFailure], accuracy: float, progress: Progress,
-    balanced: Callable[[], Check] | None,
-) -> "tuple[ArmJudgement | None, ArmMotion | None]":  # fmt: skip
-    """The swing arm judged, and its motion where it stands at the work; nothing of machines without one.
-
-    Where a scene of the arm gave no answer, also how much more joint damping would give one. `balanced` gives the check
-    of the balanced state, which has been begun.
-    """
-    if design.swing_arm is None:
-        return None, None
-    from abu_calc.features.swing_arm.motion import ForcedArmMotion as Moved
-    from abu_calc.features.swing_arm.motion import arm_motion
+def _judged_arm(design: Design) -> "ArmJudgement":
+    """The swing arm judged."""
     from abu_calc.features.swing_arm.verdict import judge_arm
+
+    return judge_arm(design)
+
+
+def _motion(design: Design) -> ArmMotion | None:
+    """Motion of the arm at the work; None without an arm, or if it does not stand or does not reach the work."""
+    if design.swing_arm is None:
+        return None
+    from abu_calc.features.swing_arm.motion import ForcedArmMotion, arm_motion
     from abu_calc.simulation.scene_of_design import scene_of_design
 
-    judged = judge_arm(design, progress, balanced)
-    if judged is not None and judged.may_pass and any(failure.scene.startswith("swing-arm") for failure in failures):
-        from abu_calc.features.swing_arm.scenes import damping_to_simulate
-
-        more = damping_to_simulate(design, judged, accuracy, progress)
-        if more is not None:
-            text = f"{judged.advice} ABU703: its scenes can be simulated with {more.text} (tried)."
-            judged = replace(judged, advice=text)
     try:
         moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
-    except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
-        return judged, None
-    return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
+    except NotTrustworthyError:  # checks say so
+        return None
+    return ArmMotion.of(moved) if isinstance(moved, ForcedArmMotion) else None
 
 
-def _on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress: Progress) -> tuple[Check, ...]:
+def _on_work(design: Design, runs: Sequence[SceneRun]) -> tuple[Check, ...]:
     """Check that the disk of a swing arm stays on its workpiece.
 
     There is none for machines without an arm, or with one that does not press.
@@ -279,5 +265,5 @@ def _on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress
         return ()
     from abu_calc.features.swing_arm.scenes import on_work
 
-    check = on_work(design, runs, accuracy, progress)
+    check = on_work(design, runs)
     return () if check is None else (check,)

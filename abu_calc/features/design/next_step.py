@@ -7,7 +7,7 @@ Each change is a set of entries as `--set` takes them. It is followed literally:
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, combinations
+from itertools import chain, combinations, islice
 from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
@@ -31,7 +31,7 @@ from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.sizing.actions import PINS, SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.proposals import PROPOSED, mended
+from abu_calc.sizing.proposals import ARM, ON_ARM, PROPOSED, mended
 
 Entries = tuple[str, ...]
 """Entries of a file, each as one `--set` takes it."""
@@ -111,6 +111,11 @@ class NextStep(NamedTuple):
     best: Tried | None
     without_success: tuple[str, ...] = ()
     hurried: bool = False
+
+    @property
+    def entries(self) -> Entries:
+        """Entries of the best change."""
+        return () if self.best is None else self.best.entries
 
 
 class NotBetterError(Exception):
@@ -406,8 +411,8 @@ def _searched(check: Check) -> bool:
 
 
 OF_STARTS: Final = frozenset(rule.code for rule in RULES)
-SEARCHED: Final = PROPOSED.keys() | OF_STARTS | {"ABU103"}
-"""Codes of the checks for which changes are tried."""
+SEARCHED: Final = (PROPOSED.keys() - ON_ARM) | OF_STARTS | {"ABU103"}
+"""Codes of the checks for which changes are tried; those of an arm have a remedy for example data alone."""
 
 
 def _no_change(step: NextStep) -> str:
@@ -458,17 +463,38 @@ def proposals(before: Judgement) -> Iterator[Entries]:
     bad = sorted((check for check in before.checks if check.requested and check.status != "pass"),
                  key=lambda check: RANK.index(check.status))  # fmt: skip
     design = before.facts.design
-    calculated = [overrides(entries) for entries in mended(design)]
+    mending, codes = mended(design), {check.code for check in bad}
+    outside = before.arm is not None and any(check.status in ("fail", "not-done") for check in before.arm.checks)
+    on_arm = _changes_on_arm(before, mending[0] if mending and outside else {})
+    arm = [*islice(on_arm, 1)]
+    calculated = [overrides(entries) for entries in (*(arm if outside else ()), *mending)]
     others = dict.fromkeys(check.overrides for check in bad if check.overrides)
-    of_starts, codes = [], {check.code for check in bad}
     steady = steadier(design, before.region.boundaries or ()) if STABLE in codes else None
-    first = () if steady is None else overrides({**steady, **pins(design.autobalancer)})
-    others |= dict.fromkeys([first] if first else ())
+    first = {} if steady is None else {**steady, **pins(design.autobalancer)}
+    others |= dict.fromkeys([overrides(first)] if first else ())
+    of_starts: list[Mapping[str, object]] = []
     if codes & OF_STARTS and design.frequency.balancing_possible:
-        loud = LEVEL.code in codes
-        changes = map(overrides, changes_for_starts(before.facts, loud=loud))
-        of_starts = [_as_one(first, entries) for entries in changes]  # unstable, all would fail
-    yield from together([*calculated[:1], *others], of_starts, calculated[1:])
+        of_starts = [*changes_for_starts(before.facts, loud=LEVEL.code in codes)]
+    if outside and arm:  # nothing else helps without
+        held = {key: value for key, value in arm[0].items() if key.startswith(ARM)}
+        of_starts = [{**held, **entries} for entries in of_starts]
+    elif arm:
+        of_starts[2:2] = arm
+    starts = [_as_one(overrides(first), overrides(entries)) for entries in of_starts]  # unstable, all would fail
+    yield from together([*calculated[:1], *others], starts, calculated[1:])
+    yield from map(overrides, on_arm)
+
+
+def _changes_on_arm(before: Judgement, mending: Mapping[str, object]) -> Iterator[Mapping[str, object]]:
+    """Changes of the swing arm beyond its bounds, on top of what mends the checks of sizing."""
+    if before.arm is None:
+        return
+    from abu_calc.features.swing_arm.proposals import changes_on_arm
+
+    limits, lost = before.design.case.table.limits, {fault.scene for fault in before.failures}
+    late = [run.member.on_arm for run in before.outcomes if not run.holds(limits, limits.vibration_level_db)]
+    strict = worst(before.checks) == "warn"
+    yield from changes_on_arm(before.design, before.arm, mending, lost, late=bool(late) and all(late), strict=strict)
 
 
 def together(

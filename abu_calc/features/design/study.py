@@ -316,7 +316,7 @@ def size(
         data_gaps=gaps(),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger) for run in judged.runs),
         fits=tuple(seat for bearing in judged.seats for seat in seat_results(bearing)),
-        swing_arm=None if judged.arm is None else SwingArmRecord.of(judged.arm),
+        swing_arm=None if judged.arm is None else SwingArmRecord.of(judged.arm, step.entries),
         arm_motion=judged.arm_motion,
         drawing=tuple(map(DrawingLine.read, design.drawing)),
         idle_run=_view(design, judged.runs, "idle"),
@@ -348,9 +348,10 @@ def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading
     if any(check.code == "ABU702" and check.status != "pass" for check in checks):
         quiet = None  # the sentence tells it otherwise
     told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
-    entries = () if step.best is None else step.best.entries
     sought = judged.facts.starts == FULL and not patience.over()
-    return Verdict.of(checks, told, reading, entries, promise(judged, step), incurable=sought and step.best is None)
+    return Verdict.of(
+        checks, told, reading, step.entries, promise(judged, step), incurable=sought and step.best is None
+    )
 
 
 def merged(*warnings: str) -> tuple[str, ...]:

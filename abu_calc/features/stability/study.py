@@ -223,7 +223,7 @@ def stability(
     if speeds_rpm:
         progress(f"speeds from {speeds_rpm[0]:g} to {speeds_rpm[1]:g} rpm")
     limits = _limits(subject, speeds_rpm, way) if speeds_rpm and judgement.reason is None else None
-    arm = _on_arm(subject, progress)
+    arm = _on_arm(subject)
     ends = attractors_of(subject, DRAWN if starts is None else starts, seed, progress, only) if attractors else None
     return StabilityResult.read(
         subject,
@@ -272,17 +272,16 @@ class ArmAnswer(NamedTuple):
     warnings: tuple[str, ...] = ()
 
 
-def _on_arm(subject: Subject, progress: Progress) -> ArmAnswer:
-    """Motion of an arm with its imbalance; for a machine also the bounds and what to change."""
+def _on_arm(subject: Subject) -> ArmAnswer:
+    """Motion of an arm with its imbalance; for a machine also its bounds and which of them fail."""
     if subject.scene.support.standing_arm(subject.scene.balls) is None:
         return ArmAnswer()
     from abu_calc.features.swing_arm.motion import arm_motion
     from abu_calc.features.swing_arm.scenes import advise_scene
     from abu_calc.features.swing_arm.verdict import judge_arm
 
-    judged = None if subject.design is None else judge_arm(subject.design, progress)
-    advice = advise_scene(subject.scene) if judged is None else judged.advice
-    bounds = None if judged is None else SwingArmRecord.of(judged)
+    bounds = None if subject.design is None else SwingArmRecord.of(judge_arm(subject.design))
+    advice = advise_scene(subject.scene) if bounds is None else bounds.advice
     moved = arm_motion(subject.scene)
     if isinstance(moved, str):
         return ArmAnswer(advice, bounds, None, (f"No forced motion and no tongue: {moved}.",))

@@ -1,16 +1,20 @@
 """A swing arm as results hold it: bounds over all contact angles, changes, forced motion, instability region."""
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
+from abu_calc.foundation.validity import bounded
 from abu_calc.simulation.records import finite
 
 if TYPE_CHECKING:
     from abu_calc.features.swing_arm.motion import ForcedArmMotion as Moved
     from abu_calc.features.swing_arm.verdict import ArmJudgement
-    from abu_calc.sizing.swing_arm import ArmRepair
+
+ARM: Final = "swing_arm."
+"""Start of the keys of the table."""
 
 
 @record
@@ -21,17 +25,21 @@ class ArmChange(Record):
     old: Annotated[float, Quantity("as it is")]
     new: Annotated[float, Quantity("changed")]
 
-    @classmethod
-    def of(cls, change: "ArmRepair") -> Self:
-        """Record of a change, as the file would have it."""
-        return cls.read(change, key=f"swing_arm.{change.key}")
+    @property
+    def text(self) -> str:
+        """Change in words, with the old value.
+
+        >>> ArmChange(key="swing_arm.joint_damping_N_s_per_m", old=2.0, new=2.5).text
+        'joint_damping_N_s_per_m = 2.5 (from 2)'
+        """
+        return f"{self.key.removeprefix(ARM)} = {bounded(self.new)} (from {bounded(self.old)})"
 
 
 @record
 class SwingArmRecord(Record):
     """Stiffness and damping that the arm must have at any contact angle.
 
-    `changes`: tried changes with which all checks pass. The arm as given stands beside its bounds. None: the
+    `changes`: those of the next step, which was tried as a whole. The arm as given stands beside its bounds. None: the
     arm does not stand, or the value is beyond the range of a formula.
     """
 
@@ -63,13 +71,18 @@ class SwingArmRecord(Record):
     press_force_N: Annotated[float | None, Quantity("normal force", "N")]
 
     @classmethod
-    def of(cls, judged: "ArmJudgement") -> Self:
-        """Record of a design on an arm, in user units."""
-        arm = judged.bounds.arm
+    def of(cls, judged: "ArmJudgement", entries: Iterable[str] = ()) -> Self:
+        """Record of a design on an arm, in user units; `entries`: those of the next step."""
+        arm, table = judged.bounds.arm, judged.table
+        pairs = (entry.split("=") for entry in entries if entry.startswith(ARM))
+        changes = tuple(
+            ArmChange(key=key, old=getattr(table, key.removeprefix(ARM)), new=float(value)) for key, value in pairs
+        )
         return cls.read(
             judged.bounds,
             arm,
-            judged,
+            advice=judged.advice(change.text for change in changes),
+            changes=changes,
             arm_length_mm=from_si(arm.length, "mm"),
             wheel_diameter_mm=from_si(2 * arm.disk_radius, "mm"),
         )

@@ -1,8 +1,7 @@
 """Checks on the simulated scenes of a swing arm, and advice on the arm of a scene file.
 
-In a machine's scenes the disk must stay on its workpiece. If a scene gives no answer with less pivot damping, the
-damping that gives one is advised. The arm of a scene file has one stiffness, at one speed, and no bounds over contact
-angles.
+In a machine's scenes the disk must stay on its workpiece. The arm of a scene file has one stiffness, at one speed, and
+no bounds over contact angles.
 """
 
 from collections.abc import Iterator, Sequence
@@ -12,33 +11,17 @@ from typing import Any, Final
 from abu_calc.dynamics.effects.lift_off import LiftOffEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.verdict import critical_damping, stability
-from abu_calc.features.swing_arm.verdict import CUTTING, IDLE, ArmJudgement, changed
-from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.features.swing_arm.records import ArmChange
+from abu_calc.features.swing_arm.verdict import CUTTING
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.foundation.progress import Progress, silent, within
-from abu_calc.simulation.design_scenes import SceneRun, simulated
-from abu_calc.simulation.durations import DECAY_TIMES
-from abu_calc.sizing.actions import overrides, pins, words
+from abu_calc.simulation.design_scenes import SceneRun
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.swing_arm import ArmRepair, up
-
-LONGEST: Final = 3.0
-"""Quiet times permitted: as long as a scene lasts at most."""
-
-TIMES: Final = (1.0, 2.0, 4.0)
-"""Factors on the damping with which the arm comes to rest within the longest scene."""
+from abu_calc.sizing.swing_arm import up
 
 
-FIRMER: Final = (1.5, 2.0, 3.0, 5.0, 10.0)
-"""Times the pressing moment, tried where the disk bounces."""
-
-
-def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress: Progress = silent) -> Check | None:
-    """Check that the disk stays on its workpiece in the simulated scene.
-
-    None if the workpiece has no stiffness. If the disk bounces, the action is the least of the tried
-    pressing moments with which it stays.
-    """
+def on_work(design: Design, runs: Sequence[SceneRun]) -> Check | None:
+    """Check that the disk stays on its workpiece in the simulated scene; None if the workpiece has no stiffness."""
     run = next((run for run in runs if run.ledger.scene.name == CUTTING), None)
     effect = None if run is None else run.simulation.scene.effect("lift_off")
     if run is None:
@@ -49,7 +32,7 @@ def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress:
     share, last = 100 * effect.share_apart(samples), effect.last_apart(samples)
     if share:
         message = "Disk and workpiece lose contact again and again, so the bounds on the arm do not tell its motion"
-        return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, accuracy, progress))
+        return coded("ABU506", "fail", message, share, 0.0, "%")
     if last is None:
         return coded("ABU506", "pass", "The disk stays on its workpiece throughout", 0.0, 0.0, "%")
     time, limit = run.simulation.response.rest_time, design.case.table.limits.longest_quiet_time
@@ -58,49 +41,6 @@ def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress:
     if not soon:
         message += f". The balls need more than the permitted {limit:g} s to rest there"
     return coded("ABU506", verdict(True, soon), message, 0.0, 0.0, "%")
-
-
-def _firmer(design: Design, accuracy: float, progress: Progress) -> Action:
-    """The least pressing moment, of those simulated, with which the disk stays on its workpiece."""
-    table = design.case.table.swing_arm
-    assert table is not None
-    for times in FIRMER:
-        change = ArmRepair("pressing_moment_N_m", table.pressing_moment_N_m, up(times * table.pressing_moment_N_m))
-        other = changed(design, (change,))
-        if other is None:
-            continue
-        runs, _ = simulated(other, accuracy, within(progress, f"with {change.text}"), (CUTTING,))
-        effect = runs[0].simulation.scene.effect("lift_off") if runs else None
-        if isinstance(effect, LiftOffEffect) and not effect.share_apart(runs[0].simulation.trajectory):
-            entries: dict[str, object] = {f"swing_arm.{change.key}": change.new}
-            return Action(f"Set {words(entries)}.", overrides({**entries, **pins(design.autobalancer)}))
-    return Action(f"Balance the wheel better. Up to {FIRMER[-1]:g} times the pressing moment did not help (simulated).")
-
-
-def damping_to_simulate(
-    design: Design, judged: ArmJudgement, accuracy: float, progress: Progress = silent
-) -> ArmRepair | None:
-    """The least that was tried with which both scenes are simulated and every check of the arm passes; None: none was.
-
-    On the arm with the changes that are advised.
-    """
-    arm, table = judged.bounds.arm, design.case.table.swing_arm
-    assert table is not None
-    values = {change.key: change.new for change in judged.changes}
-    added = arm.inertia - table.moment_of_inertia_kg_m2
-    inertia = values.get("moment_of_inertia_kg_m2", table.moment_of_inertia_kg_m2) + added
-    rate = DECAY_TIMES / (LONGEST * design.case.table.limits.longest_quiet_time)
-    old = values.get("joint_damping_N_s_per_m", table.joint_damping_N_s_per_m)
-    for times in TIMES:
-        new = up(times * 2 * inertia * rate / arm.length**2)
-        if new <= old:
-            continue
-        change = ArmRepair("joint_damping_N_s_per_m", table.joint_damping_N_s_per_m, new)
-        tell = within(progress, f"with {change.text}")
-        other = changed(design, (*judged.changes, change))
-        if other is not None and not simulated(other, accuracy, tell, (IDLE, CUTTING))[1]:
-            return change
-    return None
 
 
 INERTIA: Final = (1.0, 1.2, 1.5, 2.0, 3.0)
@@ -148,8 +88,8 @@ def _changed(scene: Scene) -> Iterator[tuple[tuple[Scene, float], str]]:
             enough = more == 1 and support.damping > limit
             damping = support.damping if enough else up(max(MARGIN * limit, more * support.damping))
             changes = (
-                ArmRepair("moment_of_inertia_kg_m2", support.inertia, inertia),
-                ArmRepair("joint_damping_N_s_per_m", support.damping, damping),
+                ArmChange(key="moment_of_inertia_kg_m2", old=support.inertia, new=inertia),
+                ArmChange(key="joint_damping_N_s_per_m", old=support.damping, new=damping),
             )
             description = ", ".join(change.text for change in changes if change.new != change.old)
             if description:

@@ -70,7 +70,9 @@ def judged(
         frequency=SimpleNamespace(balancing_possible=True), checks=(),
     )  # fmt: skip
     facts = SimpleNamespace(design=design, ensemble=Ensemble(DRAG, (run,), ()), searched=None)
-    return SimpleNamespace(checks=checks, outcomes=(SimpleNamespace(work=work),), facts=facts, level_after=level)
+    return SimpleNamespace(
+        checks=checks, outcomes=(SimpleNamespace(work=work),), facts=facts, level_after=level, arm=None
+    )
 
 
 FAILS: dict[str, Grade] = {"ABU701": "fail", "ABU702": "pass"}
@@ -215,7 +217,7 @@ def test_an_action_tells_its_number_and_what_still_warns() -> None:
     level, time, balance, stable = actions(before, NextStep(Tried(entries, some)))
     then = "(simulated). Then ABU701 and ABU103 still warn."
     assert level.remedy == f"Set oil.grade = VG 100: the expected level falls from 112.0 to 100.0 dB {then}"
-    assert time.remedy == f"Set oil.grade = VG 100: the slowest start case falls from never to 0.500 s {then}"
+    assert time.remedy == f"Set oil.grade = VG 100: the slowest listed start case falls from never to 0.500 s {then}"
     assert balance.remedy == f"Set oil.grade = VG 100: name of ABU701 then warns {then}"
     assert {check.overrides for check in (level, time, balance)} == {entries} and stable.remedy is None
     every = NextStep(Tried(entries, judged(dict.fromkeys(codes, "pass"))))

@@ -99,7 +99,7 @@ def test_rows_of_the_screen_are_numbers_of_the_result(sized: SizeResult) -> None
     assert row_of(text, f"loudest of {many.runs} start cases").split() == [f"{loudest:.1f}", "109", "pass"]
     quiet = max(many.quiet_time_s.worst or 0.0, further.quiet_time_s or 0.0)
     assert row_of(text, "Quiet after, s: slowest start").split() == [f"{quiet:.2f}", "1.00", "pass"]
-    assert f"{sized.autobalancer.mass_g:.0f} g in all" in flat(text) and "Assumed a point mass. Measure" in flat(text)
+    assert f"{sized.autobalancer.mass_g:.0f} g," in flat(text) and "Assumed a point mass. Measure" in flat(text)
 
 
 def test_what_does_not_balance_has_no_pass(sized: SizeResult) -> None:

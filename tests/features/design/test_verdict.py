@@ -54,7 +54,7 @@ def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> N
     moved = {"path": "ensemble.quiet_time_s.worst", "from": 1.25, "to": 0.5}
     reading = Provenance.today("my machine.toml", overrides=(("a.b", 1), ("x.y", 2)))
     verdict = Verdict.of([LEVEL, late], "", reading, ("a.b=2", 'c.d="x y"'), moved)
-    assert verdict.sentence == "Does not suit: the machine becomes quiet too late (1.250 s, at most 1.000)."
+    assert verdict.sentence == "Does not suit: the machine becomes quiet too late (1.25 s, at most 1.00)."
     creeps = Check(
         "ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further start cases: 1 of 72 still creeps. More", 0.1, 1.0, "s"
     )
@@ -111,4 +111,4 @@ def test_one_fault_counts_once() -> None:
     assert [check.code for check in faults(checks, "fail")] == ["ABU101", "ABU304"]
     assert [check.code for check in faults(checks, "warn")] == ["ABU203"] and not faults(checks, "not-done")
     sentence = Verdict.of(checks, "", Provenance.today()).sentence
-    assert "balls go to the heavy side (3.000 Hz, at most 2.000); the race does not stay round (3" in sentence
+    assert "balls go to the heavy side (3.00 Hz, at most 2.00); the race does not stay round (3" in sentence

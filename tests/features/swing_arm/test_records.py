@@ -5,8 +5,7 @@ import math
 import pytest
 
 from abu_calc.features.swing_arm.motion import EdgeDamping, ForcedArmMotion, SimulatedArmMotion
-from abu_calc.features.swing_arm.records import ArmChange, ArmMotion, SwingArmRecord
-from abu_calc.sizing.swing_arm import ArmRepair
+from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
 from tests.features.swing_arm.test_verdict import judged
 
 RPM = 30 / math.pi
@@ -35,9 +34,13 @@ def test_without_a_simulation_its_amplitudes_are_not_known() -> None:
     assert record.simulated_rates_per_s is None and [each.simulation_um for each in record.harmonics] == [None] * 3
 
 
-def test_a_change_is_named_by_the_key_of_the_file() -> None:
-    change = ArmChange.of(ArmRepair("pressing_moment_N_m", 5.0, 9.0))
-    assert (change.key, change.old, change.new) == ("swing_arm.pressing_moment_N_m", 5.0, 9.0)
+def test_changes_are_those_of_the_next_step_that_are_of_the_arm() -> None:
+    entries = ("autobalancer.ball_count=2", "swing_arm.contact_angle_deg=17", "swing_arm.pressing_moment_N_m=40")
+    record = SwingArmRecord.of(judged("flat contact").found, entries)
+    assert [(each.key, each.old, each.new) for each in record.changes] == [
+        ("swing_arm.contact_angle_deg", 8.0, 17.0), ("swing_arm.pressing_moment_N_m", 20.0, 40.0),
+    ]  # fmt: skip
+    assert record.advice.startswith("change contact_angle_deg = 17 (from 8), pressing_moment_N_m = 40 (from 20), as")
 
 
 def test_the_arm_of_the_file_comes_back_in_its_units() -> None:
@@ -51,4 +54,4 @@ def test_the_arm_of_the_file_comes_back_in_its_units() -> None:
     assert record.wheel_diameter_mm == pytest.approx(tables.wheel.diameter_mm)
     low, high = record.lifted_contact_angles_deg or (90.0, 90.0)
     assert low < 8.0 < high and record.pressed_angle_deg is None  # at 8° the arm does not stand
-    assert [change.key for change in record.changes] == ["swing_arm.contact_angle_deg"]
+    assert record.changes == () and "ABU504" in record.advice

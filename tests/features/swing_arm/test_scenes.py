@@ -10,7 +10,7 @@ from abu_calc.features.swing_arm.scenes import advise_scene, on_work
 from abu_calc.features.swing_arm.verdict import CUTTING
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.progress import silent
-from abu_calc.inputs.read_machine import Machine, variant_of
+from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.design_scenes import simulated
 from abu_calc.sizing import size as size_design
 from tests.dynamics.stability.test_verdict import race
@@ -55,7 +55,7 @@ def arm_check(machine: Machine) -> Check:
     """ABU506 of the scene on the workpiece."""
     design = size_design(machine.whole("size"))
     runs, _ = simulated(design, 0.01, silent, (CUTTING,))
-    check = on_work(design, runs, 0.01)
+    check = on_work(design, runs)
     assert check is not None and check.code == "ABU506"
     return check
 
@@ -64,7 +64,7 @@ def arm_check(machine: Machine) -> Check:
 @pytest.mark.parametrize(("moment", "status"), [(20.0, "pass"), (9.0, "fail")])
 @pytest.mark.slow
 def test_a_disk_that_bounces_is_judged_by_the_simulated_arm(moment: float, status: str) -> None:
-    """ABU506; what it advises holds when it is followed."""
+    """ABU506."""
     machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.pressing_moment_N_m": moment})
     check = arm_check(machine)
     assert check.status == status
@@ -72,5 +72,3 @@ def test_a_disk_that_bounces_is_judged_by_the_simulated_arm(moment: float, statu
         assert check.value == 0.0 and "leaves its workpiece until" in check.message
         return
     assert check.value is not None and check.value > 10
-    followed = arm_check(variant_of(machine, check.overrides[0]))
-    assert followed.status in ("pass", "warn")
