@@ -31,6 +31,8 @@ def failing(file: str, text: str) -> Iterator[str]:
     for words in dict.fromkeys(ADVISED.findall(text)):
         own = "new.toml" if words.startswith("init ") else file
         arguments = [own if word in PLACEHOLDERS else word for word in shlex.split(words)]
+        if arguments[0] == "init" and len(arguments) == 2:  # which asks in a terminal
+            arguments.append("--all-keys")
         if (seen := again(*arguments)).status not in (0, 1):
             yield f"abu {words}: {seen.err}"
 
@@ -42,7 +44,6 @@ def test_commands_advised_for_presets_run(name: str, tmp_path: Path, monkeypatch
     monkeypatch.chdir(tmp_path)
     text = " ".join(reports(name, ("size",)))
     assert len(ADVISED.findall(text)) > 1 and NAMED.findall(text) == [] and list(failing(name, text)) == []
-    assert name != "swing-arm-grinder" or f"`abu stability {name} --scene swing-arm-cutting`" in text
 
 
 @pytest.mark.few(0, 1)

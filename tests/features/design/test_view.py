@@ -16,8 +16,10 @@ def test_report_reads_like_a_calculation_note() -> None:
     seen = once("size", "avtovaz-707-222", "--full")
     lines = seen.out.splitlines()
     assert seen.status == 0 and max(map(len, lines)) <= 80
-    assert lines[1].strip().startswith("PASS")
+    assert lines[1].strip().startswith("SUITS")
     order = [
+        "Contents",
+        "Levels and times",
         "Checks",
         "Notes",
         "Design",
