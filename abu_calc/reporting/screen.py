@@ -35,7 +35,9 @@ def one_screen(
     First come the checks that did not pass, then the body, then the warnings; each as far as there is room. In the
     lines that are left then, `picture` draws what it can, below the body.
     """
-    verdict = [block for block in about[1:2] if isinstance(block, Paragraph) and result.checks]
+    usual = verdict_line(result).text  # of any other sentence its beginning alone stands at the end, too
+    verdict = [block._replace(text=f"{(usual if block.text == usual else block.text.partition(':')[0]).rstrip('.')}.")
+               for block in about[1:2] if isinstance(block, Paragraph) and result.checks]  # fmt: skip
     last: list[Block] = [BLANK, *verdict, Paragraph(_next(result, more))]
     optional = not_requested(result.checks)
     if LINES - height([*about, *optional, *last]) >= 2 * LEAST:  # else the whole report alone lists them

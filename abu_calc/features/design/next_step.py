@@ -5,7 +5,7 @@ Each change is a set of entries as `--set` takes them. It is followed literally:
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, combinations, islice
 from operator import attrgetter
@@ -383,14 +383,15 @@ SEATS: Final = "6"
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
+    codes = SEARCHED if hasattr(before.facts.design, "choice") else OF_STARTS
     bad = [check for check in before.checks
-           if check.requested and check.status != "pass" and (_searched(check) or not check.remedy)]  # fmt: skip
+           if check.requested and check.status != "pass" and (_searched(check, codes) or not check.remedy)]  # fmt: skip
     first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
     for check in before.checks:
         if check.status == "pass" or not check.requested:
             checks.append(check)
             continue
-        known = bool(check.remedy) and not _searched(check)
+        known = bool(check.remedy) and not _searched(check, codes)
         action: Action | str | None = Action(check.remedy or "", check.overrides) if known else None
         if step.best is not None:
             after = next((each for each in step.best.after.checks if _key(each) == _key(check)), None)
@@ -403,11 +404,11 @@ def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def _searched(check: Check) -> bool:
-    """True if changes are tried for a check that is beyond its limit: then no other change is proposed."""
+def _searched(check: Check, codes: Collection[str]) -> bool:
+    """True if changes are tried for a check that is beyond its limit, by its code: then no other one is proposed."""
     if check.code[3] == SEATS:
         return False
-    return bool(check.overrides) or (check.code in SEARCHED and check.value is not None and check.limit is not None)
+    return bool(check.overrides) or (check.code in codes and check.value is not None and check.limit is not None)
 
 
 OF_STARTS: Final = frozenset(rule.code for rule in RULES)

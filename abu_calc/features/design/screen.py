@@ -191,11 +191,11 @@ def _handles(result: SizeResult, check: Check | None) -> Iterator[Row]:
     shown, more = highest_first(result)
     for handle in shown:
         before, after = handle.a_hv_before_m_per_s2, handle.a_hv_after_m_per_s2
-        limit = "" if check is None or check.limit is None else f"{check.limit:.3g}"
+        limit = "" if check is None or check.limit is None else f"{check.limit:.2f}"
         cells = ("" if value is None else f"{value:.2f}" for value in (before, after))
         first, second = cells
         yield (
-            f"Handle {handle.name}, a_hv in m/s²"[:40],
+            f"a_hv in m/s², {handle.name}"[:32],
             first,
             second,
             limit,
@@ -305,9 +305,9 @@ def _assumed(result: SizeResult) -> list[Block]:
         if INERTIA in text and "Measure" in text:
             said = text[text.index("Measure") :].partition(": --set")[0]
             return labelled("Assumed", [f"a point mass. {said.replace('machine.', '')}"])
-    if not result.data_gaps:
+    gap = next((gap for gap in result.data_gaps if gap.key == DRAG or gap.level_db[0] != gap.level_db[1]), None)
+    if gap is None:
         return []
-    gap = result.data_gaps[0]
     limit = next((check.limit for check in result.checks if check.code == "ABU401"), None)
     return labelled(
         "Assumed", [f"{_moves(gap, math.inf if limit is None else limit)} {TODO.get(gap.key, '')}".rstrip()]
@@ -321,7 +321,7 @@ def _moves(gap: DataGap, limit: float = math.inf) -> str:
         time = None if gap.quiet_time_s is None or gap.key != DRAG else gap.quiet_time_s[end]
         quiet = "" if gap.quiet_time_s is None or gap.key != DRAG else f"quiet after {_seconds(time)} s"
         level = f"{gap.level_db[end]:.1f} dB" if gap.level_db[0] != gap.level_db[1] else ""
-        return f"{level or quiet or 'no change'} at {gap.usual_range[end]:g}"
+        return f"{level or quiet} at {gap.usual_range[end]:g}"
 
     beyond = f", limit {limit:g} dB" if max(gap.level_db) > limit else ""
     return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {at(0)}, {at(1)}{beyond}."

@@ -100,9 +100,9 @@ def _reason(check: Check) -> str:
 
     What it says of further start cases stands last, and decides where it is said.
     """
-    value, limit, code = check.value, check.limit, CHECK_CODES[check.code]
-    named = bool(code.fault) and check.name.startswith(code.name)
-    fault = f"{code.fault}{check.name.removeprefix(code.name)}" if named else check.name
+    value, limit, code = check.value, check.limit, CHECK_CODES.get(check.code)
+    named = code is not None and code.fault and check.name.startswith(code.name)
+    fault = f"{code.fault}{check.name.removeprefix(code.name)}" if code and named else check.name
     if value is None and limit is not None and check.unit == "s":
         return f"{fault} (never, at most {limit:g} s)"
     if value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit):

@@ -58,7 +58,8 @@ def test_a_broken_arm_is_mended_by_the_next_step(name: str, how: str, tmp_path: 
     assert arm is not None
     if result.verdict.next is None:
         assert arm.changes == () and " = " not in arm.advice
-        assert not (bad and how in MENDED)
+        untried = any("--patience" in (check.remedy or "") for check in bad)  # the work of all trials was over
+        assert untried or not (bad and how in MENDED)
         return
     assert followed(machine, result)[1] == []
     for change in arm.changes:
