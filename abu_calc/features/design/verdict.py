@@ -32,6 +32,10 @@ LEAST_BENEFIT: Final = 3.0
 """Reduction of the idle level [dB] below which the sentence says how little it is."""
 
 
+RARE: Final = "one of 1000 takes"
+"""Words of a check that the time of rare starts decides."""
+
+
 @record
 class Verdict(Record):
     """Whether the machine suits an autobalancer, and the command of the change that was tried, if one mends it."""
@@ -110,8 +114,10 @@ def _reason(check: Check) -> str:
         further = next((text for text in sentences if text.startswith("Further start cases")), None)
         name = fault if check.status == "fail" else check.name
         return f"{name} ({(further or sentences[0]).rstrip('.')})"
-    oil = re.search(r"\((hot|cold) oil", check.message) if check.status == "warn" else None
-    return f"{fault}{f' in {oil[1]} oil' if oil else ''} ({_beside(check, value, limit)})"
+    where, oil = "", re.search(r"\((hot|cold) oil", check.message)
+    if check.status == "warn":
+        where = " in one start of 1000" if RARE in check.message else f" in {oil[1]} oil" if oil else ""
+    return f"{fault}{where} ({_beside(check, value, limit)})"
 
 
 def _beside(check: Check, value: float, limit: float) -> str:
