@@ -220,6 +220,18 @@ def options_of(provenance: Provenance) -> str:
     return "".join(f" --set {shell_word(entry.replace(' = ', '=', 1))}" for entry in replaced_entries(provenance))
 
 
+def next_command(start: str, provenance: Provenance, entries: Sequence[str], *options: str) -> str:
+    """A whole command on the file of a result: with the entries it replaced, then further options, then `entries`.
+
+    `start`: its first words. An entry takes the place of a replaced one with its key.
+    """
+    changed = {entry.partition("=")[0] for entry in entries}
+    given = (entry.replace(" = ", "=", 1) for entry in replaced_entries(provenance))
+    kept = (entry for entry in given if entry.partition("=")[0] not in changed)
+    before, after = ([f"--set {shell_word(entry)}" for entry in each] for each in (kept, entries))
+    return " ".join([start, shell_word(provenance.file or "FILE"), *before, *options, *after])
+
+
 def replaced_entries(provenance: Provenance) -> list[str]:
     """The replaced entries of a result as a file would have them."""
     return [entry for key, value in provenance.overrides for entry in _entries(key, value)]

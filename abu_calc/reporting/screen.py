@@ -3,6 +3,7 @@
 Parts without room are counted, never left out in silence.
 """
 
+import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
@@ -35,9 +36,8 @@ def one_screen(
     First come the checks that did not pass, then the body, then the warnings; each as far as there is room. In the
     lines that are left then, `picture` draws what it can, below the body.
     """
-    usual = verdict_line(result).text  # of any other sentence its beginning alone stands at the end, too
-    verdict = [block._replace(text=f"{(usual if block.text == usual else block.text.partition(':')[0]).rstrip('.')}.")
-               for block in about[1:2] if isinstance(block, Paragraph) and result.checks]  # fmt: skip
+    verdict = [block._replace(text=_once_more(block.text)) for block in about[1:2]
+               if isinstance(block, Paragraph) and result.checks]  # fmt: skip
     last: list[Block] = [BLANK, *verdict, Paragraph(_next(result, more))]
     optional = not_requested(result.checks)
     if LINES - height([*about, *optional, *last]) >= 2 * LEAST:  # else the whole report alone lists them
@@ -57,6 +57,20 @@ def one_screen(
     below: list[Block] = [Heading("Notes", "warnings"), *rest] if rest else []
     drawn = picture(LINES - height([*about, *reasons, *parted, BLANK, *below, *last])) if picture else ()
     return (*about, *reasons, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
+
+
+def _once_more(verdict: str) -> str:
+    """A verdict as it stands once more at the end: its first sentence, without what is in brackets or explains a word.
+
+    >>> _once_more("90 % of 10 machines meet the limits (95 % confidence: 55 % to 100 %). 1 of 10 does not.")
+    '90 % of 10 machines meet the limits.'
+    >>> _once_more("STABLE at 5800.00 rpm: nothing grows."), _once_more("FAIL: 2 of 3 checks pass, 1 fails")
+    ('STABLE at 5800.00 rpm.', 'FAIL: 2 of 3 checks pass, 1 fails.')
+    """
+    first = re.sub(r" \([^)]*\)", "", verdict).split(". ")[0].rstrip(".")
+    beginning, _, rest = first.partition(": ")
+    explained = beginning[:2].isupper() and rest and not re.search(r"checks? pass|no checks", rest)
+    return f"{beginning if explained else first}."
 
 
 def fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:

@@ -5,11 +5,10 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Self
 
 from abu_calc.foundation.checks import CHECK_CODES, RANK, Check, Grade, worst
-from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, velocity_from_level
 from abu_calc.reporting.blocks import number
-from abu_calc.reporting.parts import replaced_entries
+from abu_calc.reporting.parts import next_command
 from abu_calc.simulation.result import Provenance
 
 WORDS: Final[dict[Grade, str]] = {
@@ -69,13 +68,7 @@ class Verdict(Record):
             return cls(word=WORDS[grade], sentence=sentence, next=None, promise=None)
         if incurable and grade == "fail":
             sentence += " No change of the file was found that mends it."
-        step = None
-        if entries:
-            changed = {entry.partition("=")[0] for entry in entries}
-            given = (entry.replace(" = ", "=", 1) for entry in replaced_entries(reading))
-            kept = (entry for entry in given if entry.partition("=")[0] not in changed)
-            options = (f"--set {shell_word(entry)}" for entry in (*kept, *entries))
-            step = " ".join(["abu size", shell_word(reading.file or "FILE"), *options])
+        step = next_command("abu size", reading, entries) if entries else None
         return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise)
 
 

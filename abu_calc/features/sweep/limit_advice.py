@@ -24,10 +24,13 @@ from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.store import Store
 from abu_calc.features.sweep.tolerance_costs import Compute, Trials, rescaled
 from abu_calc.foundation.errors import AbuError, Place
+from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.inputs.reading.overrides import parse_variant
-from abu_calc.inputs.variation import variation
+from abu_calc.inputs.variation import Sweep, variation
+from abu_calc.reporting.parts import next_command
+from abu_calc.simulation.result import Provenance
 from abu_calc.sizing.actions import overrides
 from abu_calc.sizing.proposals import carrying_more
 
@@ -73,7 +76,10 @@ def advice(
     members = _members(range(store.drawn), MOST, plan.study.sample.seed)
     after = _tried([study for _, study in picked], members, store, compute)
     was = [flags[member] for member in members]
-    tried = [_advice(change, was, its) for (change, _), its in zip(picked, after, strict=True) if its is not None]
+    tried = [
+        _advice(change, was, its, _command(change, machine, ask, accuracy))
+        for (change, _), its in zip(picked, after, strict=True) if its is not None
+    ]  # fmt: skip
     better = sorted(
         (each for each in tried if each.after > each.before), key=lambda each: (-each.after, len(each.set_))
     )
@@ -118,7 +124,26 @@ def _tried(
     return answers
 
 
-def _advice(change: Change, before: Sequence[tuple[bool, ...]], after: Sequence[tuple[bool, ...]]) -> LimitAdvice:
+def _command(change: Change, machine: Machine, ask: SweepRequest, accuracy: float) -> str:
+    """The same sweep with a change: as it was asked for, with every option that moves its samples."""
+    usual, vary = Sweep(), {key: way.text for key, way in ask.vary} | dict(change.vary)
+    given = (
+        None if ask.runs is None else f"--runs {ask.runs}", f"--seed {ask.seed}",
+        "--tolerances" if ask.tolerances else None, "--sensitivity" if ask.sensitivity else None,
+        None if ask.sampling == usual.sampling else f"--sampling {ask.sampling}",
+        None if accuracy == ACCURACY else f"--accuracy {accuracy:g}",
+    )  # fmt: skip
+    ways = (f"--vary {shell_word(f'{key}={way}')}" for key, way in vary.items())
+    return next_command("abu sweep", Provenance.of(machine), change.entries, *filter(None, given), *ways)
+
+
+ACCURACY: Final = 0.01
+"""Accuracy of a sweep that asks for no other."""
+
+
+def _advice(
+    change: Change, before: Sequence[tuple[bool, ...]], after: Sequence[tuple[bool, ...]], command: str
+) -> LimitAdvice:
     count = len(before)
     names = [column.name for column in FLAGS["build"]][:-1]
     limits = {
@@ -128,7 +153,7 @@ def _advice(change: Change, before: Sequence[tuple[bool, ...]], after: Sequence[
     return LimitAdvice(
         change=change.text, set_={entry.key: entry.value for entry in entries}, vary=dict(change.vary), of=count,
         before=sum(its[-1] for its in before) / count, after=sum(its[-1] for its in after) / count,
-        limits={name: pair for name, pair in limits.items() if any(pair)},
+        limits={name: pair for name, pair in limits.items() if any(pair)}, next=command,
     )  # fmt: skip
 
 

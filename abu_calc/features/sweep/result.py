@@ -149,7 +149,8 @@ class FailedLimit(Record):
 class LimitAdvice(Record):
     """A change that was tried on the same samples and raises the share that meets all limits.
 
-    `set` goes to `--set`, `vary` to `--vary`. `limits`: samples that fail each limit, before and after.
+    `set` goes to `--set`, `vary` to `--vary`; `next`: the command that repeats the sweep with them. `limits`: samples
+    that fail each limit, before and after.
     """
 
     change: Annotated[str, Quantity("change")]
@@ -159,6 +160,7 @@ class LimitAdvice(Record):
     after: Annotated[float, Quantity("share after", "", 4, "", percent=True)]
     of: Annotated[int, Quantity("samples tried")]
     limits: Annotated[dict[str, tuple[int, int]], Quantity("samples that fail each limit")]
+    next: Annotated[str, Quantity("next command")]
 
 
 @record

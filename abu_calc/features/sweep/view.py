@@ -11,7 +11,6 @@ from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen
-from abu_calc.sizing.actions import set_options
 
 NAMED: Final = 5
 """Most values that vary which are named."""
@@ -139,6 +138,7 @@ def sweep_blocks(result: SweepResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
         *_about(result),
+        *_helps(result, len(result.advice)),
         *_limits(result),
         *_failing(result),
         *_basins(result),
@@ -158,7 +158,8 @@ def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
     """Verdict, shares, numbers, chart or what decides."""
     first = result.sensitivity_of
     some = any(basin.share < 1 for basin in result.basins)
-    body = [*_limits(result), *_failing(result), *(_basins(result) if some else ()), *_numbers(result)]
+    body = [*_helps(result, 1), *_limits(result), *_failing(result), *(_basins(result) if some else ()),
+            *_numbers(result)]  # fmt: skip
     if result.chart:
         body = [*chart_blocks(result.chart, short=True), *body]
     elif first:
@@ -315,24 +316,28 @@ def _failing(result: SweepResult) -> list[Block]:
     if not result.failed_limits:
         return []
     rows = [
-        (LIMITS[limit.limit] if not place else "", str(limit.failed) if not place else "", row.key,
+        (LIMITS[limit.limit] if not place else "", str(limit.failed) if not place else "",
+         row.key.removeprefix("autobalancer."),
          f"{row.total:.2f}", row.fails_at)
         for limit in result.failed_limits
         for place, row in enumerate(limit.decides or (NO_VALUE,))
     ]  # fmt: skip
     header = ("failed limit", "fail", "deciding value", "of margin", "fails at")
     blocks: list[Block] = [Heading("What fails", "failing"), Grid(header, tuple(rows), frozenset({1, 3}))]
+    if not result.advice and result.tried:
+        tried = many(result.tried, "change was", "changes were")
+        blocks.append(Paragraph(f"{tried} tried; none raises the share."))
+    return blocks
+
+
+def _helps(result: SweepResult, commands: int) -> list[Block]:
+    """Changes that raise the share, the best first; so many with the whole command that follows them."""
     if not result.advice:
-        if result.tried:
-            tried = many(result.tried, "change was", "changes were")
-            blocks.append(Paragraph(f"{tried} tried; none raises the share."))
-        return blocks
-    of = result.advice[0].of
-    blocks.append(Heading(f"What helps, tried on the same {of} samples", "helps"))
-    for change in result.advice:
-        text = f"{percent(change.before)} → {percent(change.after)}: {change.change}"
-        options = set_options(change.set_) or " ".join(f'--vary "{key}={way}"' for key, way in change.vary.items())
-        blocks += [Paragraph(text), Paragraph(f"  {options}")]
+        return []
+    blocks: list[Block] = [Heading(f"What helps, tried on the same {result.advice[0].of} samples", "helps")]
+    for place, change in enumerate(result.advice):
+        blocks.append(Paragraph(f"{percent(change.before)} → {percent(change.after)}: {change.change}", hang=2))
+        blocks += [Paragraph(change.next, whole=True)] if place < commands else []
     return blocks
 
 

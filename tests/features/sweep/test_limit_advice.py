@@ -1,5 +1,6 @@
 """Advice for the limit that fails, followed literally: the share rises as told. Machines that fail by other limits."""
 
+import shlex
 from typing import Any
 
 import pytest
@@ -10,6 +11,8 @@ from abu_calc.features.sweep.tolerance_costs import rescaled
 from abu_calc.foundation.checks import RANK
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
+from abu_calc.reporting.screen import LINES
+from tests.cli.runner import abu, once
 
 ECCENTRICITY = "autobalancer.race_eccentricity_mm"
 PINNED = {"autobalancer.ball_count": 4, "autobalancer.ball_diameter_mm": 16.5, "autobalancer.race_radius_mm": 31.0}
@@ -57,6 +60,32 @@ def test_the_share_rises_as_told(preset: str, changes: dict[str, Any], vary: dic
             assert all(RANK.index(check.status) >= grades.get(check.name, 0) for check in after if check.requested)
     # The best advice raises the share; one of them at least lowers the failures of this limit.
     assert any(advice.limits[limit][1] < advice.limits[limit][0] for advice in sweep.advice)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("msh-230", "--set", "limits.vibration_level_db=99", "--runs", "24", "--seed", "5", "--sampling", "sobol"),
+        ("avtovaz-707-370", "--runs", "24", "--vary", "wheel.imbalance_g_mm=lognormal(450, 0.5)"),
+        ("msh-230", "--set", "limits.vibration_level_db=99", "--runs", "24", "--seed", "2", "--tolerances"),
+    ],
+    ids=("sobol", "vary", "tolerances"),
+)
+def test_the_printed_command_gives_the_share_it_promises(
+    options: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As a whole, on one line of the screen: it keeps all that the sweep was asked for."""
+    monkeypatch.setenv("COLUMNS", "80")
+    sweep = once("sweep", *options, "--json").document["result"]
+    assert sweep["advice"], "nothing helps"
+    screen = once("sweep", *options).out.splitlines()
+    assert f"  {sweep['advice'][0]['next']}" in screen and len(screen) <= LINES
+    for advice in sweep["advice"]:
+        command = shlex.split(advice["next"])
+        assert command[:3] == ["abu", "sweep", options[0]]
+        again = abu(*command[1:], "--json").document["result"]["meets_limits"]
+        assert (again["share"], again["of"]) == (pytest.approx(advice["after"], abs=1e-12), advice["of"])
 
 
 @pytest.mark.slow
