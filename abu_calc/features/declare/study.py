@@ -59,8 +59,6 @@ from abu_calc.sizing.type_test import (
 from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels
 
 NUMBER: Final = Range("number of starts", 100, 1_000_000, key="starts")
-ACCURACY: Final = 0.01
-"""Accuracy of the start cases with which changes are judged, as `abu size` has it."""
 NORMAL_95: Final = 1.6449
 """Standard deviations that 5 % of a normal distribution lie beyond."""
 
@@ -392,8 +390,8 @@ def _lower(machine: Machine, design: Design, wheel: ChosenWheel, present: float,
         test = simulated_test(spindle, wheel.imbalance, after.case.race_eccentricity, starts)
         without, line = max(spindle.without(wheel.imbalance).values()), overrides({**entries, **pins(after.candidate)})
         if test.declared < without:
-            before = before or judge(design.case.table, ACCURACY, silent, 1).checks
-            if harmless(machine, before, line, ACCURACY):
+            before = before or judge(design.case.table).checks
+            if harmless(machine, before, line):
                 moved = Moved("the declared value with the autobalancer", present, test.declared, "m/s²", without)
                 return Action(f"Set {words(entries)}: {moved.text} ({SIMULATED}).", line)
     return "No smaller race eccentricity or friction arm that was tried lowers it. `abu declare FILE` lists the causes."

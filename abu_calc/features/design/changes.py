@@ -55,10 +55,8 @@ def changes_for_starts(facts: StartFacts, *, loud: bool) -> Iterator[dict[str, o
     if ensemble is None:
         return
     table = design.case.table
-    oils, truer = (
-        list(_other_oils(facts)),
-        list(islice(truer_races(design.case, design.eccentricity.least), MOST_TRUER)),
-    )
+    oils = list(_other_oils(facts))
+    truer = list(islice(truer_races(design.case, design.eccentricity.least), MOST_TRUER))
     ways = [*truer, *oils[:BEFORE]] if loud else oils[:BEFORE]
     if not facts.listed_pass:
         others = (runner_up for runner_up, _ in design.choice.runners_up if usable(design.case, runner_up))

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
     from abu_calc.features.swing_arm.verdict import ArmJudgement
 
+ACCURACY = 0.01
+"""Accuracy of a simulation where nobody asks for another."""
 LEAST_SCATTER = 0.1
 """Scatter of levels [dB] below which none is told."""
 
@@ -90,9 +92,9 @@ class TrialWatcher:
 
 def judge(
     tables: MachineFile,
-    accuracy: float,
-    progress: Progress,
-    workers: int,
+    accuracy: float = ACCURACY,
+    progress: Progress = silent,
+    workers: int = 1,
     starts: str = FULL,
     trial: TrialWatcher | None = None,
 ) -> Judgement:
@@ -146,7 +148,7 @@ MOST_SEARCHED = 2_000_000
 
 
 def proven(
-    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1, starts: str = FULL,
+    design: Design, accuracy: float = ACCURACY, progress: Progress = silent, workers: int = 1, starts: str = FULL,
     trial: TrialWatcher | None = None,
 ) -> StartFacts:  # fmt: skip
     """What the start cases of a design show: listed ones, and further ones if these pass at the drag given.

@@ -12,7 +12,7 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
 from abu_calc.features.design.changes import changes_for_starts
-from abu_calc.features.design.judgement import Judgement, TrialWatcher
+from abu_calc.features.design.judgement import ACCURACY, Judgement, TrialWatcher
 from abu_calc.features.design.judgement import judge as judge_file
 from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
@@ -23,7 +23,7 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.checks import RANK, Action, Check, worst
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.moved import Moved
-from abu_calc.foundation.progress import Progress, silent, within
+from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
@@ -90,13 +90,13 @@ class Tried(NamedTuple):
     after: Judged
 
 
-def harmless(machine: Machine, before: Iterable[Check], entries: Entries, accuracy: float) -> bool:
+def harmless(machine: Machine, before: Iterable[Check], entries: Entries, accuracy: float = ACCURACY) -> bool:
     """True if no check of `abu size` gets worse with a change of a machine with one race."""
     if not entries:
         return True
     try:
         changed = variant_of(machine, ",".join(entries)).whole("size")
-        judge_file(changed, accuracy, silent, 1, trial=NoWorse(before))
+        judge_file(changed, accuracy, trial=NoWorse(before))
     except (NotBetterError, AbuError):
         return False
     return True
@@ -111,6 +111,11 @@ class NextStep(NamedTuple):
     best: Tried | None
     without_success: tuple[str, ...] = ()
     hurried: bool = False
+
+    @property
+    def futile(self) -> bool:
+        """True if all changes were tried and none helps."""
+        return self.best is None and not self.hurried
 
     @property
     def entries(self) -> Entries:

@@ -5,11 +5,11 @@ from typing import Annotated, Any
 
 from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.design.start_search import SearchResult
-from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.start_cases import Member, Variation, ball_speed_rpm
+from abu_calc.sizing.actions import set_options
 from abu_calc.sizing.design import Design
 
 
@@ -37,11 +37,10 @@ def places(angles: Iterable[float]) -> dict[str, str]:
     return {"start.angles_deg": f"[{degrees}]"}
 
 
-def as_options(outcome: StartOutcome, entries: Mapping[str, str]) -> str:
+def as_options(outcome: StartOutcome, entries: Mapping[str, object]) -> str:
     """Options with the length of a run, the side of the race's centre, and entries."""
     lasts = f"--duration {outcome.duration:.6g} " if outcome.duration else ""
-    sets = (f"--set {shell_word(f'{key}={value}')}" for key, value in entries.items())
-    return f"{lasts}--race-centre {outcome.member.race_centre_deg:.10g} {' '.join(sets)}"
+    return f"{lasts}--race-centre {outcome.member.race_centre_deg:.10g} {set_options(entries)}"
 
 
 def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:

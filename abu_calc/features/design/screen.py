@@ -1,7 +1,7 @@
 """First screen of `abu size`: does the machine suit, what to make, the deciding numbers, what to do next."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Final
 
 from abu_calc.features.design.data_gaps import DRAG, DataGap
@@ -19,7 +19,8 @@ from abu_calc.features.design.tables import (
     unusual_values,
 )
 from abu_calc.features.design.verdict import Verdict, faults
-from abu_calc.foundation.checks import Check, Grade, worst
+from abu_calc.foundation.checks import RANK, Check, Grade, worst
+from abu_calc.foundation.escaping import shell_word
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.parts import WORD, replaced_entries
 from abu_calc.reporting.screen import BLANK, many
@@ -34,8 +35,6 @@ LABEL: Final = 9
 """Columns of the labels at the left."""
 MOST_FAULTS: Final = 3
 """Checks with a row of their own, beside those that the table shows."""
-SHOWN: Final = frozenset({"ABU401", "ABU404", "ABU702"})
-"""Checks that the rows of the table show."""
 NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU701"})
 """Checks without which no value of a table is a pass."""
 TODO: Final = {
@@ -52,6 +51,12 @@ RUN_NAMES: Final = {
     "autobalancer.rolling_drag_per_s": ("drag rate", 1.0, "1/s"),
 }
 """Names of varied values that are told, with factors and units."""
+
+USUAL_NAMES: Final = {
+    "autobalancer.rolling_friction_mm": "friction", "machine.speed_rpm": "speed", "run_up.time_s": "run-up",
+    "suspension.natural_frequencies_hz": "suspension",
+}  # fmt: skip
+"""Names of the others."""
 
 Row = tuple[str, str, str, str, str]
 """Label, without, with, limit, grade."""
@@ -104,7 +109,7 @@ def _make(result: SizeResult) -> list[str]:
         f"{abu.ball_count} {kind} Ø{round(abu.ball_diameter_mm, 3):g} mm{inch(abu)} in a race R "
         f"{abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm{groove}, {section.hardness}"
     )
-    if leave_out(result.verdict):
+    if result.verdict.leave_out:
         return [first]
     fit = "without a standard fit" if split.spindle_class is None else f"{split.bore_class} on {split.spindle_class}"
     return [
@@ -133,24 +138,30 @@ def _capacity(result: SizeResult) -> str:
 def numbers(result: SizeResult) -> Grid:
     """Levels, accelerations and times, each with its limit and grade; then checks that these do not show."""
     checks = {check.code: check for check in result.checks}
-    many_starts = result.ensemble
-    rows = [*_idle(result, checks.get("ABU401")), *_handles(result, checks.get("ABU404")), *_other_speeds(result),
-            *_grinding(result)]  # fmt: skip
+    many_starts, rows = result.ensemble, {
+        "ABU401": [*_idle(result, checks.get("ABU401"))], "ABU404": [*_handles(result, checks.get("ABU404"))],
+        "": [*_other_speeds(result), *_grinding(result)],
+    }  # fmt: skip
     if many_starts is not None:
         further = many_starts.further_starts
         times, rests = [many_starts.quiet_time_s.worst], [many_starts.rest_time_s.worst]
         if further is not None:
             times, rests = [*times, further.quiet_time_s], [*rests, further.rest_time_s]
         rare = None if further is None else math.inf if further.rare_quiet_time_s is None else further.rare_quiet_time_s
-        rows += time_rows(times, rests, rare, checks.get("ABU702"))
+        rows["ABU702"] = time_rows(times, rests, rare, checks.get("ABU702"))
     return number_table(rows, result.checks)
 
 
-def number_table(rows: Sequence[Row], checks: Sequence[Check]) -> Grid:
-    """Rows of levels and times, none a pass where the balls do not balance; then checks that these do not show."""
+def number_table(rows: Mapping[str, Sequence[Row]], checks: Sequence[Check]) -> Grid:
+    """Rows of levels and times, by the code of the check that limits them, none a pass where the balls do not balance;
+    then checks of which no row shows the grade.
+    """
+    shown = {code for code, its in rows.items() if any(row[4] not in ("", "pass") for row in its)}
+    every = [row for its in rows.values() for row in its]
     if any(check.status == "fail" for check in checks if check.code in NOT_IN_BALANCE):
-        rows = [(*row[:4], "" if row[4] == "pass" else row[4]) for row in rows if row[0] != REST]
-    return Grid(("Vibration, dB", "without", "with", "limit", ""), (*rows, *fault_rows(checks)), frozenset({1, 2, 3}))
+        every = [(*row[:4], "" if row[4] == "pass" else row[4]) for row in every if row[0] != REST]
+    header = ("Vibration, dB", "without", "with", "limit", "")
+    return Grid(header, (*every, *_fault_rows(checks, shown)), frozenset({1, 2, 3}))
 
 
 def _idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
@@ -189,18 +200,11 @@ def _grade(value: float | None, check: Check | None) -> str:
 def _handles(result: SizeResult, check: Check | None) -> Iterator[Row]:
     """Weighted acceleration of the handles that shake most."""
     shown, more = highest_first(result)
+    limit = None if check is None else check.limit
     for handle in shown:
         before, after = handle.a_hv_before_m_per_s2, handle.a_hv_after_m_per_s2
-        limit = "" if check is None or check.limit is None else f"{check.limit:.2f}"
-        cells = ("" if value is None else f"{value:.2f}" for value in (before, after))
-        first, second = cells
-        yield (
-            f"a_hv in m/s², {handle.name}"[:32],
-            first,
-            second,
-            limit,
-            "" if after is None else _grade(after, check),
-        )
+        cells = "" if before is None else f"{before:.2f}", "" if after is None else _digits(after, limit)
+        yield f"a_hv in m/s², {handle.name}"[:32], *cells, "" if limit is None else f"{limit:.2f}", _grade(after, check)
     if more > 0:
         yield f"  {many(more, 'more handle')}: --full", "", "", "", ""
 
@@ -236,33 +240,36 @@ def time_rows(
 
     `rare`: the quiet time that one of 1000 exceeds, which is told if it alone is late.
     """
-    slowest, rested = (
-        max((math.inf if time is None else time for time in times), default=0.0) for times in (quiet, rest)
-    )
+    slowest, rested = (max(math.inf if time is None else time for time in times) for times in (quiet, rest))
     label, limit = "Quiet after, s: slowest start", None if check is None else check.limit
     late = check is not None and check.status != "pass" and limit is not None and slowest <= limit
     if late and rare is not None and limit is not None and rare > limit:
         slowest, label, late = rare, "Quiet after, s: one start of 1000", False
-    told = "" if limit is None else f"{limit:.2f}"
     creeps = WORD[check.status] if late and check is not None else ""
     return [
-        (label, "", _seconds(slowest, limit), told, _grade(slowest, check)),
+        (label, "", _seconds(slowest, limit), "" if limit is None else f"{limit:.2f}", _grade(slowest, check)),
         (REST, "", _seconds(rested), "", creeps),
     ]
 
 
 def _seconds(time: float | None, limit: float | None = None) -> str:
-    """A time in digits that show on which side of its limit it lies."""
-    if time is None or math.isinf(time):
-        return "never"
-    digits = 3 if limit is not None and f"{time:.2f}" == f"{limit:.2f}" and time > limit else 2
-    return f"{time:.{digits}f}"
+    return "never" if time is None or math.isinf(time) else _digits(time, limit)
 
 
-def fault_rows(checks: Sequence[Check]) -> list[Row]:
-    """Checks that are not passed and that no other row shows, each in a row with its value and limit."""
+def _digits(value: float, limit: float | None) -> str:
+    """A value in two decimals, or in as many as show on which side of its limit it lies.
+
+    >>> _digits(0.934, 1.0), _digits(1.0041, 1.0), _digits(0.9, None)
+    ('0.93', '1.004', '0.90')
+    """
+    kept = (limit is None or (round(value, digits) <= limit) == (value <= limit) for digits in range(2, 6))
+    return f"{value:.{2 + next((k for k, its in enumerate(kept) if its), 4)}f}"
+
+
+def _fault_rows(checks: Sequence[Check], shown: Collection[str]) -> list[Row]:
+    """Checks that are not passed and not `shown`, each in a row with its value and limit."""
     grades: tuple[Grade, ...] = ("fail", "not-done", "warn")
-    bad = [check for grade in grades for check in faults(checks, grade) if check.code not in SHOWN]
+    bad = [check for grade in grades for check in faults(checks, grade) if check.code not in shown]
     rows = [_fault_row(check) for check in bad[:MOST_FAULTS]]
     more = len(bad) - MOST_FAULTS
     return rows + ([(f"{many(more, 'more check')}: --full", "", "", "", "")] if more > 0 else [])
@@ -294,7 +301,8 @@ def _runs(many_starts: EnsembleResult | None) -> list[Block]:
         f"{name} {' … '.join(f'{factor * end:.3g}' for end in ends.pop(key))} {unit}"
         for key, (name, factor, unit) in RUN_NAMES.items() if key in ends
     ]  # fmt: skip
-    others = "; friction, speed, suspension as usual" if ends else ""
+    usual = ", ".join(name for key, name in USUAL_NAMES.items() if key in ends)
+    others = f"; {usual} as usual" if usual else ""
     over = f": {', '.join(named)}{others}" if named else " at the values of the file"
     return labelled("Runs", [f"{many(many_starts.runs, 'start case')}{over}"])
 
@@ -308,45 +316,35 @@ def _assumed(result: SizeResult) -> list[Block]:
     gap = next((gap for gap in result.data_gaps if gap.key == DRAG or gap.level_db[0] != gap.level_db[1]), None)
     if gap is None:
         return []
-    limit = next((check.limit for check in result.checks if check.code == "ABU401"), None)
-    return labelled(
-        "Assumed", [f"{_moves(gap, math.inf if limit is None else limit)} {TODO.get(gap.key, '')}".rstrip()]
-    )
+    limits = [check.limit for check in result.checks if check.code == "ABU401" and check.limit is not None]
+    return labelled("Assumed", [f"{_moves(gap, *limits)} {TODO.get(gap.key, '')}".rstrip()])
 
 
 def _moves(gap: DataGap, limit: float = math.inf) -> str:
     """What both ends of the usual range give, beside the limit of the level [dB] where one exceeds it."""
-
-    def at(end: int) -> str:
-        time = None if gap.quiet_time_s is None or gap.key != DRAG else gap.quiet_time_s[end]
-        quiet = "" if gap.quiet_time_s is None or gap.key != DRAG else f"quiet after {_seconds(time)} s"
-        level = f"{gap.level_db[end]:.1f} dB" if gap.level_db[0] != gap.level_db[1] else ""
-        return f"{level or quiet} at {gap.usual_range[end]:g}"
-
+    ends = [f"{level:.1f} dB" for level in gap.level_db]
+    if gap.level_db[0] == gap.level_db[1]:  # an oil moves the times alone
+        ends = [f"quiet after {_seconds(time)} s" for time in gap.quiet_time_s or ()]
+    given = ", ".join(f"{text} at {value:g}" for text, value in zip(ends, gap.usual_range, strict=False))
     beyond = f", limit {limit:g} dB" if max(gap.level_db) > limit else ""
-    return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {at(0)}, {at(1)}{beyond}."
+    return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {given or 'no time was simulated'}{beyond}."
 
 
 def next_lines(verdict: Verdict, checks: Sequence[Check]) -> list[Block]:
     """The change that was tried with what it does, and the command that makes it; nothing for what suits."""
     if verdict.next is None:
-        return labelled("Next", ["leave the autobalancer out"]) if leave_out(verdict) else []
-    tried = [
-        check for grade in ("fail", "not-done", "warn") for check in checks if check.status == grade and check.overrides
-    ]
-    promised = (tried[0].remedy or "").partition(": ")[2] if tried else ""
-    return [*labelled("Next", [promised]), Paragraph(verdict.next, whole=True)]
+        failed = "leave the autobalancer out" if verdict.leave_out else "see what the checks ask for: --full"
+        return [] if verdict.word == "suits" else labelled("Next", [failed])
+    own = (check for grade in RANK for check in checks if check.status == grade and check.overrides
+           and all(f"--set {shell_word(entry)}" in verdict.next for entry in check.overrides))  # fmt: skip
+    promised = next((check.remedy for check in own), None) or ""
+    return [*labelled("Next", [promised.partition(": ")[2]]), Paragraph(verdict.next, whole=True)]
 
 
 def replaced(result: Result) -> list[Block]:
     """Entries that the command replaced, to be written into the file."""
     entries = replaced_entries(result.provenance)
     return labelled("Replaced", [f"{'; '.join(entries)}. Write into the file what shall stay."]) if entries else []
-
-
-def leave_out(verdict: Verdict) -> bool:
-    """True if the machine does not suit and no change was found."""
-    return verdict.word == "does-not-suit" and verdict.next is None
 
 
 def last_lines(result: Result, verdict: Verdict, notes: int = 0) -> list[Block]:

@@ -195,7 +195,7 @@ def _level(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
             message += f". Loudest start case at another drag rate: {_of_limit(loudest, ensemble, limit)}"
         if loudest.level <= limit:
             message += f". The error of its simulation, {SLACK:g} dB, leaves open whether the limit is kept"
-        return Finding("warn", message, value, limit, "dB", quieter)
+        return Finding("warn", message, loudest.level, limit, "dB", quieter)
     return closed._replace(message=message, value=value)
 
 

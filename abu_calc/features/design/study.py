@@ -350,7 +350,12 @@ def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading
     told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
     sought = judged.facts.starts == FULL and not patience.over()
     return Verdict.of(
-        checks, told, reading, step.entries, promise(judged, step), incurable=sought and step.best is None
+        checks,
+        told,
+        reading,
+        step.entries,
+        promise(judged, step),
+        incurable=sought and step.futile,
     )
 
 

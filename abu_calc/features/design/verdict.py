@@ -27,6 +27,8 @@ FOLLOW: Final[Mapping[str, tuple[str, ...]]] = {
     "ABU701": ("ABU401", "ABU402", "ABU404", "ABU702"), "ABU401": ("ABU702",),
 }  # fmt: skip
 """Checks that fail because another one does: one fault counts once."""
+OF_BALANCING: Final = frozenset((*FOLLOW, *STARTS, "ABU102", "ABU202"))
+"""Checks that say whether the balls help; a seat, a strength or a cutter that fails is no reason to leave them out."""
 LEAST_BENEFIT: Final = 3.0
 """Reduction of the idle level [dB] below which the sentence says how little it is."""
 
@@ -45,6 +47,7 @@ class Verdict(Record):
     promise: Annotated[
         Mapping[str, str | float | None] | None, Quantity("what the next command moves: path of the result, from, to")
     ]
+    leave_out: Annotated[bool, Quantity("no change of the file makes the balls help")] = False
 
     @classmethod
     def of(
@@ -55,21 +58,22 @@ class Verdict(Record):
 
         `reading`: the file, with the entries that a command replaces already, which the next one replaces, too.
 
-        `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: whether none was found.
+        `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: all were tried in vain.
         """
         grade = worst(checks)
         reasons = list(dict.fromkeys(map(_reason, faults(checks, grade))))
         more = len(reasons) - MOST_REASONS
         named = "; ".join(reasons[:MOST_REASONS]) + (f"; and {more} more" if more > 0 else "")
         sentence = " ".join([BEGINNINGS[grade], *([f"{named}."] if named else [])])
-        if grade in ("pass", "warn"):
+        if grade in ("pass", "warn") and benefit:
             sentence += f" {benefit}"
         if grade == "pass":
             return cls(word=WORDS[grade], sentence=sentence, next=None, promise=None)
         if incurable and grade == "fail":
             sentence += " No change of the file was found that mends it."
         step = next_command("abu size", reading, entries) if entries else None
-        return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise)
+        useless = incurable and any(check.status == "fail" and check.code in OF_BALANCING for check in checks)
+        return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise, leave_out=useless)
 
 
 def faults(checks: Sequence[Check], grade: Grade) -> list[Check]:
@@ -81,9 +85,11 @@ def faults(checks: Sequence[Check], grade: Grade) -> list[Check]:
 
 
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:
-    """What the autobalancer does to the level [dB] at a place, and after how long [s], in a sentence."""
+    """What the autobalancer does to the level [dB] at a place, and after how long [s], in a sentence; none if either is
+    not known.
+    """
     if before is None or after is None:
-        return "All checks pass."
+        return ""
     moves = "falls" if after < before else "rises"
     little = f" by {before - after:.1f} dB only," if 0 <= before - after < LEAST_BENEFIT else ""
     low, high = (number(from_si(velocity_from_level(level), "mm_per_s"), 2) for level in (after, before))
@@ -95,7 +101,7 @@ def benefit(place: str, before: float | None, after: float | None, limit: float,
 def _reason(check: Check) -> str:
     """What is wrong with a check, with its value and limit; if the value keeps the limit, with what its message says.
 
-    What it says of further start cases stands last, and decides where it is said.
+    Why a check only warns stands last there, and so does what further start cases do.
     """
     value, limit, code = check.value, check.limit, CHECK_CODES.get(check.code)
     named = code is not None and code.fault and check.name.startswith(code.name)
@@ -104,9 +110,9 @@ def _reason(check: Check) -> str:
         return f"{fault} (never, at most {limit:g} s)"
     if value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit):
         sentences = check.message.split(". ")
-        further = next((text for text in sentences if text.startswith("Further start cases")), None)
+        last = check.status == "warn" or sentences[-1].startswith("Further start cases")
         name = fault if check.status == "fail" else check.name
-        return f"{name} ({(further or sentences[0]).rstrip('.')})"
+        return f"{name} ({sentences[-last].rstrip('.')})"
     where, oil = "", re.search(r"\((hot|cold) oil", check.message)
     if check.status == "warn":
         where = " in one start of 1000" if RARE in check.message else f" in {oil[1]} oil" if oil else ""

@@ -1,6 +1,7 @@
 """`abu init FILE`: write the file of a new machine, or a commented file of another kind, or a copy of a preset."""
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -57,9 +58,10 @@ def init(
         )
     if method is not None and not readings:
         raise InputError("--method goes with --readings", remedy="Add --readings, or leave --method out.")
-    answers = (layout, wheel, mass, speed, room, level, tuple(handle or ()))
+    answers = {"layout": layout, "wheel": wheel, "mass": mass, "speed": speed, "room": room, "level": level,
+               "handle": handle}  # fmt: skip
     if asked or preset is not None:
-        given = [name for name, value in zip(NAMES, answers, strict=True) if value not in (None, ())]
+        given = [name for name, value in answers.items() if value]
         if given:
             raise InputError(
                 f"--{given[0]} describes a machine of a short file", remedy="Leave it out here, or the other option."
@@ -71,9 +73,6 @@ def init(
     if any(line.startswith("[expected]") for line in text.splitlines()):
         said.append(Paragraph(f"[expected] holds the preset's results. After an edit: abu verify --update {file}"))
     return Outcome("init", {"file": str(file), "preset": preset}, tuple(said), further=(Target(file, text),))
-
-
-NAMES = ("layout", "wheel", "mass", "speed", "room", "level", "handle")
 
 
 def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]:
@@ -88,16 +87,16 @@ def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]
     return (chosen.call("template", method) if method is not None else chosen.call("template")), chosen.command
 
 
-def _short(answers: tuple[Any, ...]) -> str:
+def _short(answers: Mapping[str, Any]) -> str:
     """The short file of a machine, read as a check before it is written."""
-    from abu_calc.features.files.new_machine import Answers, completed, machine_text
+    from abu_calc.features.files.new_machine import completed, machine_text
     from abu_calc.inputs.read_machine import read
 
     def ask(words: str, usual: str) -> str:
         """An answer from the terminal; the usual one where none is given."""
         return str(typer.prompt(f"{words} [{usual}]" if usual else words, default="", show_default=False, err=True))
 
-    text = machine_text(*completed(Answers(*answers), ask if sys.stdin.isatty() else None))
+    text = machine_text(*completed(answers, ask if sys.stdin.isatty() else None))
     read(text)
     return text
 

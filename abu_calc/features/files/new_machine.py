@@ -2,41 +2,27 @@
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 from typing import Any, Final, Literal, NamedTuple, get_args
 
 from abu_calc.formulas.body_estimate import usual_lengths
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.inputs.reading.text import shown
 from abu_calc.standards.tables import toml_table
 
 Layout = Literal["straight", "face", "angle"]
 DENSITY: Final = 2500.0
 """Of a grinding wheel [kg/m³]; assumed."""
-IMBALANCE: Final = 2.88e-3
-"""Imbalance of a worn wheel over its diameter squared [g·mm/mm²], as test wheels have it (rule for ISO 28927-4)."""
 ECCENTRIC: Final = ((9000.0, 0.006), (0.0, 0.010))
 """Eccentricity of a ground race [mm], from a speed [rpm] on; assumed."""
-ROOM: Final = re.compile(r"Ø?\s*([\d.]+)\s*[x×X*]\s*([\d.]+)\s*(?:mm)?")
-HANDLE: Final = re.compile(r"\s*([^=]+?)\s*=\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*")
+NUMBER: Final = r"(-?\d+(?:\.\d*)?|-?\.\d+)"
+ROOM: Final = re.compile(rf"Ø?\s*{NUMBER}\s*[x×X*]\s*{NUMBER}\s*(?:mm)?")
+HANDLE: Final = re.compile(rf"([^=]*[^=\s])\s*=\s*{NUMBER}\s*,\s*{NUMBER}\s*,\s*{NUMBER}")
 UNITS: Final = {"wheel": "mm", "mass": "kg", "speed": "rpm", "level": "dB"}
 COLUMN: Final = 34
 """Column in which comments begin."""
-
-
-class Answers(NamedTuple):
-    """What the options give as texts: layout, wheel diameter [mm], mass [kg], speed [rpm], room of the balls [mm],
-    measured idle level [dB], handles; None: not given.
-    """
-
-    layout: str | None
-    wheel: str | None
-    mass: str | None
-    speed: str | None
-    room: str | None
-    level: str | None
-    handles: Sequence[str]
 
 
 class Question(NamedTuple):
@@ -84,13 +70,16 @@ QUESTIONS: Final = (
 """What a file needs, in the order in which it is asked for."""
 
 
-def completed(answers: Answers, ask: Callable[[str, str], str] | None) -> tuple[dict[str, Any], frozenset[str]]:
-    """All answers by option, and those that are usual values; `ask`: asks in a terminal, None: nobody is there.
+def completed(
+    answers: Mapping[str, Any], ask: Callable[[str, str], str] | None
+) -> tuple[dict[str, Any], frozenset[str]]:
+    """All answers by option, and those that are usual values.
+
+    `answers`: what options give, as texts; None: not given. `ask`: asks in a terminal; None: nobody is there.
 
     Raises InputError for what is needed and not given, or is none of what is allowed.
     """
-    options = dict(zip(("layout", "wheel", "mass", "speed", "room", "level", "handle"), answers, strict=True))
-    given: dict[str, Any] = {name: value for name, value in options.items() if value not in (None, (), [])}
+    given: dict[str, Any] = {name: value for name, value in answers.items() if value not in (None, (), [])}
     missing = [question.option for question in QUESTIONS if question.needed and question.option not in given]
     if missing and ask is None:
         example = " --layout angle --wheel 125 --mass 2.2 --speed 11000 --room 52x16"
@@ -144,16 +133,16 @@ def _checked(option: str, value: Any) -> Any:
             )
         return float(match[1]), float(match[2])
     if option == "handle":
-        handles = [(text, HANDLE.fullmatch(text)) for text in value]
-        for text, match in handles:
-            if match is None:
-                raise InputError("a name and three lengths are needed", place=place, found=text,
-                                 allowed="NAME=x,y,z in mm, as side=62,120,-8")  # fmt: skip
-        return [(match[1], [float(match[k]) for k in (2, 3, 4)]) for _, match in handles if match is not None]
+        handles = [HANDLE.fullmatch(text.strip()) for text in value]
+        wrong = next((text for text, match in zip(value, handles, strict=True) if match is None), None)
+        if wrong is not None:
+            raise InputError("a name and three lengths are needed", place=place, found=wrong,
+                             allowed="NAME=x,y,z in mm, as side=62,120,-8")  # fmt: skip
+        return [(match[1], [float(match[k]) for k in (2, 3, 4)]) for match in handles if match is not None]
     unit = UNITS[option]
-    match = re.fullmatch(rf"([\d.]+(?:e\d+)?)\s*(?:{re.escape(unit)})?", str(value).strip(), re.IGNORECASE)
-    number = float(match[1]) if match is not None and match[1].count(".") < 2 else math.nan
-    if not (math.isfinite(number) and number > 0):
+    match = re.fullmatch(rf"{NUMBER}\s*(?:{unit})?", str(value).strip(), re.IGNORECASE)
+    number = math.nan if match is None else float(match[1])
+    if not number > 0:
         raise InputError("a number above zero is needed", place=place, found=str(value), allowed=f"a number in {unit}")
     return number
 
@@ -165,7 +154,7 @@ def machine_text(given: Mapping[str, Any], usual: frozenset[str]) -> str:
 
 def _lines(given: Mapping[str, Any], usual: frozenset[str]) -> Iterator[str]:
     def row(key: str, value: object, comment: str = "") -> str:
-        text = f"{key} = {value if not isinstance(value, float) else f'{value:g}'}"
+        text = f"{key} = {shown(value)}"
         return f"{text:<{COLUMN}}# {comment}" if comment else text
 
     def said(option: str, todo: str) -> str:
@@ -175,19 +164,19 @@ def _lines(given: Mapping[str, Any], usual: frozenset[str]) -> Iterator[str]:
     lengths = usual_lengths(layout, given["mass"])
     yield "# Keys, units and ranges: `abu init --all-keys FILE`, `abu explain KEY`. Replace what is assumed."
     yield "[machine]"
-    yield row("name", f'"{layout} grinder {wheel:g} mm"')
-    yield row("layout", f'"{layout}"')
+    yield row("name", f"{layout} grinder {wheel:g} mm")
+    yield row("layout", layout)
     yield row("mass_kg", given["mass"], said("mass", "weigh it"))
     yield row("speed_rpm", given["speed"], said("speed", "see the data sheet"))
-    yield row("spindle_axis", f'"{table["spindle_axis"]}"')
+    yield row("spindle_axis", table["spindle_axis"])
     for key, length in lengths.items():
         yield row(key.partition(".")[2], length, "assumed: usual for this mass; measure it")
     for name, position in given.get("handle", ()):
         yield "[[machine.handle]]"
-        yield row("name", f'"{name}"')
-        yield row("position_mm", f"[{', '.join(f'{each:g}' for each in position)}]")
+        yield row("name", name)
+        yield row("position_mm", position)
     yield "\n[suspension]"
-    yield row("model", '"springs"', "held in two hands (ISO 10068:2012)")
+    yield row("model", "springs", "held in two hands (ISO 10068:2012)")
     yield row("natural_frequencies_hz", [2.5, 2.5])
     yield row("damping_ratios", [0.5, 0.5])
     yield "\n[wheel]"
@@ -197,7 +186,7 @@ def _lines(given: Mapping[str, Any], usual: frozenset[str]) -> Iterator[str]:
     if "level" in given:
         yield row("measured_level_db", given["level"])
     else:
-        worst = float(f"{IMBALANCE * wheel**2:.2g}")
+        worst = float(f"{toml_table('test_wheels')['rule']['factor'] * wheel**2:.2g}")
         yield row("imbalance_g_mm", worst, "assumed: worn, as the test wheel of ISO 28927-4")
     yield "\n[autobalancer]"
     outer, width = given["room"]

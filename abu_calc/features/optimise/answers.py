@@ -28,7 +28,6 @@ from abu_calc.features.optimise.result import (
 from abu_calc.features.sweep.plan import planned
 from abu_calc.foundation.checks import CHECK_CODES, Check, coded
 from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.progress import silent
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.simulation.result import Provenance
 
@@ -219,7 +218,7 @@ def _judged(ask: OptimiseRequest, space: SearchSpace, best: int) -> Iterator[str
         variant = space.variants[arm]
         tables = ask.machines[variant.machine].changed(dict(variant.values)).whole("optimise")
         try:
-            checks = judge(tables, 0.01, silent, 1).checks
+            checks = judge(tables).checks
         except AbuError:  # `abu size` says why
             continue
         codes = dict.fromkeys(check.code for check in checks if check.requested and check.status == "fail")

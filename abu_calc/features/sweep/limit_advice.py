@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from abu_calc.features.design.changes import changes_for_starts
-from abu_calc.features.design.judgement import Judgement, judge
+from abu_calc.features.design.judgement import ACCURACY, Judgement, judge
 from abu_calc.features.design.next_step import Entries, harmless, in_words, proposals
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT
@@ -25,7 +25,6 @@ from abu_calc.features.sweep.store import Store
 from abu_calc.features.sweep.tolerance_costs import Compute, Trials, rescaled
 from abu_calc.foundation.errors import AbuError, Place
 from abu_calc.foundation.escaping import shell_word
-from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.inputs.reading.overrides import parse_variant
 from abu_calc.inputs.variation import Sweep, variation
@@ -58,11 +57,11 @@ def advice(
     plan: Plan, ask: SweepRequest, machine: Machine, failed: Sequence[FailedLimit], store: Store, compute: Compute
 ) -> tuple[tuple[LimitAdvice, ...], int]:
     """Changes that raise the share, the best first, and how many were tried."""
-    flags = dict(flags_of(store))
+    flags, accuracy = dict(flags_of(store)), plan.study.accuracy
     if not failed or plan.design is None or plan.study.what != "build" or not FEWEST <= store.drawn == len(flags):
         return (), 0
     try:
-        before = judge(machine.whole("sweep"), accuracy := plan.study.accuracy, silent, 1)
+        before = judge(machine.whole("sweep"), plan.study.accuracy)
     except AbuError:  # `abu size` says why
         return (), 0
     changes = [
@@ -135,10 +134,6 @@ def _command(change: Change, machine: Machine, ask: SweepRequest, accuracy: floa
     )  # fmt: skip
     ways = (f"--vary {shell_word(f'{key}={way}')}" for key, way in vary.items())
     return next_command("abu sweep", Provenance.of(machine), change.entries, *filter(None, given), *ways)
-
-
-ACCURACY: Final = 0.01
-"""Accuracy of a sweep that asks for no other."""
 
 
 def _advice(

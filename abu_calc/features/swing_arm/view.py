@@ -32,16 +32,6 @@ def arm_line(advice: str | None) -> list[Block]:
     return [Paragraph(f"Arm: {advice}", None if advice.startswith("nothing") else "fail", hang=2)]
 
 
-def short_advice(advice: str) -> str:
-    """The advice without its sentence on the bounds, which stand in their table.
-
-    >>> short_advice("nothing to change. The bounds permit more, and 1 % of the pivot damping. It rests on a guess.")
-    'nothing to change. It rests on a guess.'
-    """
-    before, _, after = advice.partition(" The bounds permit")
-    return f"{before}{after.partition('pivot damping.')[2]}"
-
-
 def arm_bounds(arm: SwingArmRecord) -> Grid:
     """Each number given beside its bound over all contact angles: stiffness first, damping second."""
     stiffness = min(arm.contact_stiffness_limit_N_per_m, arm.contact_stiffness_limit_exact_N_per_m)

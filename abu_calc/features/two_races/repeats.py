@@ -15,7 +15,7 @@ def repeated(outcome: StartOutcome, design: TwoRaceDesign) -> str:
     """The options of `abu simulate` that repeat a start case, with balls, races and imbalances as they are."""
     member = outcome.member
     start = f"--start {'run-up' if member.run_up else member.start} " if member.run_up or not member.turned else ""
-    entries = {key: _text(value) for key, value in chain(_made(design), _of_start(outcome, design))}
+    entries = dict(chain(_made(design), _of_start(outcome, design)))
     if member.turned:
         entries |= places(chain.from_iterable(race.start_angles for race in scene_of(design, member).races))
     return start + as_options(outcome, entries)
@@ -29,9 +29,8 @@ def _made(design: TwoRaceDesign) -> Iterator[tuple[str, Any]]:
         yield f"{own}ball_diameter_mm", from_si(balls.ball_diameter, "mm")
         yield f"{own}race_radius_mm", from_si(balls.race_radius, "mm")
         if design.case.table.autobalancer[k].plane_range_mm is not None:
-            place = _text(from_si(race.place, "mm"))
-            yield f"{own}plane_mm", place
-            yield f"{own}plane_range_mm", f"[{place}, {place}]"
+            place = from_si(race.place, "mm")
+            yield from ((f"{own}plane_mm", place), (f"{own}plane_range_mm", [place, place]))
 
 
 def _of_start(outcome: StartOutcome, design: TwoRaceDesign) -> Iterator[tuple[str, Any]]:
@@ -58,12 +57,3 @@ def _of_start(outcome: StartOutcome, design: TwoRaceDesign) -> Iterator[tuple[st
                 f"autobalancer.{k}.race_eccentricity_mm",
                 varied.race_eccentricity * from_si(case.eccentricity, "mm"),
             )
-
-
-def _text(value: Any) -> str:
-    """A value as `--set` takes it.
-
-    >>> _text(0.1 + 0.2), _text("vertical"), _text(4)
-    ('0.3', 'vertical', '4')
-    """
-    return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -78,7 +78,7 @@ def size_two_races(
             Provenance.of(machine),
             () if step.best is None else step.best.entries,
             promise(judged, step),
-            incurable=step.best is None and not patience.over(),
+            incurable=step.futile and not patience.over(),
         ),
         checks=checks,
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),

@@ -108,6 +108,27 @@ def test_what_does_not_balance_has_no_pass(sized: SizeResult) -> None:
     assert not re.search(r"\bpass\b", text) and re.search(r"balances from every start, g·mm +3.000 +2.000 +FAIL", text)
 
 
+@pytest.mark.parametrize(
+    ("code", "value", "limit"), [("ABU401", 108.9, 109.0), ("ABU404", 0.6, 0.5), ("ABU702", 0.9, 1.0)]
+)
+def test_no_check_that_is_not_passed_is_hidden(sized: SizeResult, code: str, value: float, limit: float) -> None:
+    """One whose value keeps its limit, and one that has no row: a point mass shows no handles."""
+    check = Check(code, "name of it", "warn", "why", value, limit, "x", None)
+    assert sized.ensemble is not None
+    text = as_text(size_screen(replace(sized, checks=(check,))))
+    assert "WARN" in text
+
+
+def test_what_the_next_command_does_is_told_by_its_own_action(sized: SizeResult) -> None:
+    seat = Check(
+        "ABU601", "seat", "fail", "why", 1.0, 2.0, "µm", "Specify m6: a.", overrides=("bearing.0.shaft_fit=m6",)
+    )
+    own = Check("ABU701", "starts", "warn", "why", 1.0, 2.0, "g·mm", "Set c = 1: b.", overrides=("oil.grade=VG 100",))
+    verdict = Verdict.of([seat, own], "", sized.provenance, own.overrides)
+    text = flat(as_text(size_screen(replace(sized, checks=(seat, own), verdict=verdict))))
+    assert "Next b. abu size" in text and "Next a." not in text
+
+
 def test_a_start_case_louder_than_without_is_told_so(sized: SizeResult) -> None:
     vibration = replace(sized.vibration, level_before_db=95.0)
     text = as_text(size_screen(replace(sized, vibration=vibration)))

@@ -25,7 +25,7 @@ def of_grades(*grades: Grade) -> Verdict:
         (
             ("pass", "warn", "pass"),
             "suits-but",
-            "Suits, but check 1 (reason 1). It helps.",
+            "Suits, but check 1 (And more). It helps.",
         ),
         (
             ("warn", "not-done", "pass"),
@@ -56,7 +56,7 @@ def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> N
     verdict = Verdict.of([LEVEL, late], "", reading, ("a.b=2", 'c.d="x y"'), moved)
     assert verdict.sentence == "Does not suit: the machine becomes quiet too late (1.25 s, at most 1.00)."
     creeps = Check(
-        "ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further start cases: 1 of 72 still creeps. More", 0.1, 1.0, "s"
+        "ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further start cases: 1 of 72 still creeps", 0.1, 1.0, "s"
     )
     assert (
         "quiet time (Further start cases: 1 of 72 still creeps)"
@@ -112,3 +112,18 @@ def test_one_fault_counts_once() -> None:
     assert [check.code for check in faults(checks, "warn")] == ["ABU203"] and not faults(checks, "not-done")
     sentence = Verdict.of(checks, "", Provenance.today()).sentence
     assert "balls go to the heavy side (3.00 Hz, at most 2.00); the race does not stay round (3" in sentence
+
+
+@pytest.mark.parametrize(
+    ("code", "useless"), [("ABU101", True), ("ABU401", True), ("ABU304", False), ("ABU601", False)]
+)
+def test_a_seat_or_a_strength_is_no_reason_to_leave_the_autobalancer_out(code: str, useless: bool) -> None:
+    checks = [coded(code, "fail", "why", 3.0, 2.0, "µm")]
+    assert Verdict.of(checks, "", Provenance.today(), incurable=True).leave_out is useless
+    assert not Verdict.of(checks, "", Provenance.today()).leave_out, "changes are left that were not tried"
+
+
+def test_a_benefit_that_is_not_known_is_not_told() -> None:
+    assert benefit("spindle", 90.0, None, 109.0, 0.1) == ""
+    checks = [coded("ABU203", "warn", "why", 3.0, 2.0, "%")]
+    assert Verdict.of(checks, "", Provenance.today()).sentence.endswith("(3.00 %, at most 2.00).")

@@ -1,12 +1,15 @@
 """`abu init` writes files that their commands take, and copies presets alone."""
 
 import json
+import math
+import re
 import tomllib
 from pathlib import Path
 
 import jsonschema
 import pytest
 
+from abu_calc.features.files.new_machine import completed
 from tests.cli.runner import abu
 from tests.inputs.samples import BEARINGS
 
@@ -55,3 +58,55 @@ def test_only_a_copied_preset_speaks_of_what_it_expects(tmp_path: Path) -> None:
     assert "[expected] holds the preset's results" in " ".join(
         abu("init", str(copied), "--preset", "msh-230").out.split()
     )
+
+
+MINE = ("--layout", "angle", "--wheel", "125 mm", "--mass", "2.25 kg", "--speed", "10999.123", "--room", "Ø52 × 16")
+
+
+def test_the_short_file_holds_what_was_given_exactly_and_marks_what_is_assumed(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    assert abu("init", str(file), *MINE, "--handle", 'a"b = 62, 120.5,-8').status == 0
+    text = file.read_text(encoding="utf-8")
+    tables = tomllib.loads(text)
+    machine, own = tables["machine"], tables["autobalancer"]
+    assert (machine["mass_kg"], machine["speed_rpm"], tables["wheel"]["diameter_mm"]) == (2.25, 10999.123, 125.0)
+    assert machine["handle"] == [{"name": 'a"b', "position_mm": [62.0, 120.5, -8.0]}]
+    assert (own["max_outer_diameter_mm"], own["max_width_mm"]) == (52.0, 16.0) and len(text.splitlines()) <= 30
+    assert not re.search(r"(?m)^(mass_kg = 2.25|speed_rpm|max_outer).*assumed", text) and text.count("assumed") >= 4
+    assert abu("validate", str(file)).status == 0
+    bare = tmp_path / "bare.toml"
+    assert abu("init", str(bare), *MINE, "--level", "111").status == 0
+    assert "handle" not in bare.read_text("utf-8") and tomllib.loads(bare.read_text("utf-8"))["wheel"] == {
+        "diameter_mm": 125.0, "mass_kg": 0.18, "measured_level_db": 111.0
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "words"),
+    [
+        ("--layout", "angel", "no such layout"), ("--room", "1.2.3x4", "outer diameter and width"),
+        ("--mass", "-2", "above zero"), ("--mass", "nan", "above zero"), ("--speed", "8500 Hz", "a number in rpm"),
+        ("--room", "0x16", "out of range"), ("--handle", "side=1,2", "three lengths"),
+    ],
+)  # fmt: skip
+def test_a_wrong_answer_is_refused_and_nothing_is_written(option: str, value: str, words: str, tmp_path: Path) -> None:
+    file, given = tmp_path / "mine.toml", [*MINE]
+    if option in given:
+        del given[(place := given.index(option)) : place + 2]
+    seen = abu("init", str(file), *given, f"{option}={value}")
+    assert seen.status == 2 and words in seen.err and not file.exists()
+
+
+def test_what_is_missing_is_named_where_nobody_can_be_asked(tmp_path: Path) -> None:
+    seen = abu("init", str(tmp_path / "mine.toml"), "--layout", "angle", "--wheel", "125")
+    assert seen.status == 2 and "missing: --mass, --speed, --room" in seen.err
+    assert abu("init", str(tmp_path / "mine.toml"), "--preset", "msh-230", "--mass", "3").status == 2
+
+
+def test_a_terminal_asks_again_and_takes_usual_answers() -> None:
+    replies = iter(["angel", "angle", "180 mm", "", "", "", "", "side=1,2,3"])
+    given, usual = completed({}, lambda words, proposed: next(replies))
+    assert (given["layout"], given["wheel"], given["handle"]) == ("angle", 180.0, [("side", [1.0, 2.0, 3.0])])
+    assert usual == {"mass", "speed", "room"} and "level" not in given
+    # 72 m/s at the rim of the wheel.
+    assert given["speed"] == pytest.approx(72 / (math.pi * 0.18) * 60, abs=50)
