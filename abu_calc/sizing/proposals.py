@@ -63,12 +63,12 @@ def carrying_more(design: Design) -> Iterator[Entries]:
     for room in (1.0, *ROOM):
         entries = {} if room == 1 else _envelope(own, room)
         for margin in MARGINS:
-            found = followed(
+            larger = followed(
                 _unpinned(design.case), {**entries, "autobalancer.capacity_margin": margin * own.capacity_margin}
             )
-            if found and (chosen := overrides(pins(found.candidate))) not in known:
+            if larger and (chosen := overrides(pins(larger.candidate))) not in known:
                 known.add(chosen)
-                yield {**entries, **pins(found.candidate)}
+                yield {**entries, **pins(larger.candidate)}
 
 
 def lighter(design: Design) -> Iterator[Entries]:
@@ -113,8 +113,8 @@ def free(case: Case, entries: Mapping[str, object] | None = None) -> Iterator[En
     entries = dict(entries or {})
     if all(getattr(case.autobalancer, pin) is None for pin in PINS):
         yield from [entries] if entries else []
-    elif found := followed(_unpinned(case), entries):
-        yield {**entries, **pins(found.candidate)}
+    elif free := followed(_unpinned(case), entries):
+        yield {**entries, **pins(free.candidate)}
 
 
 def _unpinned(case: Case) -> Case:
@@ -240,8 +240,8 @@ def mended(design: Design) -> list[Entries]:
                   and check.code in PROPOSED and check.code not in seen]:  # fmt: skip
         check = min(bad, key=_rank)
         seen.add(check.code)
-        if found := _first(now, check):
-            change, now = found
+        if step := _first(now, check):
+            change, now = step
             pinned = {} if all(key.startswith(ARM) for key in change) else pins(now.autobalancer)
             steps.append({**steps[-1], **change, **pinned})
     return steps[:0:-1]

@@ -37,14 +37,14 @@ MOST_FAULTS: Final = 3
 """Checks with a row of their own, beside those that the table shows."""
 NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU701"})
 """Checks without which no value of a table is a pass."""
-TODO: Final = {
+REPLACE: Final = {
     "autobalancer.race_eccentricity_mm": "Specify the run-out that the shop holds.",
     "autobalancer.rolling_friction_mm": "Find it: `abu measure-plan`, `abu identify`.",
     DRAG: "Name the oil: oil.grade, oil.viscosity_index, oil.fill_ml.",
     "suspension.natural_frequencies_hz": "Measure how the machine is held.",
     "suspension.damping_ratios": "Measure how the machine is held.",
 }
-"""What to do about an assumed value."""
+"""How to replace an assumed value by a known one."""
 RUN_NAMES: Final = {
     "autobalancer.race_eccentricity_mm": ("race eccentricity", 1e3, "µm"),
     "wheel.imbalance_g_mm": ("imbalance", 1.0, "g·mm"),
@@ -317,7 +317,7 @@ def _assumed(result: SizeResult) -> list[Block]:
     if gap is None:
         return []
     limits = [check.limit for check in result.checks if check.code == "ABU401" and check.limit is not None]
-    return labelled("Assumed", [f"{_moves(gap, *limits)} {TODO.get(gap.key, '')}".rstrip()])
+    return labelled("Assumed", [f"{_moves(gap, *limits)} {REPLACE.get(gap.key, '')}".rstrip()])
 
 
 def _moves(gap: DataGap, limit: float = math.inf) -> str:

@@ -36,7 +36,7 @@ def actions(
 
     `classes`: those to specify in place of the given ones; `groups`: the clearance groups that may suit.
     """
-    known, found = dict[str, Sequence[Check]](), dict[str, tuple[int, Action]]()
+    known, best = dict[str, Sequence[Check]](), dict[str, tuple[int, Action]]()
     for check in checks:
         if not check.requested or check.status not in ("warn", "fail") or not (_seat(check) or check.code == "ABU621"):
             continue
@@ -45,11 +45,11 @@ def actions(
             if words not in known:
                 known[words] = judged(with_entries(bearing, entries))
             worth, action = _action(check, entries, checks, known[words])
-            if worth > found.get(check.code, (0, action))[0]:
-                found[check.code] = worth, action
+            if worth > best.get(check.code, (0, action))[0]:
+                best[check.code] = worth, action
             if worth == MENDS:
                 break
-    return {code: action for code, (_, action) in found.items()}
+    return {code: action for code, (_, action) in best.items()}
 
 
 def _seat(check: Check) -> str | None:

@@ -202,17 +202,17 @@ def judge(bearing: SeatedBearing) -> BearingSeats:
     classes = {f"{seat.seat}_fit": seat.recommended_fit for seat in plain.seats}
     left = plain.clearance
     groups = () if left is None else (left.group_to_choose, plain.group_to_order, plain.group_of_recommended)
-    found = actions(
+    proposed = actions(
         bearing, plain.checks, {key: value for key, value in classes.items() if value},
         [group for group in dict.fromkeys(groups) if group], lambda changed: _judged(changed).checks,
     )  # fmt: skip
-    shaft, housing = (seat._replace(checks=_with(found, seat.checks)) for seat in plain.seats)
-    return plain._replace(shaft=shaft, housing=housing, actions=found)
+    shaft, housing = (seat._replace(checks=_with(proposed, seat.checks)) for seat in plain.seats)
+    return plain._replace(shaft=shaft, housing=housing, actions=proposed)
 
 
-def _with(found: "Mapping[str, Action]", checks: Sequence[Check]) -> tuple[Check, ...]:
+def _with(proposed: "Mapping[str, Action]", checks: Sequence[Check]) -> tuple[Check, ...]:
     """Checks with these actions."""
-    return tuple(check.with_action(found[check.code].text) if check.code in found else check for check in checks)
+    return tuple(check.with_action(proposed[check.code].text) if check.code in proposed else check for check in checks)
 
 
 def _judged(bearing: SeatedBearing) -> BearingSeats:
