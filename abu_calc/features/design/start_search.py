@@ -16,7 +16,7 @@ from itertools import cycle
 from operator import attrgetter
 from typing import Final
 
-from abu_calc.features.design.band import corners, promised, usual
+from abu_calc.features.design.band import corners, promised, usual, worse_wheels
 from abu_calc.foundation import patience
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
@@ -174,26 +174,30 @@ def search(
     workers: int = 1,
     listed: tuple[StartOutcome, ...] = (),
     watch: Watch | None = None,
+    most: int | None = None,
 ) -> SearchResult:
     """The designed starts, and those near the worst of them. The same whatever the number of workers.
 
-    `listed`: outcomes of the listed starts at the drag given; `watch`: looks at each outcome.
+    `listed`: outcomes of the listed starts at the drag given; `watch`: looks at each outcome; `most`: designed starts
+    at most, of all kinds, and none near the worst.
     """
 
     def run(starts: Sequence[Member]) -> tuple[StartOutcome, ...]:
         return _run(design, starts, accuracy, progress, workers, watch)
 
     starts = list(design_part(design, 0))
+    if most is not None and most < len(starts):
+        starts = [starts[k * len(starts) // most] for k in range(most)]
     found, asked, limit = run(starts), len(starts), design.case.table.limits.longest_quiet_time
     none_late = max((slowness(each) for each in found if each.member.promised), default=math.inf) <= limit
     seems_late = limit < SearchResult(found, listed=listed).foreseen <= NEAR * limit
-    if none_late and seems_late:
+    if none_late and seems_late and most is None:
         for part in range(1, PARTS):
             if not patience.over():
                 starts = list(design_part(design, part))
                 found, asked = (*found, *run(starts)), asked + len(starts)
     near, tried = tuple[StartOutcome, ...](), set[Member]()
-    for _ in range(ROUNDS):
+    for _ in range(ROUNDS if most is None else 0):
         if not found or patience.over():
             break
         some = [outcome for outcome in (*found, *near) if outcome.member.promised]
@@ -251,6 +255,7 @@ def design_part(design: Design, part: int) -> Iterator[Member]:
         yield from promised(design, anywhere(design, PARTS))
         yield from corners(design)
         yield from usual(design, anywhere(design, PARTS + 1))
+        yield from worse_wheels(design, anywhere(design, PARTS + 2))
 
 
 def anywhere(design: Design, part: int) -> Iterator[Member]:

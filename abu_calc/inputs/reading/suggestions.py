@@ -13,7 +13,7 @@ from abu_calc.inputs.reading.table import Table, Usual, all_tables, is_array, su
 from abu_calc.inputs.reading.text import UNITS, Part, key_path, unit_suffix
 
 _OTHER_UNITS: Final = frozenset(
-    {*UNITS, "t", "lb", "lbs", "oz", "gram", "grams", "cm", "in", "inch", "hp", "ms", "min"}
+    {*UNITS, "g_cm", "kg_mm", "t", "lb", "lbs", "oz", "gram", "grams", "cm", "in", "inch", "hp", "ms", "min"}
 )
 
 
