@@ -278,8 +278,9 @@ def _fault_rows(checks: Sequence[Check], shown: Collection[str]) -> list[Row]:
 
 def _fault_row(check: Check) -> Row:
     hidden, sign = keeps_limit(check), "" if check.bound == "most" else "≥ "
-    value, limit = ("" if value is None or hidden else f"{value:g}" if check.unit == STARTS_UNIT else number(value, 5 if check.unit == "rpm" else 4)
-                    for value in (check.value, check.limit))  # fmt: skip
+    digits = 5 if check.unit == "rpm" else 4
+    value, limit = ("" if value is None or hidden else f"{value:g}" if check.unit == STARTS_UNIT
+                    else number(value, digits) for value in (check.value, check.limit))  # fmt: skip
     unit = f", {check.unit}" if check.unit and value else ""
     return f"{capitalised(check.name)}{unit}", "", value, f"{sign}{limit}" if limit else "", WORD[check.status]
 
