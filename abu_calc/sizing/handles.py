@@ -164,14 +164,17 @@ def body_advice(case: Case) -> str:
     except (AbuError, ValueError):
         return unknown
     masses = case.body.effective_mass(), other.body.effective_mass()
-    moved = [Moved("the effective mass", masses[0], masses[1], "kg").text]
+    moved = [Moved("the effective mass without an autobalancer", masses[0], masses[1], "kg").text]
     if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
-        before, after = (from_si(each, "g_mm") for each in imbalances)
-        moved.append(Moved("the imbalance", before, after, "g·mm").text.replace("falls ", ""))
+        moved.append(_moved_imbalance(*imbalances))
     given = words(entries)
     return (
         f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {set_options(entries)}"
     )
+
+
+def _moved_imbalance(before: float, after: float) -> str:
+    return Moved("the imbalance", from_si(before, "g_mm"), from_si(after, "g_mm"), "g·mm").text
 
 
 def estimate_keys(case: Case) -> str:

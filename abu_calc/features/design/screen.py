@@ -1,6 +1,7 @@
 """First screen of `abu size`: does the machine suit, what to make, the deciding numbers, what to do next."""
 
 import math
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Final
 
@@ -313,8 +314,9 @@ def _assumed(result: SizeResult) -> list[Block]:
     """The assumed value that moves the verdict most, and what to do about it."""
     for text in result.warnings:
         if INERTIA in text and "Measure" in text:
-            said = text[text.index("Measure") :].partition(": --set")[0]
-            return labelled("Assumed", [f"Point mass. {said.replace('machine.', '')}"])
+            said = text[text.index("Measure") :].partition(": --set")[0].replace("machine.", "")
+            said = re.sub("the effective mass .* and (?=the imbalance)| without an autobalancer", "", said)
+            return labelled("Assumed", [f"Point mass. {said}"])
     gap = next((gap for gap in result.data_gaps if gap.key == DRAG or gap.level_db[0] != gap.level_db[1]), None)
     if gap is None:
         return []
