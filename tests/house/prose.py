@@ -61,7 +61,7 @@ ALL_PASS: Final = re.compile(r"All \d+ start cases, .*, then pass\.$|Then ABU.* 
 """Sentence that stands at each action that makes all start cases pass."""
 SENTENCE: Final = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 ONE_OF_MANY: Final = re.compile(
-    r"(?<![\d.,–-])\b1 (?!is |was |has |as |its |this |less |across |does |warns\b|fails\b|passes\b|pass\b|×|race \d )"
+    r"(?<![\d.,–-])(?<!race )\b1 (?!is |was |has |as |its |this |less |across |does |warns\b|fails\b|passes\b|×)"
     r"([a-z]+s)\b(?!\.\w|[_=])"
 )
 TINY: Final = re.compile(r"\b\d\.\d+e-1\d\b")
