@@ -1,5 +1,6 @@
 """Building blocks of a report, and numbers as text: the same for every command and every format of text."""
 
+import re
 from typing import Final, NamedTuple
 
 from abu_calc.foundation.quantity import Quantity, Record, quantities
@@ -21,6 +22,20 @@ def number(value: float, digits: int = 4) -> str:
     if whole:
         return f"{rounded:.{max(0, digits - whole)}f}"
     return f"{rounded:#.{digits}g}"
+
+
+def capitalised(text: str) -> str:
+    """A text that begins a line."""
+    return text[:1].upper() + text[1:]
+
+
+def uncapitalised(text: str) -> str:
+    """A sentence that goes on after other words; an abbreviation or a symbol keeps its capital.
+
+    >>> uncapitalised("At 154 rpm"), uncapitalised("ABU201"), uncapitalised("A small one")
+    ('at 154 rpm', 'ABU201', 'a small one')
+    """
+    return text[:1].lower() + text[1:] if re.match(r"[A-Z][a-z]*\b", text) else text
 
 
 NOISE: Final = {

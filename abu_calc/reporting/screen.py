@@ -20,6 +20,7 @@ LINES: Final = 40
 LEAST: Final = 8
 """Lines kept for the warnings and for the body, where others ask for all."""
 BLANK: Final[Block] = Paragraph("")
+MORE_ROWS: Final = re.compile(r"And \d+ more rows?: ")
 ELSEWHERE: Final = frozenset({"checks", "warnings", "defaults", "conventions", "provenance"})
 """Ids of the sections of a whole report that a screen words in its own way, or leaves to it."""
 
@@ -112,7 +113,11 @@ def cut(blocks: Sequence[Block], room: int) -> list[Block]:
         kept += part
     ended: list[Block] = [*kept, Heading("")]
     empty = [isinstance(above, Heading) and isinstance(below, Heading) for above, below in pairwise(ended)]
-    return [*(piece for piece, bare in zip(kept, empty, strict=True) if not bare), Paragraph("And more: --full.")]
+    shown = [piece for piece, bare in zip(kept, empty, strict=True) if not bare]
+    while shown and shown[-1] == BLANK:
+        shown.pop()
+    counted = shown and MORE_ROWS.match(getattr(shown[-1], "text", ""))
+    return shown if counted else [*shown, Paragraph("And more: --full.")]
 
 
 def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:

@@ -33,7 +33,7 @@ HEADING_HANG = 6
 FACT_WIDTHS = (35, 17)
 """Label and symbol: the same in every block, so that values stand in one column; they take the rest of the line."""
 
-BEFORE_UNIT = re.compile(r"(?<=±) |(?<=\d) (?=±|(?:g·mm|1/s|mm|Hz|rpm|dB|µm|MPa|kg|[sNgW%])(?!\w))")
+BEFORE_UNIT = re.compile(r"(?<=[±≤≥]) |(?<=\bR) (?=\d)|(?<=\d) (?=±|(?:g·mm|1/s|mm|Hz|rpm|dB|µm|MPa|kg|[sNgW%])(?!\w))")
 """Blanks at which no line is broken."""
 TIE = "\u00a0"
 
@@ -49,7 +49,7 @@ def show(blocks: Iterable[Block], *, color: bool = True) -> None:
         return
     out = console(width)
     for part in _parts(blocks, width):
-        out.print(Text(*part) if isinstance(part, tuple) else part)
+        out.print(Text(*part) if isinstance(part, tuple) else part, soft_wrap=isinstance(part, tuple))
 
 
 def console(width: int, **how: Any) -> Console:

@@ -170,7 +170,7 @@ def drag_source(case: Case) -> str:
     rate = oil.working.drag
     by_oil = (
         f"a viscous drag rate of {rate:.3g} 1/s at {oil.working.temperature:g} °C, uncertain by a factor of "
-        f"{FACTOR:g} ({rate / FACTOR:.2g} … {rate * FACTOR:.2g} 1/s)"
+        f"{FACTOR:g} ({float(f'{rate / FACTOR:.2g}'):g} … {float(f'{rate * FACTOR:.2g}'):g} 1/s)"
     )
     if oil.overridden:
         return f"rolling_drag_per_s = {case.drag:.3g} overrides the oil. The oil gives {by_oil}."

@@ -7,7 +7,7 @@ import pytest
 
 from abu_calc.foundation.escaping import escaped, escaped_lines
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.text import as_text, show
 from tests.cli.runner import abu
 from tests.inputs.samples import BASIC, BEARINGS
 
@@ -116,6 +116,16 @@ def test_found_values_are_cut(tmp_path: Path) -> None:
     file.write_text(BASIC.replace("5.6", f'"{long}"').replace("[limits]", f"[limits]\n{long} = 1"), encoding="utf-8")
     seen = abu("validate", str(file), "--json")
     assert len(seen.err) < 2000 and len(seen.document["error"]["found"]) <= 200
+
+
+def test_a_command_stays_on_one_line_in_colour(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Pasted, a line that a report ends would be another command."""
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    command = "abu size machine.toml " + 10 * "--set autobalancer.rolling_drag_per_s=18 "
+    show([Paragraph(command.rstrip(), whole=True)])
+    assert command.rstrip() in capsys.readouterr().out
 
 
 def test_what_is_escaped() -> None:

@@ -34,7 +34,8 @@ def label_of(path: str, unit: str = "") -> str:
 
 def _plain(name: str) -> str:
     """Words of a key, without its unit."""
-    return quantity_and_unit(name)[0].replace("_", " ")
+    words = quantity_and_unit(name)[0].replace("_", " ").replace("felt mass", "effective mass")
+    return words.replace("accuracy budget", "residual-displacement budget")
 
 
 def _record_in(hint: Any) -> type[Record] | None:

@@ -12,7 +12,7 @@ DECIBELS: Final = (
     ("vibration.level_before_db", "Idle, without autobalancer"),
     ("ensemble.predicted_level_db", "Idle, with: median of the start cases"),
     ("vibration.level_after_db", "  expected, manufacture and friction"),
-    ("ensemble.level_db.worst", "  loudest start case, any oil"),
+    ("ensemble.level_db.worst", "  loudest listed start case"),
     ("vibration.worst_arrangement.level_after_db", "  bound of friction"),
     ("measured_after.measured_level_db", "  measured"),
 )
@@ -92,7 +92,7 @@ def _settling(result: CompareResult, designs: Designs) -> list[_NumbersLine]:
     return [
         line("Median of the start cases", designs[MEDIAN]),
         line("Slowest start case, drag rate in force", given),
-        line("Slowest start case, any oil", designs[SLOWEST]),
+        line("Slowest listed start case, any oil", designs[SLOWEST]),
         *_limit(result, "ABU702"),
     ]
 

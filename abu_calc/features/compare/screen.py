@@ -191,8 +191,9 @@ def _rows_that_fit(letters: Sequence[str], table: ComparisonTable, further: int,
         fitting = [*_blocks(letters, table, count), *_counted(further + total - count)]
         if height(fitting) <= room:
             return fitting
-    return [Heading(HEADINGS[table.part]), *_counted(further + total)]
+    return [Heading(HEADINGS[table.part]), *_counted(further + total, "")]
 
 
-def _counted(further: int) -> Iterable[Block]:
-    return [Paragraph(f"And {many(further, 'more that differs', 'more that differ')}: --full.")] if further else []
+def _counted(further: int, more: str = " more that") -> Iterable[Block]:
+    text = many(further, f"{more} differs".strip(), f"{more} differ".strip())
+    return [Paragraph(f"{'And ' if more else ''}{text}: --full.")] if further else []

@@ -26,7 +26,7 @@ Values = Mapping[str, tuple[Any, str]]
 ROUNDING: Final = 1e-9
 """Computed numbers that are closer, relative to the larger, are the same: they differ by rounding alone."""
 
-OF_THE_RUN: Final = frozenset({"cost", "error_estimate"})
+OF_THE_RUN: Final = frozenset({"cost", "error_estimate", "outline_mm"})
 """Entries of a result that say how it was computed, and nothing of the machine."""
 
 

@@ -15,7 +15,7 @@ from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si
 from abu_calc.registry import imported
-from abu_calc.reporting.blocks import number
+from abu_calc.reporting.blocks import capitalised, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
 from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, caught, level, settling
 from abu_calc.reporting.charts.run_up_chart import run_up_chart
@@ -219,23 +219,19 @@ def start_label(start: StartView) -> str:
     elif start.why == "typical":
         reason = ", median quiet time"
     ends = _quiet(start.quiet_time_s) if start.balanced else "does not balance"
-    return f"{_upper(case)}{reason}: {'balls stall' if start.stalled else ends}, {db(start.level_db)}"
+    return f"{capitalised(case)}{reason}: {'balls stall' if start.stalled else ends}, {db(start.level_db)}"
 
 
 def _quiet(time: float | None) -> str:
     return "never quiet" if time is None else f"quiet after {number(time, 2)} s"
 
 
-def _upper(text: str) -> str:
-    return text[0].upper() + text[1:]
-
-
 def _idle_label(result: SizeResult) -> str:
     """The idle scene in the list of start cases, with its outcome."""
     scene = next((scene for scene in result.simulation if scene.scene == "idle"), None)
     if scene is None or scene.level_db is None:
-        return _upper(idle_case(result))
-    return f"{_upper(idle_case(result))}: {_quiet(scene.quiet_time_s)}, {db(scene.level_db)}"
+        return capitalised(idle_case(result))
+    return f"{capitalised(idle_case(result))}: {_quiet(scene.quiet_time_s)}, {db(scene.level_db)}"
 
 
 def _settling(result: SizeResult) -> Iterator[Figure]:
@@ -275,12 +271,12 @@ def _run_up(result: SizeResult) -> Iterator[Figure]:
         if start.view.speed_rpm is not None and start.drag_per_s == result.starts.drag_per_s:
             case = start_case(start.start, start.race_centre_deg, start.drag_per_s)
             caption = (
-                f"{_upper(case)}: speed and imbalance left, from standstill, balls together. The imbalance left should "
-                "fall, and stay low at full speed."
+                f"{capitalised(case)}: speed and imbalance left, from standstill, balls together. The imbalance left "
+                "should fall, and stay low at full speed."
             )
             yield Figure("run-up", "many-starts", caught(start.view, start.view.speed_rpm), caption)
             if start.scene is not None:
-                yield from amplitude_figure(start.scene, "many-starts", _upper(case))
+                yield from amplitude_figure(start.scene, "many-starts", capitalised(case))
             return
 
 

@@ -211,8 +211,8 @@ def _stable(design: Design, speeds: SpeedRange) -> Check:
 def _whirls(speed: float) -> Check:
     """A failure by the body in space, where the planar model passes."""
     message = (
-        f"At {_rpm(speed)} a small disturbance grows in six degrees of freedom, though it dies out in the plane of the "
-        "race. Gyroscopic moments or the hands at the handles make the difference"
+        f"At {_rpm(speed)} a small disturbance of the whole body in space grows, though one in the plane of the race "
+        "dies out. Gyroscopic moments or the hands at the handles make the difference"
     )
     return coded("ABU103", "fail", message)
 

@@ -1,6 +1,7 @@
 """First screen of `abu size`: does the machine suit, what to make, the deciding numbers, what to do next."""
 
 import math
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Final
 
@@ -18,10 +19,10 @@ from abu_calc.features.design.tables import (
     title_with_speed,
     unusual_values,
 )
-from abu_calc.features.design.verdict import Verdict, faults
+from abu_calc.features.design.verdict import STARTS_UNIT, Verdict, faults, keeps_limit
 from abu_calc.foundation.checks import RANK, Check, Grade, worst
 from abu_calc.foundation.escaping import shell_word
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
 from abu_calc.reporting.parts import WORD, replaced_entries
 from abu_calc.reporting.screen import BLANK, many
 from abu_calc.simulation.result import Result
@@ -39,14 +40,14 @@ NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU701"})
 """Checks without which no value of a table is a pass."""
 REPLACE: Final = {
     "autobalancer.race_eccentricity_mm": "Specify the run-out that the shop holds.",
-    "autobalancer.rolling_friction_mm": "Find it: `abu measure-plan`, `abu identify`.",
+    "autobalancer.rolling_friction_mm": "Measure it: `abu measure-plan`, then `abu identify`.",
     DRAG: "Name the oil: oil.grade, oil.viscosity_index, oil.fill_ml.",
     "suspension.natural_frequencies_hz": "Measure how the machine is held.",
     "suspension.damping_ratios": "Measure how the machine is held.",
 }
 """How to replace an assumed value by a known one."""
 RUN_NAMES: Final = {
-    "autobalancer.race_eccentricity_mm": ("race eccentricity", 1e3, "µm"),
+    "autobalancer.race_eccentricity_mm": ("eccentricity", 1e3, "µm"),
     "wheel.imbalance_g_mm": ("imbalance", 1.0, "g·mm"),
     "autobalancer.rolling_drag_per_s": ("drag rate", 1.0, "1/s"),
 }
@@ -117,7 +118,7 @@ def _make(result: SizeResult) -> list[str]:
         f"housing Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
         f"{section.bore_diameter_mm:g} {fit}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g, "
         f"{number(100 * abu.mass_fraction, 2)} %",
-        f"run-out at most: race {split.race_tir_um:.3g} µm TIR, spindle {split.spindle_tir_um:.3g} µm TIR "
+        f"run-out TIR: race ≤ {split.race_tir_um:.3g} µm, spindle ≤ {split.spindle_tir_um:.3g} µm "
         f"(eccentricity {split.total_um:.3g} µm)",
         _capacity(result),
     ]
@@ -129,10 +130,10 @@ def _capacity(result: SizeResult) -> str:
     limit = next((check.limit for check in result.checks if check.code == "ABU201"), None) or bare
     named = ("imbalance", result.imbalance_g_mm), ("wheel run-out", model.runout_part_g_mm)
     parts = [(name, part) for name, part in (*named, ("race", model.eccentricity_part_g_mm)) if part > LEAST_SHARE]
-    needed = " + ".join(f"{name} {part:.3g}" for name, part in parts)
+    needed = " + ".join(f"{name} {number(part, 3)}" for name, part in parts)
     margin = f"{limit / bare:.3g} × ({needed})" if bare and limit > bare else needed
     large = "; larger balls roll more easily" if own > AMPLE * limit else ""
-    return f"carries {own:.4g} g·mm {'≥' if own >= limit else '<'} {margin}{large}"
+    return f"carries {number(own, 4)} g·mm {'≥' if own >= limit else '<'} {margin}{large}"
 
 
 def numbers(result: SizeResult) -> Grid:
@@ -170,7 +171,8 @@ def _idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
     over_range = [entry.level_after_db for entry in vibration.by_speed or ()]
     expected = max((level for level in (vibration.level_after_db, *over_range) if level is not None), default=None)
     before = vibration.level_before_db
-    yield level_row(f"Idle, {vibration.place}, expected", before, expected, check)
+    of_range = "expected" if expected == vibration.level_after_db else "loudest speed"
+    yield level_row(f"Idle, {vibration.place}, {of_range}", before, expected, check)
     levels = [] if many_starts is None else [many_starts.level_db.worst]
     if many_starts is not None and many_starts.further_starts is not None:
         levels.append(many_starts.further_starts.level_db)
@@ -276,11 +278,12 @@ def _fault_rows(checks: Sequence[Check], shown: Collection[str]) -> list[Row]:
 
 
 def _fault_row(check: Check) -> Row:
-    unit = f", {check.unit}" if check.unit else ""
-    value = "" if check.value is None else number(check.value, 4)
-    sign = "" if check.bound == "most" else "≥ "
-    limit = "" if check.limit is None else f"{sign}{number(check.limit, 4)}"
-    return f"{check.name}{unit if value else ''}", "", value, limit, WORD[check.status]
+    hidden, sign = keeps_limit(check), "" if check.bound == "most" else "≥ "
+    digits = 5 if check.unit == "rpm" else 4
+    value, limit = ("" if value is None or hidden else f"{value:g}" if check.unit == STARTS_UNIT
+                    else number(value, digits) for value in (check.value, check.limit))  # fmt: skip
+    unit = f", {check.unit}" if check.unit and value else ""
+    return f"{capitalised(check.name)}{unit}", "", value, f"{sign}{limit}" if limit else "", WORD[check.status]
 
 
 def _arm(result: SizeResult) -> list[Block]:
@@ -298,11 +301,11 @@ def _runs(many_starts: EnsembleResult | None) -> list[Block]:
         low, high = ends.get(row.key, (row.low, row.high))
         ends[row.key] = min(low, row.low), max(high, row.high)
     named = [
-        f"{name} {' … '.join(f'{factor * end:.3g}' for end in ends.pop(key))} {unit}"
+        f"{name} {' … '.join(f'{float(number(factor * end, 3)):g}' for end in ends.pop(key))} {unit}"
         for key, (name, factor, unit) in RUN_NAMES.items() if key in ends
     ]  # fmt: skip
     usual = ", ".join(name for key, name in USUAL_NAMES.items() if key in ends)
-    others = f"; {usual} as usual" if usual else ""
+    others = f"; usual {usual}" if usual else ""
     over = f": {', '.join(named)}{others}" if named else " at the values of the file"
     return labelled("Runs", [f"{many(many_starts.runs, 'start case')}{over}"])
 
@@ -311,8 +314,9 @@ def _assumed(result: SizeResult) -> list[Block]:
     """The assumed value that moves the verdict most, and what to do about it."""
     for text in result.warnings:
         if INERTIA in text and "Measure" in text:
-            said = text[text.index("Measure") :].partition(": --set")[0]
-            return labelled("Assumed", [f"a point mass. {said.replace('machine.', '')}"])
+            said = text[text.index("Measure") :].partition(": --set")[0].replace("machine.", "")
+            said = re.sub("the effective mass .* and (?=the imbalance)| without an autobalancer", "", said)
+            return labelled("Assumed", [f"Point mass. {said}"])
     gap = next((gap for gap in result.data_gaps if gap.key == DRAG or gap.level_db[0] != gap.level_db[1]), None)
     if gap is None:
         return []
@@ -326,6 +330,7 @@ def _moves(gap: DataGap, limit: float = math.inf) -> str:
     if gap.level_db[0] == gap.level_db[1]:  # an oil moves the times alone
         ends = [f"quiet after {_seconds(time)} s" for time in gap.quiet_time_s or ()]
     given = ", ".join(f"{text} at {value:g}" for text, value in zip(ends, gap.usual_range, strict=False))
+    given = given.replace(", quiet after", ",")
     beyond = f", limit {limit:g} dB" if max(gap.level_db) > limit else ""
     return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {given or 'no time was simulated'}{beyond}."
 

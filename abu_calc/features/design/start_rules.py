@@ -147,6 +147,9 @@ class StartRule(NamedTuple):
                 f"{worst.quiet_time_or_inf:.3g} s"
             )
             value = searched.foreseen
+        if listed.status == "warn" and not surely and not self.measure.counts and listed.limit is not None:
+            slowest = math.inf if listed.value is None else listed.value
+            value = finite(max(slowest, self.order(worst))) if slowest > listed.limit else value
         return listed._replace(status="fail" if surely else "warn", message=said, value=value, action=action)
 
 

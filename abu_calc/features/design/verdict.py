@@ -1,14 +1,15 @@
 """Verdict of a design in one word and one sentence: whether the machine suits, and what decides it."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Final, Self
 
 from abu_calc.foundation.checks import CHECK_CODES, RANK, Check, Grade, worst
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, velocity_from_level
-from abu_calc.reporting.blocks import number
+from abu_calc.reporting.blocks import number, uncapitalised
 from abu_calc.reporting.parts import next_command
+from abu_calc.reporting.screen import many
 from abu_calc.simulation.result import Provenance
 
 WORDS: Final[dict[Grade, str]] = {
@@ -35,6 +36,10 @@ LEAST_BENEFIT: Final = 3.0
 
 RARE: Final = "one of 1000 takes"
 """Words of a check that the time of rare starts decides."""
+LATER: Final = "Slowest at another drag rate"
+"""Words of a check that a start case in hot or cold oil decides."""
+STARTS_UNIT: Final = "start cases"
+"""Unit of a check that counts start cases."""
 
 
 @record
@@ -61,9 +66,9 @@ class Verdict(Record):
         `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: all were tried in vain.
         """
         grade = worst(checks)
-        reasons = list(dict.fromkeys(map(_reason, faults(checks, grade))))
+        reasons = _once(map(_reason, faults(checks, grade)))
         more = len(reasons) - MOST_REASONS
-        named = "; ".join(reasons[:MOST_REASONS]) + (f"; and {more} more" if more > 0 else "")
+        named = "; ".join(reasons[:MOST_REASONS]) + (f"; {more} more" if more > 0 else "")
         sentence = " ".join([BEGINNINGS[grade], *([f"{named}."] if named else [])])
         if grade in ("pass", "warn") and benefit:
             sentence += f" {benefit}"
@@ -98,29 +103,56 @@ def benefit(place: str, before: float | None, after: float | None, limit: float,
     return f"{text}, limit {limit:g}{late}."
 
 
+def _once(reasons: Iterable[str]) -> list[str]:
+    """Reasons without repetition; one that both races have names neither.
+
+    >>> _once(["not round, race 1 (8 µm)", "not round, race 2 (9 µm)", "too heavy"])
+    ['not round (8 µm)', 'too heavy']
+    """
+    merged: dict[str, str] = {}
+    for reason in reasons:
+        fault = reason.partition(", race ")[0]
+        merged[fault] = re.sub(r", race \d", "", merged[fault]) if fault in merged else reason
+    return list(merged.values())
+
+
 def _reason(check: Check) -> str:
     """What is wrong with a check, with its value and limit; if the value keeps the limit, with what its message says.
 
     Why a check only warns stands last there, and so does what further start cases do.
     """
-    value, limit, code = check.value, check.limit, CHECK_CODES.get(check.code)
+    value, limit, code, of_time = check.value, check.limit, CHECK_CODES.get(check.code), check.unit == "s"
     named = code is not None and code.fault and check.name.startswith(code.name)
     fault = f"{code.fault}{check.name.removeprefix(code.name)}" if code and named else check.name
-    if value is None and limit is not None and check.unit == "s":
-        return f"{fault} (never, at most {limit:g} s)"
-    if value is None or limit is None or (value <= limit if check.bound == "most" else value >= limit):
-        sentences = check.message.split(". ")
-        last = check.status == "warn" or sentences[-1].startswith("Further start cases")
-        name = fault if check.status == "fail" else check.name
-        return f"{name} ({sentences[-last].rstrip('.')})"
     where, oil = "", re.search(r"\((hot|cold) oil", check.message)
     if check.status == "warn":
-        where = " in one start of 1000" if RARE in check.message else f" in {oil[1]} oil" if oil else ""
+        where = " in one start of 1000" if RARE in check.message and LATER not in check.message else (
+            f" in {oil[1]} oil" if oil else "")  # fmt: skip
+    elif of_time and LATER not in check.message and "given drag rate" in check.message.partition(". ")[0]:
+        where = " at the given drag rate"
+    if value is None and limit is not None and of_time:
+        return f"{fault}{where} (never, at most {limit:g} s)"
+    if value is None or limit is None or keeps_limit(check):
+        if of_time and "creep" in check.message:
+            return "the balls still creep at the end of some start cases"
+        if where:
+            return f"{fault}{where}"
+        sentences = check.message.split(". ")
+        last = check.status == "warn" or sentences[-1].startswith("Further start cases")
+        return f"{fault} ({uncapitalised(sentences[-last].rstrip('.'))})"
     return f"{fault}{where} ({_beside(check, value, limit)})"
 
 
+def keeps_limit(check: Check) -> bool:
+    """True if the value of a check keeps its limit: another start case or rule decides its grade."""
+    value, limit = check.value, check.limit
+    return value is not None and limit is not None and (value <= limit if check.bound == "most" else value >= limit)
+
+
 def _beside(check: Check, value: float, limit: float) -> str:
-    """The value with its unit, and the limit, in digits that tell them apart."""
+    """The value with its unit, and the limit, in digits that tell them apart; of start cases their number alone."""
+    if check.unit == STARTS_UNIT:
+        return many(round(value), "start case")
     digits = next((each for each in range(3, 9) if number(value, each) != number(limit, each)), 8)
     unit = f" {check.unit}" if check.unit else ""
     return f"{number(value, digits)}{unit}, at {check.bound} {number(limit, digits)}"

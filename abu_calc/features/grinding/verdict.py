@@ -7,6 +7,7 @@ from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.work import LOUDER, Remedy, Side, Work
 from abu_calc.foundation.units import from_si
+from abu_calc.reporting.blocks import capitalised
 
 
 def in_words(work: Work, tried: Sequence[Remedy], loads: GrindingOutcomes | None = None) -> str:
@@ -64,7 +65,7 @@ def changes(tried: Sequence[Remedy]) -> str:
     """Sentence on the changes that help, with the level of each; empty without any."""
     if not tried:
         return ""
-    texts = (f"{_capital(_remedy(remedy))}: {_short(remedy)}." for remedy in tried)
+    texts = (f"{capitalised(_remedy(remedy))}: {_short(remedy)}." for remedy in tried)
     first = "This change prevents" if len(tried) == 1 else f"Each of {len(tried)} changes prevents"
     return f" {first} that in all simulated cases. {' '.join(texts)}"
 
@@ -88,11 +89,7 @@ def shortest(tried: Sequence[Remedy]) -> str | None:
     if not tried:
         return None
     text = _remedy(tried[0])
-    return f"{_capital(text)}: {_levels(tried[0])} (simulated)."
-
-
-def _capital(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}"
+    return f"{capitalised(text)}: {_levels(tried[0])} (simulated)."
 
 
 def _remedy(remedy: Remedy) -> str:
@@ -107,7 +104,7 @@ def _haste(work: Work) -> str:
     """Sentence on a start case with the balls on the heavy side."""
     start, level, run = "pressed before the balls have settled", work.level_at_once, work.at_once.run
     if level is None:
-        return f"{start[0].upper()}{start[1:]}: not known, {work.at_once.failure or NO_METHOD}."
+        return f"{capitalised(start)}: not known, {work.at_once.failure or NO_METHOD}."
     level_text = _level(level, work.at_once)
     if work.stays_loud and run is not None:
         return f"But {start}, wheel and workpiece keep bouncing at {level_text} dB, still after {run.duration:.2g} s."

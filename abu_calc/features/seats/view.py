@@ -135,7 +135,7 @@ def advice_lines(pair: Seats) -> list[Block]:
         Paragraph(f"Specify {', '.join([*fits, *_order(shaft, housing)])}{_ratio(shaft)}.{''.join(none)}")
     ]
     wrong = tuple((f"{seat.seat} {rejected.fit}", rejected.why) for seat in pair for rejected in seat.rejected_fits)
-    return [*lines, Grid(("not", "because"), wrong)] if wrong else lines
+    return [*lines, Grid(("rejected", "reason"), wrong)] if wrong else lines
 
 
 def bearing_table(pairs: Sequence[Seats]) -> Grid:

@@ -36,10 +36,11 @@ CONVENTIONS = (
     "Amplitudes are 0–peak over the last twentieth of the run, about the mean place. Velocities are rms, the larger of "
     "x and y; levels are 20 lg(v / 5e-8 m/s). Ball angles count in the rotor from its zero mark (of a machine: the "
     "imbalance) in the sense of rotation. Ball speeds are relative to the race. Quiet: from then on "
-    "the level stays at or below its limit and below the level without balls; without a limit, within 1 dB of the end. "
+    "the level stays at or below its limit and below the level without balls. Without a limit, it stays within 1 dB of "
+    "its end. "
     "At rest: from then on the imbalance in the rotor stays near that of the end. Times count from full speed."
 )
-UNJUDGED: Final = "NO LIMITS for this scene: only the accuracy is checked (reached)"
+UNJUDGED: Final = "NO LIMITS for this scene: only the accuracy is checked (reached)."
 UNDER_LOAD: Final = "Under load the level is not checked: the limit of the file is for idling."
 
 MOTION = (

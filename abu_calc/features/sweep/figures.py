@@ -20,7 +20,7 @@ from abu_calc.features.sweep.view import (
     words_of,
 )
 from abu_calc.foundation.units import unit_of
-from abu_calc.reporting.blocks import number
+from abu_calc.reporting.blocks import capitalised, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, MarkedPoint, Plot, db
 from abu_calc.reporting.charts.figure import Extras, Figure
 
@@ -179,8 +179,8 @@ def _cells(result: SweepResult) -> Iterator[Figure]:
         classes = [[kind_of(share) for share in row] for row in shares]
         all_of_them = [cell for row in classes for cell in row]
         summary = f"{what}, of {len(all_of_them)} cells: {all_of_them.count(4)} all, {all_of_them.count(0)} none"
-        caption = f"{what[0].upper()}{what[1:]}: the larger the square, the more; a ring: none of the members there."
-        field = _field(chart, f"{what[0].upper()}{what[1:]}", summary, classes, words)
+        caption = f"{capitalised(what)}: the larger the square, the more; a ring: none of the members there."
+        field = _field(chart, capitalised(what), summary, classes, words)
         yield Figure("cells-meets" if index else "cells", "chart", field, caption)
     levels = [level for row in chart.levels_db or () for level in row if level is not None]
     if not levels or min(levels) == max(levels):

@@ -12,7 +12,7 @@ from abu_calc.features.design.screen import (
 )
 from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
 from abu_calc.registry import imported
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
 from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.parts import (
@@ -64,7 +64,7 @@ def _table(result: TwoRaceSizeResult) -> Grid:
     level, rows = checks.get("ABU401"), list[Row]()
     for place in vibration.handles:
         before = place.level_before_db
-        rows.append(level_row(f"{place.name}, median", before, place.level_after_db, level))
+        rows.append(level_row(f"{capitalised(place.name)}, median", before, place.level_after_db, level))
         if place.level_after_worst_db is not None:
             rows.append(level_row("  loudest start case", None, place.level_after_worst_db, level))
     times: list[Row] = []
@@ -92,17 +92,16 @@ def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
 
 def _make(result: TwoRaceSizeResult) -> list[Block]:
     rows = (
-        ("Place, mm", lambda race: number(race.plane_mm, 4)),
-        ("Balls", lambda race: f"{race.ball_count} × Ø{number(race.ball_diameter_mm, 5)} mm"),
+        ("Place along the axis, mm", lambda race: number(race.plane_mm, 4)),
+        ("Balls", lambda race: f"{race.ball_count} × Ø{round(race.ball_diameter_mm, 3):g} mm"),
         ("Race R, groove R, mm", _radii),
         ("Housing", lambda race: f"Ø{number(race.outer_diameter_mm, 4)} × {number(race.width_mm, 3)} mm"),
-        ("Capacity, g·mm", lambda race: number(race.capacity_g_mm, 5)),
-        ("  required, worst phase", lambda race: number(race.resultant_worst_g_mm, 5)),
-        ("  required, rms of all phases", lambda race: number(race.resultant_typical_g_mm, 5)),
+        ("Capacity, g·mm", lambda race: number(race.capacity_g_mm, 4)),
+        ("  required, worst phase", lambda race: number(race.resultant_worst_g_mm, 4)),
         ("Mass with balls, g", lambda race: number(race.mass_g, 4)),
     )
     cells = tuple((label, *(show(race) for race in result.autobalancers)) for label, show in rows)
-    return [Grid(("Make", "race 1", "race 2"), cells, frozenset({1, 2}))]
+    return [Grid(("Make" if result.status == "pass" else "Best", "race 1", "race 2"), cells, frozenset({1, 2}))]
 
 
 def _radii(race: TwoRaceAutobalancer) -> str:

@@ -99,13 +99,13 @@ def test_rows_of_the_screen_are_numbers_of_the_result(sized: SizeResult) -> None
     assert row_of(text, f"loudest of {many.runs} start cases").split() == [f"{loudest:.1f}", "109", "pass"]
     quiet = max(many.quiet_time_s.worst or 0.0, further.quiet_time_s or 0.0)
     assert row_of(text, "Quiet after, s: slowest start").split() == [f"{quiet:.2f}", "1.00", "pass"]
-    assert f"{sized.autobalancer.mass_g:.0f} g," in flat(text) and "Assumed a point mass. Measure" in flat(text)
+    assert f"{sized.autobalancer.mass_g:.0f} g," in flat(text) and "Assumed Point mass. Measure" in flat(text)
 
 
 def test_what_does_not_balance_has_no_pass(sized: SizeResult) -> None:
     failed = Check("ABU701", "balances from every start", "fail", "no", 3.0, 2.0, "g·mm")
     text = as_text(size_screen(replace(sized, checks=(*sized.checks[1:], failed))))
-    assert not re.search(r"\bpass\b", text) and re.search(r"balances from every start, g·mm +3.000 +2.000 +FAIL", text)
+    assert not re.search(r"\bpass\b", text) and re.search(r"Balances from every start, g·mm +3.000 +2.000 +FAIL", text)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.verdict import Verdict, benefit, faults
-from abu_calc.foundation.checks import Check, Grade, OptionalCheck, coded
+from abu_calc.foundation.checks import CHECK_CODES, Check, Grade, OptionalCheck, coded
 from abu_calc.simulation.result import Provenance
 from tests.remembered import recalled
 
@@ -25,7 +25,7 @@ def of_grades(*grades: Grade) -> Verdict:
         (
             ("pass", "warn", "pass"),
             "suits-but",
-            "Suits, but check 1 (And more). It helps.",
+            "Suits, but check 1 (and more). It helps.",
         ),
         (
             ("warn", "not-done", "pass"),
@@ -58,16 +58,27 @@ def test_numbers_stand_with_their_limit_and_the_tried_change_is_a_command() -> N
     creeps = Check(
         "ABU702", "quiet time", "warn", "Slowest: 0.1 s. Further start cases: 1 of 72 still creeps", 0.1, 1.0, "s"
     )
-    assert (
-        "quiet time (Further start cases: 1 of 72 still creeps)"
-        in Verdict.of([creeps], "", Provenance.today()).sentence
-    )
+    assert "the balls still creep at the end of some" in Verdict.of([creeps], "", Provenance.today()).sentence
     assert verdict.next is not None
     replaced = ["--set", "x.y=2", "--set", "a.b=2", "--set", 'c.d="x y"']
     assert shlex.split(verdict.next) == ["abu", "size", "my machine.toml", *replaced], "and what was replaced before"
     assert verdict.promise == moved
     plain = Verdict.of([LEVEL], "It helps.", Provenance.today("my machine.toml"), ("a.b=2",), moved)
     assert (plain.next, plain.promise) == (None, None), "nothing is mended of what suits"
+
+
+@pytest.mark.parametrize(
+    ("code", "message", "value", "unit", "words"),
+    [
+        ("ABU701", "2 do not: one is bunched (hot oil). The value", 5.0, "g·mm", "from every start in hot oil."),
+        ("ABU704", "Balls stall in 2 of 40: one (hot oil)", 20.0, "start cases", "stall in hot oil (20 start cases)."),
+        ("ABU702", "Slowest at another drag rate: x (cold oil), 12 s. By them one of 1000 takes 11 s", 12.0, "s",
+         "too late in cold oil (12.0 s, at most 10.0)."),
+    ],
+)  # fmt: skip
+def test_a_warning_names_the_oil(code: str, message: str, value: float, unit: str, words: str) -> None:
+    check = Check(code, CHECK_CODES[code].name, "warn", message, value, 10.0, unit)
+    assert Verdict.of([check], "", Provenance.today()).sentence.endswith(words)
 
 
 def test_what_no_change_mends_is_told_so() -> None:
