@@ -6,11 +6,12 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Final
 
 from abu_calc.features.design.data_gaps import DRAG, DataGap
-from abu_calc.features.design.starts import EnsembleResult
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.tables import (
     INERTIA,
     LOUDER,
+    SEARCHED_LESS,
+    SLIP,
     TENTH,
     highest_first,
     inch,
@@ -74,8 +75,8 @@ def first_lines(result: SizeResult) -> tuple[Block, ...]:
         Heading(title_with_speed(result)), verdict_paragraph(result.verdict, result.checks),
         *unusual_values(result), BLANK,
         *labelled("Make" if result.status == "pass" else "Best", _make(result)), BLANK,
-        numbers(result), BLANK, *_runs(result.ensemble), *_assumed(result), *_arm(result),
-        *replaced(result), *next_lines(result.verdict, result.checks),
+        numbers(result), BLANK, *_runs(result), *_assumed(result), *_arm(result),
+        *replaced(result), *next_lines(result.verdict, result.checks, result.warnings),
     )  # fmt: skip
 
 
@@ -292,9 +293,9 @@ def _arm(result: SizeResult) -> list[Block]:
     return [] if arm is None or arm.advice.startswith("nothing") else labelled("Arm", [arm.advice])
 
 
-def _runs(many_starts: EnsembleResult | None) -> list[Block]:
-    """What the start cases cover, promised values first."""
-    if many_starts is None:
+def _runs(result: SizeResult) -> list[Block]:
+    """What the start cases cover, promised values first, and whether they are fewer than usual."""
+    if (many_starts := result.ensemble) is None:
         return []
     ends = dict[str, tuple[float, float]]()
     for row in many_starts.band:
@@ -307,7 +308,12 @@ def _runs(many_starts: EnsembleResult | None) -> list[Block]:
     usual = ", ".join(name for key, name in USUAL_NAMES.items() if key in ends)
     others = f"; usual {usual}" if usual else ""
     over = f": {', '.join(named)}{others}" if named else " at the values of the file"
-    return labelled("Runs", [f"{many(many_starts.runs, 'start case')}{over}"])
+    fewer = (
+        "; fewer than usual, since each takes long (--patience 300)"
+        if SEARCHED_LESS in "".join(result.warnings)
+        else ""
+    )
+    return labelled("Runs", [f"{many(many_starts.runs, 'start case')}{over}{fewer}"])
 
 
 def _assumed(result: SizeResult) -> list[Block]:
@@ -335,8 +341,13 @@ def _moves(gap: DataGap, limit: float = math.inf) -> str:
     return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {given or 'no time was simulated'}{beyond}."
 
 
-def next_lines(verdict: Verdict, checks: Sequence[Check]) -> list[Block]:
-    """The change that was tried with what it does, and the command that makes it; nothing for what suits."""
+def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str] = ()) -> list[Block]:
+    """The change that was tried with what it does, and the command that makes it; nothing for what suits.
+
+    A value in what seems another unit is corrected first.
+    """
+    if verdict.word != "suits" and any(SLIP in text for text in warnings):
+        return labelled("Next", ["correct the value marked with !, or keep it if it is meant, before any change"])
     if verdict.next is None:
         failed = "leave the autobalancer out" if verdict.leave_out else "see what the checks ask for: --full"
         return [] if verdict.word == "suits" else labelled("Next", [failed])

@@ -153,6 +153,8 @@ def _beside(check: Check, value: float, limit: float) -> str:
     """The value with its unit, and the limit, in digits that tell them apart; of start cases their number alone."""
     if check.unit == STARTS_UNIT:
         return many(round(value), "start case")
-    digits = next((each for each in range(3, 9) if number(value, each) != number(limit, each)), 8)
+    digits = next(
+        (each for each in range(4 if check.unit == "dB" else 3, 9) if number(value, each) != number(limit, each)), 8
+    )
     unit = f" {check.unit}" if check.unit else ""
     return f"{number(value, digits)}{unit}, at {check.bound} {number(limit, digits)}"
