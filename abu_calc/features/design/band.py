@@ -178,14 +178,14 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
             start.varied,
             race_eccentricity=eccentric * start.varied.race_eccentricity,
             imbalance=worse * start.varied.imbalance,
-            friction_arm=_between(frictions, friction),
-            natural_frequency=_between(NATURAL_FREQUENCY, frequency),
+            friction_arm=between(frictions, friction),
+            natural_frequency=between(NATURAL_FREQUENCY, frequency),
         )
-        changed = replace(start, varied=varied, drag=case.drag * _between((low, high), drag), promised=False)
+        changed = replace(start, varied=varied, drag=case.drag * between((low, high), drag), promised=False)
         if not file_run_up.by_motor:
-            changed = replace(changed, speed=(start.speed or case.speed) * _between(SPEED, speed))
+            changed = replace(changed, speed=(start.speed or case.speed) * between(SPEED, speed))
             if k % 3 == 0:
-                changed = replace(changed, run_up=_between(RUN_UPS, run_up))
+                changed = replace(changed, run_up=between(RUN_UPS, run_up))
             elif k % 3 == 1 and start.angles:
                 changed = replace(changed, lag=run_up)
         yield changed
@@ -201,10 +201,10 @@ def worse_wheels(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
     least, most = friction_factors(design)
     for start in usual(design, starts):
         share = math.log(start.varied.friction_arm / least) / math.log(most / least)
-        varied = replace(start.varied, imbalance=worse, friction_arm=_between((1.0, most), share))
+        varied = replace(start.varied, imbalance=worse, friction_arm=between((1.0, most), share))
         yield replace(start, varied=varied)
 
 
-def _between(ends: Factors, place: float) -> float:
+def between(ends: Factors, place: float) -> float:
     """Value at a place from 0 to 1 between two positive ends, by its logarithm."""
     return float(ends[0] * (ends[1] / ends[0]) ** place)

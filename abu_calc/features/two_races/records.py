@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Self
 
-from abu_calc.features.design.band import NEW_WHEEL, BandRow
+from abu_calc.features.design.band import FRICTION, NEW_WHEEL, SPEED, BandRow
 from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
 from abu_calc.features.design.starts import DecisiveRun, Spread
 from abu_calc.features.design.verdict import Verdict
@@ -120,7 +120,9 @@ class TwoRaceEnsemble(Record):
 
 
 def two_race_band(case: TwoRaceCase) -> Iterator[BandRow]:
-    """Values of the file that the start cases vary: promised are eccentricities and imbalances, usual is the oil."""
+    """Values of the file that the start cases vary: promised are eccentricities and imbalances, usual are
+    oil, friction and speed.
+    """
     for race, table in enumerate(case.table.autobalancer):
         yield BandRow(
             key=f"autobalancer.{race}.race_eccentricity_mm", low=0.0, high=table.race_eccentricity_mm, promised=True
@@ -129,8 +131,14 @@ def two_race_band(case: TwoRaceCase) -> Iterator[BandRow]:
         most = from_si(abs(wheel.imbalance), "g_mm")
         yield BandRow(key=f"wheel.{number}.imbalance_g_mm", low=NEW_WHEEL * most, high=most, promised=True)
     for race, drag in enumerate(case.drags):
-        low, high = min(UNKNOWN_OIL) * drag, max(UNKNOWN_OIL) * drag
-        yield BandRow(key=f"autobalancer.{race}.rolling_drag_per_s", low=low, high=high, promised=False)
+        yield _usual(f"autobalancer.{race}.rolling_drag_per_s", (min(UNKNOWN_OIL), max(UNKNOWN_OIL)), drag)
+        yield _usual(f"autobalancer.{race}.rolling_friction_mm", FRICTION, from_si(case.friction_arm, "mm"))
+    yield _usual("machine.speed_rpm", SPEED, from_si(case.speed, "rpm"))
+
+
+def _usual(key: str, factors: tuple[float, float], value: float) -> BandRow:
+    low, high = factors
+    return BandRow(key=key, low=low * value, high=high * value, promised=False)
 
 
 @record

@@ -52,6 +52,8 @@ def _of_start(outcome: StartOutcome, design: TwoRaceDesign) -> Iterator[tuple[st
     for k, drag in enumerate(case.drags):
         if member.drag != case.drag:
             yield f"autobalancer.{k}.rolling_drag_per_s", drag * member.drag / case.drag
+        if varied.friction_arm != 1:
+            yield f"autobalancer.{k}.rolling_friction_mm", varied.friction_arm * from_si(case.friction_arm, "mm")
         if varied.race_eccentricity != 1:
             yield (
                 f"autobalancer.{k}.race_eccentricity_mm",

@@ -23,7 +23,7 @@ from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.dynamics.trajectory import Samples, Sampling, Until, merged
-from abu_calc.features.design.band import NEW_WHEEL, axes_in_use, sequence
+from abu_calc.features.design.band import FRICTION, NEW_WHEEL, SPEED, axes_in_use, between, sequence
 from abu_calc.features.two_races.case import TwoRaceCase, felt_mass
 from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.formulas.balls import half_angle
@@ -57,6 +57,8 @@ from abu_calc.sizing.case import UNKNOWN_OIL
 
 OF_BAND: Final = 12
 """Start cases of machines within what the file promises."""
+OF_USUAL: Final = 8
+"""Of these, so many once more with usual friction, oil and speed."""
 PHASES: Final = (0.0, math.pi / 2, math.pi, 3 * math.pi / 2)
 """Phases of an imbalance of unknown phase against the first one."""
 RESTITUTION: Final = 0.5
@@ -109,6 +111,7 @@ def start_cases(design: TwoRaceDesign) -> Iterator[Member]:
                 for kind in KINDS:
                     yield start(design, kind, phases, drag=drag, speed=speed, promised=given)
     yield from promised(design)
+    yield from usual(design)
 
 
 def promised(design: TwoRaceDesign) -> Iterator[Member]:
@@ -121,6 +124,15 @@ def promised(design: TwoRaceDesign) -> Iterator[Member]:
         phases = tuple(phase * k for k in range(1, design.case.unknown_phases + 1))
         varied = Variation(eccentricity, NEW_WHEEL + (1 - NEW_WHEEL) * imbalance, spindle_axis=axis)
         yield start(design, kind, phases, eccentricity=side, turned=turned, varied=varied)
+
+
+def usual(design: TwoRaceDesign) -> Iterator[Member]:
+    """The first of them with another friction arm, another oil and another speed, within what is usual."""
+    case, oils = design.case, (min(UNKNOWN_OIL), max(UNKNOWN_OIL))
+    for start, point in zip(islice(promised(design), OF_USUAL), sequence(slice(5, 8)), strict=False):
+        friction, oil, speed = map(between, (FRICTION, oils, SPEED), point)
+        varied = replace(start.varied, friction_arm=friction)
+        yield replace(start, varied=varied, drag=oil * case.drag, speed=speed * case.speed, promised=False)
 
 
 def all_phases(case: TwoRaceCase) -> list[tuple[float, ...]]:
@@ -214,8 +226,8 @@ def _effects(design: TwoRaceDesign, member: Member) -> Iterator[Effect]:
     case, radius = design.case, design.races[0].design.autobalancer.ball_diameter / 2
     if horizontal(design, member):
         yield GravityEffect()
-    if case.friction_arm:
-        yield DryRollingFrictionEffect(case.friction_arm, radius)
+    if friction_arm := member.varied.friction_arm * case.friction_arm:
+        yield DryRollingFrictionEffect(friction_arm, radius)
     yield BallContactEffect(radius, RESTITUTION)
     if eccentricity := member.varied.race_eccentricity * case.eccentricity:
         yield RaceEccentricityEffect(eccentricity, race_centre(design, member))

@@ -49,9 +49,8 @@ def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
 
 def _first_lines(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     many_starts = result.ensemble
-    runs = [] if many_starts is None else labelled(
-        "Runs", [f"{many(many_starts.runs, 'start case')} over all phases of the imbalances, in hot and cold oil"]
-    )  # fmt: skip
+    covered = "over all phases of the imbalances; usual oil, friction, speed"
+    runs = [] if many_starts is None else labelled("Runs", [f"{many(many_starts.runs, 'start case')} {covered}"])
     return (
         Heading(result.title), verdict_paragraph(result.verdict, result.checks), BLANK, *_make(result), BLANK,
         _table(result), BLANK, *runs, *next_lines(result.verdict, result.checks),
