@@ -62,7 +62,7 @@ def drawing(
         *_race(case, candidate, track, quality),
         *_seat_and_balls(candidate, split, quality, f"{case.autobalancer.bore_diameter_mm:g}"),
         *_construction(case, construction),
-        *_running(case, candidate, track),
+        *_running(case, candidate),
     )
 
 
@@ -217,17 +217,16 @@ def _clearance(fit: Fit) -> str:
     return f"clearance {_um(-fit.loosest)} to interference {_um(fit.tightest)} µm"
 
 
-def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequirement, ...]:
+def _running(case: Case, candidate: Candidate) -> tuple[DrawingRequirement, ...]:
     oval, overspeed = candidate.roundness, 1.2 * from_si(case.speed_range[1], "rpm")
-    optimum = "" if track.optimum_drag is None else f" (optimum {track.optimum_drag:.0f})"
     return (
         DrawingRequirement(
             "oil",
-            f"one that gives a viscous drag rate of {case.drag:g} 1/s, which the design assumes{optimum}. Specify "
+            f"one that gives a viscous drag rate of {case.drag:g} 1/s, which the design assumes. Specify "
             "grade and volume under [oil], or identify the rate from recorded starts"
             if case.table.oil is None
             else f"{case.table.oil.fill_ml:g} ml of {oil_name(case.table.oil)}, for a viscous drag rate of about "
-            f"{case.drag:.3g} 1/s{optimum} at {case.table.oil.temperature_C:g} °C",
+            f"{case.drag:.3g} 1/s at {case.table.oil.temperature_C:g} °C",
         ),
         DrawingRequirement(
             "web and cover",

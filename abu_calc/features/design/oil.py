@@ -105,5 +105,5 @@ def oil_blocks(oil: OilRecord | None, optimum: float | None) -> Iterator[Block]:
     )
     yield Grid(("fill", *(f"VG {grade}" for grade in GRADES)), fills, frozenset(range(1, len(GRADES) + 1)))
     if optimum is not None:
-        yield Paragraph(f"The optimum drag rate of this design is {number(optimum, 3)} 1/s.")
+        yield Paragraph(f"Small disturbances die out fastest at {number(optimum, 3)} 1/s; friction asks for less.")
     yield Paragraph(METHOD)

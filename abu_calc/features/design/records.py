@@ -96,7 +96,7 @@ class AutobalancerRecord(Record):
     ball_force_N: Annotated[float, Quantity("force of one ball at top speed", "F", 3)]
     contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
     hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρ(ΩR_o)²", 3)]
-    optimum_drag_per_s: Annotated[float | None, Quantity("optimum viscous drag rate", "2√(Jκ_s)", 3)]
+    optimum_drag_per_s: Annotated[float | None, Quantity("drag rate of the fastest decay", "2√(Jκ_s)", 3)]
     slowest_decay_per_s: Annotated[float, Quantity("slowest decay rate of the balls", "", 3, "at the given drag rate")]
     carry_over_rpm: Annotated[float, Quantity("carry-over speed of the balls", "√(g/R_p)", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]

@@ -26,7 +26,7 @@ def test_the_record_gives_three_temperatures_with_bands_and_the_working_grade_ag
     blocks = list(oil_blocks(record, 40.0))
     assert isinstance(blocks[0], Heading) and sum(isinstance(block, Grid) for block in blocks) == 2
     texts = [block.text for block in blocks if isinstance(block, Paragraph)]
-    assert any("factor of 3" in text for text in texts) and any("optimum drag rate" in text for text in texts)
+    assert any("factor of 3" in text for text in texts) and any("die out fastest" in text for text in texts)
 
 
 def test_without_oil_there_is_nothing() -> None:
