@@ -8,6 +8,7 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.reading.overrides import apply, overrides_of
 from abu_calc.sizing.balls import Candidate, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.imbalance import find_imbalance
@@ -86,17 +87,9 @@ def _millimetres(length: float) -> float:
 
 
 def with_entries(table: MachineFile, entries: Entries) -> MachineFile:
-    """The tables of a file with entries replaced, checked as if the file said so; raises ValueError for what is not.
-
-    Entries that take the place of another source of the same quantity are not among them.
-    """
+    """The tables of a file with entries replaced as `--set` does it; raises ValueError or InputError for what is not."""
     values = table.model_dump(exclude_unset=True)
-    for path, value in entries.items():
-        *parents, key = path.split(".")
-        held = values
-        for parent in parents:
-            held = held.setdefault(parent, {})
-        held[key] = tuple(value) if isinstance(value, list) else value
+    apply(values, overrides_of(entries), MachineFile)
     return MachineFile.model_validate(values)
 
 

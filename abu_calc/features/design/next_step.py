@@ -29,8 +29,9 @@ from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
-from abu_calc.sizing.actions import PINS, SIMULATED, overrides, pins
+from abu_calc.sizing.actions import SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.change_words import PINNED, in_words
 from abu_calc.sizing.proposals import ARM, ON_ARM, PROPOSED, mended
 
 Entries = tuple[str, ...]
@@ -285,23 +286,6 @@ def _with_pairs(
         yield new
 
 
-def in_words(entries: Entries) -> str:
-    """Entries as a sentence lists them, without those that pin balls and race unless there are no others.
-
-    >>> in_words(("oil.grade=VG 100", "oil.fill_ml=1", "autobalancer.ball_count=4"))
-    'oil.grade = VG 100 and oil.fill_ml = 1'
-    >>> in_words(("autobalancer.0.max_width_mm=40", "autobalancer.1.max_width_mm=40"))
-    'max_width_mm = 40 in both races'
-    """
-    other = [entry for entry in entries if entry.partition("=")[0] not in PINNED]
-    shown = [entry.removeprefix("autobalancer.").replace("=", " = ", 1) for entry in other or entries]
-    of_both = [entry[2:] for entry in shown if entry.startswith("0.") and f"1.{entry[2:]}" in shown]
-    alone = [entry for entry in shown if entry[2:] not in of_both]
-    both = [*of_both[:-1], *(f"{entry} in both races" for entry in of_both[-1:])]
-    *first, last = *alone, *both
-    return f"{', '.join(first)} and {last}" if first else last
-
-
 class Number(NamedTuple):
     """A number of the result that decides a check: its path, its name and unit, and how it is read.
 
@@ -326,6 +310,12 @@ def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False)
     return largest
 
 
+def _rare(judged: Judged) -> float | None:
+    """Quiet time that one start case of 1000 exceeds; NaN where none was searched."""
+    searched = judged.facts.searched
+    return math.nan if searched is None else finite(searched.foreseen)
+
+
 def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judged], float | None]:
     return lambda judged: value(judged.facts.design.autobalancer) if hasattr(judged.facts.design, "choice") else None
 
@@ -348,6 +338,7 @@ NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
         Number("ensemble.quiet_time_s.worst", "the slowest listed start case", "s", _of_starts(slowness)),
         Number("ensemble.further_starts.quiet_time_s", "the slowest further start case", "s",
                _of_starts(slowness, further=True)),
+        Number("ensemble.further_starts.rare_quiet_time_s", "the quiet time of one start in 1000", "s", _rare),
     ),
 }  # fmt: skip
 """Numbers by which checks are decided."""
@@ -377,9 +368,6 @@ def promise(before: Judged, step: NextStep) -> dict[str, str | float | None] | N
     for number, old, new in filter(None, (_moved(check, before, after) for check in deciding)):
         return {"path": number.path, "from": old, "to": new}
     return {"path": "verdict.word", "from": WORDS[grade], "to": WORDS[worst(after.checks)]}
-
-
-PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 
 SEATS: Final = "6"
@@ -449,12 +437,10 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
         text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
     elif check.code not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
         text = Moved(f"the {check.name}", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
-    oil, rate = getattr(best.after.facts.design.case, "oil", None), ""
-    if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
-        rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"
-    if any(entry.partition("=")[0].endswith("rolling_drag_per_s") for entry in best.entries):
-        rate = " (an oil or grease that gives this drag rate)"
-    return Action(f"Set {in_words(best.entries)}{rate}: {text} ({SIMULATED}). {then}", best.entries)
+    design = before.facts.design
+    own = overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
+    change = in_words(best.entries, design.case.table, own)
+    return Action(f"{change[:1].upper()}{change[1:]}: {text} ({SIMULATED}). {then}", best.entries)
 
 
 def _apart(before: float | None, after: float | None) -> bool:

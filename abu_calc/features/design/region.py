@@ -17,7 +17,7 @@ from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.two_modes import LinearMotion
 from abu_calc.dynamics.stability.verdict import judged
 from abu_calc.dynamics.switching.stick_slip import AT_REST
-from abu_calc.features.design.changes import design_with, more_damping, other_drags
+from abu_calc.features.design.changes import design_with, more_damping
 from abu_calc.features.design.whirl import unstable_speed
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check, Grade, coded
@@ -248,7 +248,7 @@ ABOVE: Final = 1.02
 def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object] | None:
     """The first change of the file, of those tried, that makes every speed of the range stable.
 
-    If the last boundary is inside the range: speeds above it. Else other oils or drag rates, the nearest first, and
+    If the last boundary is inside the range: speeds above it. Else other oils, the nearest first, and
     more damping of springs. `boundaries`: speeds at which stability changes, ascending.
     """
     case, (low, high) = design.case, design.case.speed_range
@@ -256,8 +256,6 @@ def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object
     if boundaries and boundaries[-1].stable_above and low < boundaries[-1].speed < high:
         tried += speeds_from(case, math.ceil(ABOVE * from_si(boundaries[-1].speed, "rpm")))
     tried += (entries for entries, _ in usual_oils(case, design.autobalancer))
-    if "rolling_drag_per_s" in case.autobalancer.model_fields_set:
-        tried += ({"autobalancer.rolling_drag_per_s": drag} for drag in other_drags(case.drag, only_more=False))
     tried += filter(None, [more_damping(design)])
     return next((entries for entries in tried if _steady(design, entries)), None)
 
