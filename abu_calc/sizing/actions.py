@@ -87,7 +87,7 @@ def _millimetres(length: float) -> float:
 
 
 def with_entries(table: MachineFile, entries: Entries) -> MachineFile:
-    """The tables of a file with entries replaced as `--set` does it; raises ValueError or InputError for what is not."""
+    """The tables of a file with entries replaced as `--set` does it; raises ValueError or AbuError if refused."""
     values = table.model_dump(exclude_unset=True)
     apply(values, overrides_of(entries), MachineFile)
     return MachineFile.model_validate(values)

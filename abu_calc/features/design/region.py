@@ -6,6 +6,7 @@ counts the start cases at whose end dry friction holds every ball at rest in its
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -151,7 +152,7 @@ def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
         )
     except NotTrustworthyError as error:
         reason = f"Stability is not known: {str(error).splitlines()[0]}"
-        remedy = "Specify another drag rate, or springs in place of hands."
+        remedy = "Specify another oil, or springs in place of hands."
         check = coded("ABU103", "not-done", reason, unit="1/s", remedy=remedy)
         return TrueRegion(None, None, modes, hanging, check)
 
@@ -261,9 +262,17 @@ def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object
 
 
 def _steady(design: Design, entries: Mapping[str, object]) -> bool:
+    """True if the ends of the range are stable with a change, each by itself, then all of it."""
     other = design_with(design, entries)
-    changed = None if other is None else _speed_range(other, with_boundaries=False)
-    return changed is not None and changed.stable
+    if other is None:
+        return False
+    ends = ((speed, speed) for speed in dict.fromkeys(other.case.speed_range))
+    for low, high in (*ends, other.case.speed_range):
+        case = replace(other.case, speed=low if low == high else other.case.speed, speed_range=(low, high))
+        changed = _speed_range(replace(other, case=case), with_boundaries=False)
+        if changed is None or not changed.stable:
+            return False
+    return True
 
 
 def _rpm(speed: float) -> str:

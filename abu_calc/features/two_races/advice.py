@@ -39,7 +39,8 @@ def _of_both(entries: dict[str, object]) -> Entries:
 
 def _quicker(design: TwoRaceDesign) -> Iterator[dict[str, object]]:
     """Larger balls of the stock."""
-    yield from ({"ball_diameter_mm": larger} for larger in _larger(design))
+    for larger in _larger(design):
+        yield {"ball_diameter_mm": larger}
 
 
 def _larger(design: TwoRaceDesign) -> Iterator[float]:
