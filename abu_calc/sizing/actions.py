@@ -37,7 +37,7 @@ def overrides(entries: Entries) -> tuple[str, ...]:
     >>> overrides({"autobalancer.design": "light", "machine.speed_range_rpm": [2600.0, 9000.0]})
     ('autobalancer.design=light', 'machine.speed_range_rpm=[2600,9000]')
     """
-    return tuple(f"{key}={_plain(value)}" for key, value in entries.items())
+    return tuple(f"{key}={plain(value)}" for key, value in entries.items())
 
 
 def set_options(entries: Entries) -> str:
@@ -49,9 +49,10 @@ def set_options(entries: Entries) -> str:
     return " ".join(f"--set {shell_word(entry)}" for entry in overrides(entries))
 
 
-def _plain(value: object) -> str:
+def plain(value: object) -> str:
+    """A value as `--set` takes it."""
     if isinstance(value, (list, tuple)):
-        return f"[{','.join(map(_plain, value))}]"
+        return f"[{','.join(map(plain, value))}]"
     if isinstance(value, bool):
         return f"{value}".lower()
     return f"{value:.10g}" if isinstance(value, float) else f"{value}"
@@ -69,7 +70,7 @@ def words(entries: Entries) -> str:
 
 
 def _quoted(value: object) -> str:
-    return f'"{value}"' if isinstance(value, str) else _plain(value).replace(",", ", ")
+    return f'"{value}"' if isinstance(value, str) else plain(value).replace(",", ", ")
 
 
 def pins(candidate: Candidate) -> dict[str, object]:

@@ -1,14 +1,14 @@
 """A change of a file in words: what changes, from what to what, without what stays."""
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from abu_calc.foundation.units import SYMBOLS, quantity_and_unit
 from abu_calc.inputs.oil import oil_name
-from abu_calc.sizing.actions import PINS
+from abu_calc.inputs.reading.overrides import parse_override, value_at
+from abu_calc.sizing.actions import PINS, plain
 
-PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
+PINNED: Final = tuple(f"autobalancer.{key}" for key in PINS)
 """Keys that pin the choice of balls and race."""
 PLAIN: Final = ("autobalancer", "machine", "suspension", "swing_arm")
 """Tables whose keys say by themselves what they are of."""
@@ -17,82 +17,58 @@ PLAIN: Final = ("autobalancer", "machine", "suspension", "swing_arm")
 def in_words(entries: Sequence[str], table: Any = None, made: Sequence[str] = ()) -> str:
     """Entries as a sentence lists them, with the values of a file's `table` that they replace.
 
-    `made`: the entries that pin the present balls and race; what pins these alone is not told.
+    `made`: the entries that pin the present balls and race, which are not told if they stay.
 
     >>> in_words(("oil.grade=VG 100", "oil.viscosity_index=120", "oil.fill_ml=1", "autobalancer.ball_count=4"))
     'oil VG 100 (viscosity index 120, 1 ml)'
     >>> in_words(("autobalancer.0.max_width_mm=40", "autobalancer.1.max_width_mm=40"))
     'max width 40 mm in both races'
     """
-    values = dict(entry.split("=", 1) for entry in entries)
-    oil = {key: values.pop(key) for key in list(values) if key.startswith("oil.")}
-    balls = {key: values.pop(key) for key in list(values) if key in PINNED}
-    parts = [*_of_oil(oil, table), *(_entry(key, value, table) for key, value in values.items())]
-    if not parts or (made and not {*made} >= {f"{key}={value}" for key, value in balls.items()}):
-        parts += _of_balls(balls, dict(entry.split("=", 1) for entry in made))
-    both = [part for part in parts if parts.count(part) > 1]
-    texts = [f"{part} in both races" if part in both else part for part in dict.fromkeys(parts)]
-    *first, last = texts or [""]
+    values, own = (dict(entry.split("=", 1) for entry in each) for each in (entries, made))
+    file = {} if table is None else table.model_dump(mode="json")
+    parts = [f"{_oil(values)}{_instead_of_oil(table)}"] if "oil.grade" in values else []
+    parts += [_entry(entry, file) for entry in entries if not entry.startswith(("oil.", *PINNED))]
+    balls = [_balls(each) for each in (values, own)]
+    if balls[0] and (not parts or (made and balls[0] != balls[1])):
+        parts.append(balls[0] if balls[1] in ("", balls[0]) else f"{balls[0]} instead of {balls[1]}")
+    parts = parts or [_entry(entry, file) for entry in entries]
+    texts = [f"{part}{' in both races' * (parts.count(part) > 1)}" for part in dict.fromkeys(parts)]
+    *first, last = texts
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def _of_oil(entries: Mapping[str, str], table: Any) -> Iterator[str]:
-    """An oil, and what it takes the place of."""
-    if not entries:
-        return
-    values = {key.removeprefix("oil."): value for key, value in entries.items()}
-    more = [f"viscosity index {values['viscosity_index']}"] if "viscosity_index" in values else []
-    more += [f"{values['fill_ml']} ml"] if "fill_ml" in values else []
-    name = values.get("grade", getattr(getattr(table, "oil", None), "grade", None) or "")
-    yield f"oil {name}".strip() + (f" ({', '.join(more)})" if more else "") + _instead_of_oil(table)
+def _oil(values: Mapping[str, str]) -> str:
+    """An oil by grade, viscosity index and fill."""
+    given = {"viscosity index {}": "oil.viscosity_index", "{} ml": "oil.fill_ml"}
+    more = ", ".join(text.format(values[key]) for text, key in given.items() if key in values)
+    return f"oil {values['oil.grade']}" + (f" ({more})" if more else "")
 
 
 def _instead_of_oil(table: Any) -> str:
+    """Oil or drag rate of a file that another oil takes the place of."""
     if table is None:
         return ""
-    abu, oil = table.autobalancer, table.oil
-    if "rolling_drag_per_s" in abu.model_fields_set:
-        source = "the measured" if table.identified is not None else "a"
-        return f" instead of {source} drag rate of {abu.rolling_drag_per_s:g} 1/s"
-    if oil is None:
-        return " instead of the assumed one"
-    return f" instead of {oil_name(oil)} (viscosity index {oil.viscosity_index:g})"
-
-
-def _of_balls(entries: Mapping[str, str], made: Mapping[str, str]) -> Iterator[str]:
-    """Balls and race, where a change pins others."""
-    texts = [_balls({key.rpartition(".")[2]: value for key, value in each.items()}) for each in (entries, made)]
-    if texts[0]:
-        yield texts[0] + (f" instead of {texts[1]}" if texts[1] and texts[0] != texts[1] else "")
+    if "rolling_drag_per_s" in table.autobalancer.model_fields_set:
+        source = "a" if table.identified is None else "the measured"
+        return f" instead of {source} drag rate of {table.autobalancer.rolling_drag_per_s:g} 1/s"
+    old = table.oil
+    return f" instead of {f'{oil_name(old)} (viscosity index {old.viscosity_index:g})' if old else 'the assumed one'}"
 
 
 def _balls(values: Mapping[str, str]) -> str:
-    count, diameter, radius = (values.get(key, "") for key in PINS)
-    balls = f"{count or ''} balls Ø{float(diameter):.5g} mm" if diameter else f"{count} balls" if count else ""
-    race = f"race R {float(radius):.4g} mm" if radius else ""
-    return " in a ".join(filter(None, (balls.strip(), race)))
+    """Balls and race that entries pin, in words; nothing if they pin less than all."""
+    if not all(key in values for key in PINNED):
+        return ""
+    count, diameter, radius = (values[key] for key in PINNED)
+    return f"{count} balls Ø{float(diameter):.5g} mm in a race R {float(radius):.4g} mm"
 
 
-def _entry(path: str, value: str, table: Any) -> str:
+def _entry(entry: str, file: Mapping[str, object]) -> str:
     """One entry, and the value that it replaces."""
-    *parents, key = path.split(".")
-    label, unit = quantity_and_unit(key)
-    before = _before(path, table)
-    table_words = [part for part in parents if part not in PLAIN and not (part.isdigit() and parents[0] in PLAIN)]
-    words = [*(f"{int(part) + 1}" if part.isdigit() else part.replace("run_up", "run-up") for part in table_words)]
-    text = " ".join([*words, label.replace("_", " "), value.replace(",", ", ")])
-    instead = "" if before in (None, value) else f" instead of {before}".replace(",", ", ")
-    return f"{text}{instead} {SYMBOLS.get(unit, unit)}".rstrip()
-
-
-def _before(path: str, table: Any) -> str | None:
-    """The value at a path of the file's tables, its default included; None: there is none."""
-    held = table
-    for part in path.split("."):
-        try:
-            held = held[int(part)] if part.isdigit() else getattr(held, part)
-        except (AttributeError, IndexError, TypeError):
-            return None
-    if held is None:
-        return None
-    return f"{held:.10g}" if isinstance(held, float) else json.dumps(held).strip('"').replace(" ", "")
+    *parents, key = path = parse_override(entry).path
+    value, before = entry.split("=", 1)[1], value_at(file, path)
+    name, unit = quantity_and_unit(str(key))
+    of = [] if parents[0] in PLAIN else [f"{part + 1}" if isinstance(part, int) else part for part in parents]
+    instead = "" if before is None or plain(before) == value else f" instead of {plain(before)}"
+    words = f"{' '.join([*of, name])} {value}{instead} {SYMBOLS.get(unit, unit)}"
+    return words.replace("run_up", "run-up").replace("_", " ").replace(",", ", ").strip()
