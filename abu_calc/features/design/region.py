@@ -264,15 +264,14 @@ def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object
 def _steady(design: Design, entries: Mapping[str, object]) -> bool:
     """True if the ends of the range are stable with a change, each by itself, then all of it."""
     other = design_with(design, entries)
-    if other is None:
-        return False
-    ends = ((speed, speed) for speed in dict.fromkeys(other.case.speed_range))
-    for low, high in (*ends, other.case.speed_range):
-        case = replace(other.case, speed=low if low == high else other.case.speed, speed_range=(low, high))
-        changed = _speed_range(replace(other, case=case), with_boundaries=False)
-        if changed is None or not changed.stable:
-            return False
-    return True
+    low, high = design.case.speed_range if other is None else other.case.speed_range
+    return other is not None and all(_stable_over(other, *ends) for ends in ((low, low), (high, high), (low, high)))
+
+
+def _stable_over(design: Design, low: float, high: float) -> bool:
+    case = replace(design.case, speed=min(max(design.case.speed, low), high), speed_range=(low, high))
+    speeds = _speed_range(replace(design, case=case), with_boundaries=False)
+    return speeds is not None and speeds.stable
 
 
 def _rpm(speed: float) -> str:
