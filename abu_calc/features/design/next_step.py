@@ -43,7 +43,7 @@ MOST_TRIALS: Final = 48
 """Changes that are tried by start cases."""
 MOST_PAIRS: Final = 12
 """Two changes together that are tried at the end."""
-LEAST_WORK: Final = 1_200_000
+LEAST_WORK: Final = 2_000_000
 """Evaluations that all trials that do not help may take at least; else half as many as the file as it is."""
 NEAR: Final = 0.4
 """Nearness of a start case to its limits above which a run at a tighter tolerance may find that it keeps them."""
