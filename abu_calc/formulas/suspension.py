@@ -12,12 +12,6 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.roots import root
 from abu_calc.standards.vibration import Hand
 
-NODES: Final = ("machine", "palm", "fingers")
-"""Moving nodes: the handle, which is the machine; palm and arm, m₁; the fingers, m₂.
-
-The skin m₃, m₄ is on the handle.
-"""
-
 ELEMENTS: Final = ((0.0, 1.0, 0.0), (0.0, -1.0, 1.0), (1.0, -1.0, 0.0), (1.0, 0.0, -1.0))
 """Stretch of each element per displacement of the nodes.
 

@@ -1,6 +1,6 @@
 """Table of the oil in the race: grade or viscosity, temperatures, fill."""
 
-from typing import Literal, Self
+from typing import Final, Literal, Self
 
 from pydantic import model_validator
 
@@ -12,7 +12,7 @@ Grade = Literal[
 
 
 class Oil(Table):
-    """Oil in the race. It gives the viscous drag rate, unless rolling_drag_per_s is given."""
+    """Oil in the race. It gives the viscous drag rate, unless the file gives rolling_drag_per_s, too."""
 
     grade: Grade | None = entry(None, example="VG 46").means(
         "ISO viscosity grade (ISO 3448), the kinematic viscosity at 40 °C: VG 10 … VG 680. Or give viscosity_mm2_per_s."
@@ -47,6 +47,11 @@ class Oil(Table):
         "Speed of a ball along the race for which the drag rate is taken [m/s]; {range}. The drag grows faster than "
         "the speed. Default: {default}, assumed: between 0.02 at rest and 14 for balls at standstill."
     )
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """An oil takes the place of another one and of a drag rate, an index that of the viscosity at 100 °C."""
+        return DISPLACED.get(key, ())
 
     def unused(self) -> frozenset[str]:
         """The index, where the viscosity at 100 °C is given."""
@@ -90,6 +95,13 @@ class Oil(Table):
                 allowed="cold_temperature_C ≤ temperature_C ≤ hot_temperature_C",
             )
         return self
+
+
+DISPLACED: Final = {
+    "grade": ("viscosity_mm2_per_s", "viscosity_100C_mm2_per_s", "autobalancer.rolling_drag_per_s"),
+    "viscosity_mm2_per_s": ("grade", "viscosity_100C_mm2_per_s", "autobalancer.rolling_drag_per_s"),
+    "viscosity_index": ("viscosity_100C_mm2_per_s",),
+}
 
 
 def oil_name(oil: Oil) -> str:

@@ -154,21 +154,6 @@ def simulate_starts(
     return Ensemble(design.case.drag, outcomes, tuple(result for result in results if isinstance(result, Lost)))
 
 
-def _unconfirmed(
-    design: Any, results: list[StartOutcome | Lost], undecided: Iterable[int]
-) -> tuple[list[StartOutcome | Lost], bool]:
-    """Results without those that decide and that no work is left for, and whether one of these breaks a limit.
-
-    Where none does, what decides less may stay: something is missing already.
-    """
-    limits, left = design.case.table.limits, list(results)
-    deciders = {k: each for k in undecided if isinstance(each := results[k], StartOutcome)}
-    failing = {k: each for k, each in deciders.items() if not each.holds(limits, limits.vibration_level_db)}
-    for k, each in (failing or deciders).items():
-        left[k] = Lost(each.member, "not confirmed, since others took all the work allowed")
-    return left, bool(failing)
-
-
 def simulate_first(design: Design, accuracy: float = 0.01) -> Ensemble:
     """The first of the start cases alone, at the tighter tolerance: an ensemble of one, which proves nothing."""
     start = next(iter(members(design, 0.0, (1.0,))))

@@ -8,6 +8,7 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.reading.overrides import apply, overrides_of
 from abu_calc.sizing.balls import Candidate, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.imbalance import find_imbalance
@@ -36,7 +37,7 @@ def overrides(entries: Entries) -> tuple[str, ...]:
     >>> overrides({"autobalancer.design": "light", "machine.speed_range_rpm": [2600.0, 9000.0]})
     ('autobalancer.design=light', 'machine.speed_range_rpm=[2600,9000]')
     """
-    return tuple(f"{key}={_plain(value)}" for key, value in entries.items())
+    return tuple(f"{key}={plain(value)}" for key, value in entries.items())
 
 
 def set_options(entries: Entries) -> str:
@@ -48,9 +49,10 @@ def set_options(entries: Entries) -> str:
     return " ".join(f"--set {shell_word(entry)}" for entry in overrides(entries))
 
 
-def _plain(value: object) -> str:
+def plain(value: object) -> str:
+    """A value as `--set` takes it."""
     if isinstance(value, (list, tuple)):
-        return f"[{','.join(map(_plain, value))}]"
+        return f"[{','.join(map(plain, value))}]"
     if isinstance(value, bool):
         return f"{value}".lower()
     return f"{value:.10g}" if isinstance(value, float) else f"{value}"
@@ -68,7 +70,7 @@ def words(entries: Entries) -> str:
 
 
 def _quoted(value: object) -> str:
-    return f'"{value}"' if isinstance(value, str) else _plain(value).replace(",", ", ")
+    return f'"{value}"' if isinstance(value, str) else plain(value).replace(",", ", ")
 
 
 def pins(candidate: Candidate) -> dict[str, object]:
@@ -86,17 +88,9 @@ def _millimetres(length: float) -> float:
 
 
 def with_entries(table: MachineFile, entries: Entries) -> MachineFile:
-    """The tables of a file with entries replaced, checked as if the file said so; raises ValueError for what is not.
-
-    Entries that take the place of another source of the same quantity are not among them.
-    """
+    """The tables of a file with entries replaced as `--set` does it; raises ValueError or AbuError if refused."""
     values = table.model_dump(exclude_unset=True)
-    for path, value in entries.items():
-        *parents, key = path.split(".")
-        held = values
-        for parent in parents:
-            held = held.setdefault(parent, {})
-        held[key] = tuple(value) if isinstance(value, list) else value
+    apply(values, overrides_of(entries), MachineFile)
     return MachineFile.model_validate(values)
 
 

@@ -119,16 +119,18 @@ def with_oil(case: Case, candidate: Candidate) -> Case:
 USUAL_GRADES: Final = ("VG 22", "VG 32", "VG 46", "VG 68", "VG 100", "VG 150", "VG 220", "VG 320", "VG 460")
 FLAT: Final = (120.0, 160.0)
 """Grades that are sold everywhere, and viscosity indices of oils whose viscosity depends less on the temperature."""
+LEAST_DRAG: Final = 0.1
+"""Drag rate [1/s] that stands for none where oils are ordered."""
 FILL: Final = 1.0
 """Fill [ml] of a race whose file names no oil; half as much or twice moves the drag rate by some 10 %."""
 
 
 def usual_oils(case: Case, candidate: Candidate) -> list[tuple[dict[str, object], float]]:
-    """Entries of oils in the race, each with its drag rate at work [1/s]; none for rollers, or if a rate is given.
+    """Entries of oils in the race, each with its drag rate at work [1/s]; none for rollers.
 
     Those with the lower viscosity index come first, then those whose rate is nearest to that of the case.
     """
-    if RATE_KEY in case.autobalancer.model_fields_set or case.autobalancer.corrector != "ball":
+    if case.autobalancer.corrector != "ball":
         return []
     fill: dict[str, object] = {} if case.table.oil else {"oil.fill_ml": FILL}
     found = list[tuple[dict[str, object], float]]()
@@ -142,7 +144,7 @@ def usual_oils(case: Case, candidate: Candidate) -> list[tuple[dict[str, object]
                 continue
             if oil is not None:
                 own.append((entries, oil.working.drag))
-        found += sorted(own, key=lambda each: abs(math.log(each[1] / case.drag)))
+        found += sorted(own, key=lambda each: abs(math.log(each[1] / max(case.drag, LEAST_DRAG))))
     return found
 
 

@@ -18,7 +18,7 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.manufacture.fastening import slip_torque
 from abu_calc.sizing.track import GROUND_HARDNESS_HRC
 from abu_calc.sizing.type_test import chosen_wheel, declared_estimate, more_easily
-from abu_calc.sizing.vibration import truer_races
+from abu_calc.sizing.vibration import FEASIBLE_MM, truer_races
 
 Entries = dict[str, object]
 """Values by key path."""
@@ -155,8 +155,8 @@ def nearer(design: Design) -> Iterator[Entries]:
 
 
 def wider(design: Design) -> Iterator[Entries]:
-    """The least race eccentricities of two digits that standard fits may hold."""
-    least = from_si(design.eccentricity.least, "mm")
+    """The least race eccentricities of two digits that standard fits and careful work may hold."""
+    least = max(from_si(design.eccentricity.least, "mm"), FEASIBLE_MM)
     digits = max(0, 1 - math.floor(math.log10(least)))
     for more in range(WIDER):
         permitted = round((math.ceil(least * 10**digits) + more) / 10**digits, digits)
@@ -191,7 +191,8 @@ def easier(design: Design) -> Iterator[Entries]:
     """A race that runs truer or rolls more easily with the test wheel."""
     wheel = chosen_wheel(design.case.table)
     if wheel is not None:
-        yield from more_easily(design.case, declared_estimate(design.case, design.autobalancer, wheel.imbalance))
+        estimate = declared_estimate(design.case, design.autobalancer, wheel.imbalance)
+        yield from more_easily(design.case, estimate, design.eccentricity.least)
 
 
 def on_arm(code: str, design: Design) -> Iterator[Entries]:

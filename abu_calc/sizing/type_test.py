@@ -32,7 +32,7 @@ from abu_calc.sizing.actions import CALCULATED
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.places import body_suspension
-from abu_calc.sizing.vibration import smoother
+from abu_calc.sizing.vibration import truer, truer_races
 from abu_calc.standards.type_test import (
     balancing_factor,
     declared_uncertainty,
@@ -209,17 +209,12 @@ def declared_check(
     return coded("ABU431", verdict(True, lower), message, declared, without, "m/s²", None if lower else action())
 
 
-def more_easily(case: Case, estimate: DeclaredEstimate) -> Iterator[dict[str, object]]:
-    """Entries of a race that runs truer, down to half its eccentricity, or rolls more easily."""
-    abu, limit = case.autobalancer, estimate.break_even
-    true = [] if limit is None else [float(f"{share * from_si(limit, 'mm'):.2g}") for share in (0.9, 0.6)]
-    eccentricities = [value for value in true if 0 < value < abu.race_eccentricity_mm]
-    for value in eccentricities:
+def more_easily(case: Case, estimate: DeclaredEstimate, least: float) -> Iterator[dict[str, object]]:
+    """Entries of a race that runs truer, to below the break-even eccentricity, or rolls more easily."""
+    own, limit = case.autobalancer.race_eccentricity_mm, estimate.break_even
+    for value in () if limit is None else truer(min(own, from_si(limit, "mm")), least):
         yield {"autobalancer.race_eccentricity_mm": value}
-    for share in (0.5, 0.25):
-        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": smoother(abu.rolling_friction_mm, share)}
-        yield smooth
-        yield {**smooth, "autobalancer.race_eccentricity_mm": float(f"{share * abu.race_eccentricity_mm:.3g}")}
+    yield from truer_races(case, least)
 
 
 def declared_bands(case: Case, candidate: Candidate, imbalance: float) -> tuple[tuple[float, float], ...] | None:

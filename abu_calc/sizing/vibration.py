@@ -253,8 +253,10 @@ def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possibl
     return LevelsUnderLoad(valid, levels.worst, parts_before, parts_after)
 
 
-SHARES = (0.5, 0.25)
-"""Shares of the race's eccentricity and of the friction's lever arm that are tried."""
+TRUER: Final = (0.9, 0.8, 0.7, 0.6, 0.5, 0.35, 0.25)
+"""Shares of the race's eccentricity that are tried, the largest first: no shop is asked for more than is required."""
+SMOOTHER: Final = (0.5, 0.25)
+"""Shares of the friction's lever arm that are tried."""
 
 
 def vibration_checks(
@@ -367,25 +369,35 @@ def smoother(friction_mm: float, share: float) -> float:
     return max(_rounded(share * friction_mm), min(LEAST_FRICTION_MM, friction_mm))
 
 
-def truer(eccentricity_mm: float, share: float, least: float) -> float:
-    """A share of a race eccentricity [mm], no less than standard fits hold [m].
+FEASIBLE_MM: Final = 0.005
+"""Race eccentricity that careful work attains with a standard fit, a ground race and its spindle (assumed)."""
 
-    >>> truer(0.01, 0.5, 2.61e-6), truer(0.004, 0.5, 2.61e-6), truer(0.002, 0.5, 2.61e-6)
-    (0.005, 0.0027, 0.002)
+
+def truer(eccentricity_mm: float, least: float) -> list[float]:
+    """Smaller race eccentricities [mm] on whole micrometres, the largest first.
+
+    None is less than standard fits hold [m], or than careful work attains.
+
+    >>> truer(0.01, 2.61e-6), truer(0.0065, 2.61e-6), truer(0.01, 7.3e-6), truer(0.004, 2.61e-6)
+    ([0.009, 0.008, 0.007, 0.006, 0.005], [0.006, 0.005], [0.009, 0.008], [])
     """
-    least_mm = math.ceil(10 * from_si(least, "um")) / 1e4
-    return max(_rounded(share * eccentricity_mm), min(least_mm, eccentricity_mm))
+    shares = dict.fromkeys(round(share * eccentricity_mm, 3) for share in TRUER)
+    lowest = max(FEASIBLE_MM, from_si(least, "mm"))
+    return [value for value in shares if lowest <= value < eccentricity_mm]
 
 
 def truer_races(case: Case, least: float) -> Iterator[dict[str, object]]:
     """Entries of a race that is less eccentric, down to the `least` [m], or has less friction, or both."""
     abu = case.autobalancer
-    for share in SHARES:
-        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": truer(abu.race_eccentricity_mm, share, least)}
-        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": smoother(abu.rolling_friction_mm, share)}
-        yield true
-        yield smooth
-        yield {**true, **smooth}
+    true: list[dict[str, object]] = [
+        {"autobalancer.race_eccentricity_mm": value} for value in truer(abu.race_eccentricity_mm, least)
+    ]
+    arms = dict.fromkeys(smoother(abu.rolling_friction_mm, share) for share in SMOOTHER)
+    smooth: list[dict[str, object]] = [
+        {"autobalancer.rolling_friction_mm": arm} for arm in arms if arm < abu.rolling_friction_mm
+    ]
+    yield from (*true, *smooth)
+    yield from ({**arm, **value} for arm in smooth for value in true)
 
 
 def _rounded(value: float) -> float:

@@ -36,7 +36,7 @@ MOTOR = {"no_load_speed_rpm": 6500, "stall_torque_N_m": 5.0}
         ("ABU304", DRUM),
         ("ABU308", {"autobalancer__clamp_force_N": 5.0}),
         ("ABU401", {**RANGE, **PINNED, "limits": {"vibration_level_db": 104.5}}),
-        ("ABU402", {"wheel__imbalance_g_mm": 60.0, "autobalancer__rolling_friction_mm": 0.004}),
+        ("ABU402", {"wheel__imbalance_g_mm": 80.0, "autobalancer__rolling_friction_mm": 0.004}),
         ("ABU403", {"machine__power_W": 100.0, "grinding": PRESSED}),
         ("ABU404", {**BODY, **HANDLE, **FIVE, "limits": {"a_hv_m_per_s2": 0.45}}),
         ("ABU431", {**BODY, **HANDLE, **FIVE, "autobalancer__race_eccentricity_mm": 0.04}),

@@ -22,7 +22,7 @@ import tomli_w
 
 import abu_calc
 from abu_calc.features.design import study
-from abu_calc.features.design.changes import DRAGS, NEAR, changes_for_starts, more_damping
+from abu_calc.features.design.changes import changes_for_starts, more_damping
 from abu_calc.features.design.judgement import Judgement, judge
 from abu_calc.features.design.next_step import (
     ChangeWatcher,
@@ -40,7 +40,7 @@ from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.sizing import usable
 from abu_calc.sizing.actions import PINS, overrides, pins, speeds_from
-from abu_calc.sizing.oil import RATE_KEY, usual_oils
+from abu_calc.sizing.oil import usual_oils
 from abu_calc.sizing.proposals import PROPOSED, mended
 from abu_calc.sizing.vibration import truer_races
 from tests.studies.actions import random_machine
@@ -67,12 +67,6 @@ def pool_of(before: Judgement) -> Pool:
             changes, same = PROPOSED[check.code]
             sizing += [overrides({**entries, **own} if same else entries) for entries in changes(design)]
     oils = [entries for entries, _ in usual_oils(case, design.autobalancer)]
-    if RATE_KEY in case.autobalancer.model_fields_set:
-        near = [drag for drag in DRAGS if not case.drag / NEAR <= drag <= case.drag * NEAR]
-        oils += [
-            {f"autobalancer.{RATE_KEY}": drag}
-            for drag in sorted(near, key=lambda drag: abs(math.log(drag / case.drag)))
-        ]
     starts = list(changes_for_starts(before.facts, loud=False))
     run = [entries for entries in starts if any(key.startswith("run_up.") for key in entries)]
     balls = [pins(runner_up) for runner_up, _ in design.choice.runners_up if usable(case, runner_up)]
@@ -102,7 +96,7 @@ def pool_of_two(before: TwoRaceJudgement) -> Pool:
     """Every change for a machine with two races, alike for both of them."""
     design = before.facts.design
     pool = Pool()
-    made = [*advice._sturdier(design), *advice._quieter(design), *advice._quicker(design)]
+    made = [*advice._sturdier(design), *advice._truer(design), *advice._quicker(design)]
     for entries in made:
         pool.setdefault("+".join(sorted(entries)), []).append(advice._of_both(entries))
     return {kind: list(dict.fromkeys(changes)) for kind, changes in pool.items()}

@@ -18,18 +18,14 @@ from abu_calc.sizing.design import Design, built
 from abu_calc.sizing.oil import FLAT, usual_oils
 from abu_calc.sizing.vibration import truer_races
 
-DRAGS: Final = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
-"""Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
-MOST_DRAGS, NEAR = 5, 1.15
-"""Most drag rates that are tried, and the factor within which another drag rate counts as the same."""
-MOST_OTHERS, MOST_TRUER = 3, 6
-"""Runners-up that are tried where a listed start case fails, and truer races."""
+MOST_OTHERS: Final = 3
+"""Runners-up that are tried where a listed start case fails."""
 MOST_OILS: Final = (6, 3)
 """Oils of each viscosity index that are tried."""
 FASTER, DAMPED = 0.5, 2.0
 """Factors on the time of the run-up and on the damping of the suspension."""
 BEFORE: Final = 2
-"""Drags that are tried before what leaves the oil as it is."""
+"""Oils that are tried before what leaves the oil as it is."""
 BELOW, LEAST = 2 / 3, 0.05
 """Share of the stalling speed to which the rotor is slowed, and least stalling speed, as a share of the rotor's speed.
 Slower balls hardly turn.
@@ -48,7 +44,7 @@ def design_with(design: Design, entries: Mapping[str, object]) -> Design | None:
 def changes_for_starts(facts: StartFacts, *, loud: bool) -> Iterator[dict[str, object]]:
     """Changes for start cases, each with the balls and the race that it was tried with.
 
-    Another oil or drag rate, other balls if a listed start case fails, a temporary speed reduction if balls stall, a
+    Another oil, other balls if a listed start case fails, a temporary speed reduction if balls stall, a
     faster run-up if run-ups alone fail, more damping, a truer race; this first if start cases are too `loud`.
     """
     design, ensemble = facts.design, facts.ensemble
@@ -56,7 +52,7 @@ def changes_for_starts(facts: StartFacts, *, loud: bool) -> Iterator[dict[str, o
         return
     table = design.case.table
     oils = list(_other_oils(facts))
-    truer = list(islice(truer_races(design.case, design.eccentricity.least), MOST_TRUER))
+    truer = list(truer_races(design.case, design.eccentricity.least))
     ways = [*truer, *oils[:BEFORE]] if loud else oils[:BEFORE]
     if not facts.listed_pass:
         others = (runner_up for runner_up, _ in design.choice.runners_up if usable(design.case, runner_up))
@@ -100,7 +96,7 @@ def _rounded(value: float) -> float:
 
 
 def _other_oils(facts: StartFacts) -> Iterator[dict[str, object]]:
-    """Other oils, or drag rates where the file gives one, the nearest first.
+    """Other oils, the nearest first, also in place of a drag rate that the file gives.
 
     More viscous ones alone if balls stall, or if only start cases in hot oil fail; less viscous ones if only those in
     cold oil do.
@@ -114,13 +110,3 @@ def _other_oils(facts: StartFacts) -> Iterator[dict[str, object]]:
             if not ((more and drag < case.drag) or (less and drag > case.drag))]  # fmt: skip
     for index, most in zip(FLAT, MOST_OILS, strict=True):
         yield from islice((entries for entries, _ in oils if entries["oil.viscosity_index"] == index), most)
-    if "rolling_drag_per_s" in case.autobalancer.model_fields_set:
-        for drag in other_drags(case.drag, only_more=more):
-            if not (less and drag > case.drag):
-                yield {"autobalancer.rolling_drag_per_s": drag}
-
-
-def other_drags(given: float, *, only_more: bool) -> list[float]:
-    """Other drag rates [1/s], the nearest first; greater ones alone if balls stall."""
-    others = [drag for drag in DRAGS if drag > NEAR * given or (drag < given / NEAR and not only_more)]
-    return sorted(others, key=lambda drag: max(drag / given, given / drag) if given else drag)[:MOST_DRAGS]

@@ -109,13 +109,16 @@ def judge(
     trial.repeated(design)
     early = None if trial.stable else true_region(design, accuracy)
     trial.checked(() if early is None else (early.check,))
-    if only_checks and on_arm is not None:
+    scenes = None
+    if only_checks and on_arm is not None:  # all that takes less than start cases comes before them
         trial.checked(on_arm().checks)
+        scenes = simulated(design, accuracy, progress, workers=workers)
+        trial.checked(_on_work(design, scenes[0]))
     facts = proven(design, accuracy, progress, workers, starts, trial)
     seats = _with_lives(seats, design, facts.ensemble, tables)
     region = early or true_region(design, accuracy)
     trial.checked((region.check,))
-    runs, failures = simulated(design, accuracy, progress, workers=workers)
+    runs, failures = scenes or simulated(design, accuracy, progress, workers=workers)
     work = None if only_checks and not failures else work_of(design, accuracy, progress, _grinding(runs, failures))
     arm, stays = None if on_arm is None else on_arm(), _on_work(design, runs)
     given = () if facts.ensemble is None else facts.ensemble.given

@@ -7,7 +7,7 @@ Each change is a set of entries as `--set` takes them. It is followed literally:
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, combinations, islice
+from itertools import chain, combinations, groupby, islice
 from operator import attrgetter
 from typing import Any, Final, NamedTuple, Protocol
 
@@ -29,8 +29,11 @@ from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
-from abu_calc.sizing.actions import PINS, SIMULATED, overrides, pins
+from abu_calc.simulation.start_cases import Member
+from abu_calc.sizing.actions import SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import UNKNOWN_OIL
+from abu_calc.sizing.change_words import PINNED, in_words
 from abu_calc.sizing.proposals import ARM, ON_ARM, PROPOSED, mended
 
 Entries = tuple[str, ...]
@@ -41,7 +44,7 @@ MOST_TRIALS: Final = 48
 MOST_PAIRS: Final = 12
 """Two changes together that are tried at the end."""
 LEAST_WORK: Final = 2_000_000
-"""Evaluations that all trials that do not help may take at least; else as many as the file as it is."""
+"""Evaluations that all trials that do not help may take at least; else half as many as the file as it is."""
 NEAR: Final = 0.4
 """Nearness of a start case to its limits above which a run at a tighter tolerance may find that it keeps them."""
 PROMISING: Final = 4_000_000
@@ -127,6 +130,10 @@ class NotBetterError(Exception):
     """A change leads to no better verdict, or makes a check worse."""
 
 
+class EnoughError(Exception):
+    """The start cases that decide hold with a change: no more was asked of its trial."""
+
+
 class TooLongError(Exception):
     """A trial takes more work than is left: nothing is known of the change."""
 
@@ -154,13 +161,16 @@ class ChangeWatcher(NoWorse):
 
     `worse_than`: rank of the grade that the verdict has to excel; `most`: the evaluations that it may take, more if
     start cases hold that fail with the `best` change so far; `held`: start cases that held, of the last how nearly.
+    `refuting`: start cases that ended other trials, each with its design, the last first.
     """
 
     def __init__(
-        self, before: Judged, worse_than: int, judge: Judge, most: float = math.inf, best: Judged | None = None
-    ) -> None:
+        self, before: Judged, worse_than: int, judge: Judge, most: float = math.inf, best: Judged | None = None,
+        refuting: list[tuple[Any, Member]] | None = None, *, probe: bool = False,
+    ) -> None:  # fmt: skip
         super().__init__(before.checks, worse_than)
-        self.judge, self.most, self.best = judge, most, best or before
+        self.judge, self.most, self.best, self.probe = judge, most, best or before, probe
+        self.refuting = [] if refuting is None else refuting
         self.work, self.held = 0, 0.0
         self.stable = all(check.status == "pass" for check in before.checks if check.code == STABLE)
         self.every = worse_than == RANK.index("warn")
@@ -177,6 +187,7 @@ class ChangeWatcher(NoWorse):
                 self.work += outcome.work
             if not self._holds(outcome, design):
                 self.held += _nearness(outcome, design)
+                self.refuting[:] = [(design, outcome.member), *self.refuting][:REPEATED]
                 raise NotBetterError
         self.held += 1
 
@@ -191,20 +202,34 @@ class ChangeWatcher(NoWorse):
         return not broken and outcome.level + self.judge.slack <= limits.vibration_level_db
 
     def repeated(self, design: Any) -> None:
-        """Run the start cases that fail with the best change so far, or warn where all must pass; raise NotBetterError
-        if one still does.
+        """Run the start cases that ended other trials, then those that fail with the best change so far, or warn where
+        all must pass; raise NotBetterError if one does not hold, EnoughError if all hold and no more is wanted.
         """
         own = self.best.facts.design
-        drag, old = design.case.drag, own.case.drag
         decide = (run for run in self.best.outcomes if self.every or run.member.promised)
         bad = [run for run in decide if not self._holds(run, own)]
         bad.sort(key=lambda run: (run.hanging, run.quiet_time_or_inf, run.level), reverse=True)
-        for run in bad[:REPEATED]:
-            member = replace(run.member, drag=run.member.drag * drag / old if old else drag)
-            if not member.angles or len(member.angles) == design.autobalancer.ball_count:
-                self.seen(design, self.judge.once(design, member))
+        again = [*self.refuting, *((own, run.member) for run in bad[:REPEATED])]
+        for member in dict.fromkeys(filter(None, (_in_design(design, *each) for each in again))):
+            self.seen(design, self.judge.once(design, member))
         if bad:
             self.most = max(self.most, PROMISING)
+        if self.probe:
+            raise EnoughError
+
+
+def _in_design(design: Any, own: Any, member: Member) -> Member | None:
+    """The start case of another design that stands for one of its own; None: there is none."""
+    case, other = design.case, own.case
+    placed = not member.angles or len(member.angles) == design.autobalancer.ball_count
+    run_up = not member.run_up or case.table.run_up == other.table.run_up
+    if not (placed and run_up and (member.speed is None or case.speed_range == other.speed_range)):
+        return None
+    known, shares = (getattr(each, "drag_shares", UNKNOWN_OIL) for each in (other, case))
+    share = member.drag / other.drag if other.drag else 1.0
+    near = min(range(len(known)), key=lambda k: abs(math.log(known[k] / share)))
+    own_share = shares[near] if math.isclose(known[near], share, rel_tol=ALIKE) else share
+    return replace(member, drag=own_share * case.drag)
 
 
 PASS: Final = RANK.index("pass")
@@ -229,20 +254,21 @@ def next_step(
 ) -> NextStep:
     """The first change with which all checks pass, else the one with the best verdict of those tried.
 
-    It costs nothing where nothing is wrong. Where something is, all trials that do not help take as long as the file as
-    it is.
+    It costs nothing where nothing is wrong. Where something is, all trials that do not help take half as long as the
+    file as it is, or `LEAST_WORK`.
     """
     best, rank, tried, hurried = None, RANK.index(worst(before.checks)), list[str](), False
-    held, better = dict[Entries, float](), list[Entries]()
-    work = max(sum(run.work for run in before.outcomes), LEAST_WORK)
+    held, better, futile = dict[Entries, float](), list[Entries](), set[Entries]()
+    refuting = list[tuple[Any, Member]]()
+    work = max(sum(run.work for run in before.outcomes) / 2, LEAST_WORK)
     left = math.inf if patience.given() else work
-    for entries in _with_pairs(proposals, held, better):
+    for entries, probe in _with_pairs(proposals, held, better, futile):
         if rank == PASS or len(held) == MOST_TRIALS:
             break
         if left <= 0 or patience.over():
             hurried = True
             break
-        trial = ChangeWatcher(before, rank, judge, left + work / 2, best and best.after)
+        trial = ChangeWatcher(before, rank, judge, left + work, best and best.after, refuting, probe=probe)
         try:
             tell = within(progress, f"with {in_words(entries)}")
             after = judge.judged(variant_of(machine, ",".join(entries)), tell, trial)
@@ -251,8 +277,11 @@ def next_step(
             left += trial.work
         except NotBetterError:
             tried.append(in_words(entries))
+            futile.add(entries)
         except TooLongError:
             hurried = True
+        except EnoughError:
+            trial.held = 0
         except AbuError:  # the file refuses it
             continue
         left -= trial.work
@@ -261,45 +290,39 @@ def next_step(
     return NextStep(best, tuple(tried), hurried)
 
 
+TRUE: Final = "race_eccentricity_mm"
+"""Key of which several values are proposed one after the other, the mildest first."""
+
+
 def _with_pairs(
-    proposals: Iterable[Entries], held: Mapping[Entries, float], better: Sequence[Entries]
-) -> Iterator[Entries]:
+    proposals: Iterable[Entries], held: Mapping[Entries, float], better: Sequence[Entries], futile: Collection[Entries]
+) -> Iterator[tuple[Entries, bool]]:
     """Changes, each alone and with the first of those that are `better`, then two of them together.
 
-    The first two are those with which the most start cases `held`.
+    The first two are those with which the most start cases `held`. Before several race eccentricities the least one is
+    probed, which comes with True: if it is `futile`, so are the others.
     """
     known = set[frozenset[str]]()
-    for change in proposals:
-        for entries in (change, *(_as_one(each, change) for each in better[:1])):
-            if entries and frozenset(entries) not in known:
-                known.add(frozenset(entries))
-                yield entries
+
+    def new(entries: Entries) -> bool:
+        count = len(known)
+        known.add(frozenset(entries))
+        return bool(entries) and len(known) > count
+
+    for _, races in groupby(proposals, key=lambda change: tuple(entry for entry in change if TRUE not in entry)):
+        alone = list(races)
+        for changes in (alone, [_as_one(each, change) for each in better[:1] for change in alone]):
+            fresh = list(filter(new, changes))
+            if len(fresh) > 2:
+                yield fresh[-1], True
+            yield from ((entries, False) for entries in fresh if not (len(fresh) > 2 and fresh[-1] in futile))
     for _ in range(MOST_PAIRS):
         by_held = sorted(filter(held.get, held), key=lambda entries: held[entries], reverse=True)
         pairs = sorted(combinations(by_held, 2), key=lambda pair: sum(held[each] for each in pair), reverse=True)
-        both = (_as_one(*pair) for pair in pairs)
-        new = next((entries for entries in both if entries and frozenset(entries) not in known), None)
-        if new is None:
+        both = next(filter(new, (_as_one(*pair) for pair in pairs)), None)
+        if both is None:
             return
-        known.add(frozenset(new))
-        yield new
-
-
-def in_words(entries: Entries) -> str:
-    """Entries as a sentence lists them, without those that pin balls and race unless there are no others.
-
-    >>> in_words(("oil.grade=VG 100", "oil.fill_ml=1", "autobalancer.ball_count=4"))
-    'oil.grade = VG 100 and oil.fill_ml = 1'
-    >>> in_words(("autobalancer.0.max_width_mm=40", "autobalancer.1.max_width_mm=40"))
-    'max_width_mm = 40 in both races'
-    """
-    other = [entry for entry in entries if entry.partition("=")[0] not in PINNED]
-    shown = [entry.removeprefix("autobalancer.").replace("=", " = ", 1) for entry in other or entries]
-    of_both = [entry[2:] for entry in shown if entry.startswith("0.") and f"1.{entry[2:]}" in shown]
-    alone = [entry for entry in shown if entry[2:] not in of_both]
-    both = [*of_both[:-1], *(f"{entry} in both races" for entry in of_both[-1:])]
-    *first, last = *alone, *both
-    return f"{', '.join(first)} and {last}" if first else last
+        yield both, False
 
 
 class Number(NamedTuple):
@@ -326,6 +349,12 @@ def _of_starts(value: Callable[[StartOutcome], float], *, further: bool = False)
     return largest
 
 
+def _rare(judged: Judged) -> float | None:
+    """Quiet time that one start case of 1000 exceeds; NaN where none was searched."""
+    searched = judged.facts.searched
+    return math.nan if searched is None else finite(searched.foreseen)
+
+
 def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judged], float | None]:
     return lambda judged: value(judged.facts.design.autobalancer) if hasattr(judged.facts.design, "choice") else None
 
@@ -348,6 +377,7 @@ NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
         Number("ensemble.quiet_time_s.worst", "the slowest listed start case", "s", _of_starts(slowness)),
         Number("ensemble.further_starts.quiet_time_s", "the slowest further start case", "s",
                _of_starts(slowness, further=True)),
+        Number("ensemble.further_starts.rare_quiet_time_s", "the quiet time of one start in 1000", "s", _rare),
     ),
 }  # fmt: skip
 """Numbers by which checks are decided."""
@@ -377,9 +407,6 @@ def promise(before: Judged, step: NextStep) -> dict[str, str | float | None] | N
     for number, old, new in filter(None, (_moved(check, before, after) for check in deciding)):
         return {"path": number.path, "from": old, "to": new}
     return {"path": "verdict.word", "from": WORDS[grade], "to": WORDS[worst(after.checks)]}
-
-
-PINNED: Final = frozenset(f"autobalancer.{key}" for key in PINS)
 
 
 SEATS: Final = "6"
@@ -449,12 +476,10 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
         text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
     elif check.code not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
         text = Moved(f"the {check.name}", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
-    oil, rate = getattr(best.after.facts.design.case, "oil", None), ""
-    if any(entry.startswith("oil.") for entry in best.entries) and oil is not None:
-        rate = f" (drag rate {oil.working.drag:.3g} 1/s at {oil.working.temperature:g} °C)"
-    if any(entry.partition("=")[0].endswith("rolling_drag_per_s") for entry in best.entries):
-        rate = " (an oil or grease that gives this drag rate)"
-    return Action(f"Set {in_words(best.entries)}{rate}: {text} ({SIMULATED}). {then}", best.entries)
+    design = before.facts.design
+    own = overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
+    change = in_words(best.entries, design.case.table, own)
+    return Action(f"{change[:1].upper()}{change[1:]}: {text} ({SIMULATED}). {then}", best.entries)
 
 
 def _apart(before: float | None, after: float | None) -> bool:
@@ -519,13 +544,20 @@ def together(
             yield entries
 
 
+LESS: Final = ("autobalancer.race_eccentricity_mm", "autobalancer.rolling_friction_mm")
+"""Values that are the better, the less they are."""
+
+
 def _as_one(*changes: Entries) -> Entries:
-    """Several changes as one, with the balls and the race of the first that pins any; none if they set another key to
-    different values.
+    """Several changes as one, with the balls and the race of the first that pins any, and the truest of the races; none
+    if they set another key to different values.
     """
     entries = dict[str, str]()
     for entry in chain.from_iterable(changes):
         key = entry.partition("=")[0]
-        if entries.setdefault(key, entry) != entry and key not in PINNED:
+        if entries.setdefault(key, entry) == entry or key in PINNED:
+            continue
+        if key not in LESS:
             return ()
+        entries[key] = min(entry, entries[key], key=lambda text: float(text.partition("=")[2]))
     return tuple(entries.values())

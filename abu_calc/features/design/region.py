@@ -6,6 +6,7 @@ counts the start cases at whose end dry friction holds every ball at rest in its
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -17,7 +18,7 @@ from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.two_modes import LinearMotion
 from abu_calc.dynamics.stability.verdict import judged
 from abu_calc.dynamics.switching.stick_slip import AT_REST
-from abu_calc.features.design.changes import design_with, more_damping, other_drags
+from abu_calc.features.design.changes import design_with, more_damping
 from abu_calc.features.design.whirl import unstable_speed
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check, Grade, coded
@@ -151,7 +152,7 @@ def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
         )
     except NotTrustworthyError as error:
         reason = f"Stability is not known: {str(error).splitlines()[0]}"
-        remedy = "Specify another drag rate, or springs in place of hands."
+        remedy = "Specify another oil, or springs in place of hands."
         check = coded("ABU103", "not-done", reason, unit="1/s", remedy=remedy)
         return TrueRegion(None, None, modes, hanging, check)
 
@@ -248,7 +249,7 @@ ABOVE: Final = 1.02
 def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object] | None:
     """The first change of the file, of those tried, that makes every speed of the range stable.
 
-    If the last boundary is inside the range: speeds above it. Else other oils or drag rates, the nearest first, and
+    If the last boundary is inside the range: speeds above it. Else other oils, the nearest first, and
     more damping of springs. `boundaries`: speeds at which stability changes, ascending.
     """
     case, (low, high) = design.case, design.case.speed_range
@@ -256,16 +257,21 @@ def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object
     if boundaries and boundaries[-1].stable_above and low < boundaries[-1].speed < high:
         tried += speeds_from(case, math.ceil(ABOVE * from_si(boundaries[-1].speed, "rpm")))
     tried += (entries for entries, _ in usual_oils(case, design.autobalancer))
-    if "rolling_drag_per_s" in case.autobalancer.model_fields_set:
-        tried += ({"autobalancer.rolling_drag_per_s": drag} for drag in other_drags(case.drag, only_more=False))
     tried += filter(None, [more_damping(design)])
     return next((entries for entries in tried if _steady(design, entries)), None)
 
 
 def _steady(design: Design, entries: Mapping[str, object]) -> bool:
+    """True if the ends of the range are stable with a change, each by itself, then all of it."""
     other = design_with(design, entries)
-    changed = None if other is None else _speed_range(other, with_boundaries=False)
-    return changed is not None and changed.stable
+    low, high = design.case.speed_range if other is None else other.case.speed_range
+    return other is not None and all(_stable_over(other, *ends) for ends in ((low, low), (high, high), (low, high)))
+
+
+def _stable_over(design: Design, low: float, high: float) -> bool:
+    case = replace(design.case, speed=min(max(design.case.speed, low), high), speed_range=(low, high))
+    speeds = _speed_range(replace(design, case=case), with_boundaries=False)
+    return speeds is not None and speeds.stable
 
 
 def _rpm(speed: float) -> str:

@@ -354,7 +354,7 @@ def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str
     own = (check for grade in RANK for check in checks if check.status == grade and check.overrides
            and all(f"--set {shell_word(entry)}" in verdict.next for entry in check.overrides))  # fmt: skip
     promised = next((check.remedy for check in own), None) or ""
-    return [*labelled("Next", [promised.partition(": ")[2]]), Paragraph(verdict.next, whole=True)]
+    return [*labelled("Next", [promised]), Paragraph(verdict.next, whole=True)]
 
 
 def replaced(result: Result) -> list[Block]:

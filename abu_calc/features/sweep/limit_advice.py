@@ -14,7 +14,7 @@ import numpy as np
 
 from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import ACCURACY, Judgement, judge
-from abu_calc.features.design.next_step import Entries, harmless, in_words, proposals
+from abu_calc.features.design.next_step import Entries, harmless, proposals
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT
 from abu_calc.features.sweep.failed_limits import flags_of
@@ -31,6 +31,7 @@ from abu_calc.inputs.variation import Sweep, variation
 from abu_calc.reporting.parts import next_command
 from abu_calc.simulation.result import Provenance
 from abu_calc.sizing.actions import overrides
+from abu_calc.sizing.change_words import in_words
 from abu_calc.sizing.proposals import carrying_more
 
 MOST: Final = 512

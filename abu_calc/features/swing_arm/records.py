@@ -145,9 +145,5 @@ class ArmMotion(Record):
         )
 
 
-def _degrees(angles: tuple[float, float]) -> tuple[float, float]:
-    return from_si(angles[0], "deg"), from_si(angles[1], "deg")
-
-
 def _rpm(frequency: float | None) -> float | None:
     return None if frequency is None else from_si(frequency, "rpm")

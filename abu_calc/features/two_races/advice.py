@@ -8,15 +8,11 @@ from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.features.two_races.judgement import TwoRaceJudgement
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.actions import overrides
-from abu_calc.sizing.vibration import smoother, truer
+from abu_calc.sizing.vibration import truer_races
 from abu_calc.standards.balls import stock_diameters
 
-FACTORS: Final = (2.0, 0.5, 3.0)
-"""Factors on the given viscous drag rates that are tried."""
 LARGER: Final = (1.2, 1.45, 1.75)
 """Least factors on the diameter of the balls that are tried."""
-TRUER: Final = (0.5, 0.25)
-"""Factors on race eccentricity and rolling friction that are tried."""
 ROOM: Final = ("max_outer_diameter_mm", "max_width_mm")
 ROOMIER: Final = (1.25, 1.6)
 """Factors on the room of both autobalancers that are tried."""
@@ -29,7 +25,7 @@ def proposals(before: TwoRaceJudgement) -> Iterator[Entries]:
     bad = {check.code for check in before.checks if check.requested and check.status != "pass"}
     design, of_starts = before.facts.design, list[dict[str, object]]()
     if "ABU401" in bad:
-        of_starts += _quieter(design)
+        of_starts += _truer(design)
     if bad & {"ABU701", "ABU702", "ABU704"}:
         of_starts += _quicker(design)
     made = [*_sturdier(design)] if bad - {"ABU401", "ABU402", "ABU701", "ABU702", "ABU704"} else []
@@ -42,13 +38,9 @@ def _of_both(entries: dict[str, object]) -> Entries:
 
 
 def _quicker(design: TwoRaceDesign) -> Iterator[dict[str, object]]:
-    """Drag rates first, then larger balls of the stock, with the given drag rate and twice that."""
-    drag = design.case.drag
-    for factor in FACTORS:
-        yield {"rolling_drag_per_s": _rounded(drag * factor)}
+    """Larger balls of the stock."""
     for larger in _larger(design):
         yield {"ball_diameter_mm": larger}
-        yield {"ball_diameter_mm": larger, "rolling_drag_per_s": _rounded(2 * drag)}
 
 
 def _larger(design: TwoRaceDesign) -> Iterator[float]:
@@ -60,36 +52,24 @@ def _larger(design: TwoRaceDesign) -> Iterator[float]:
             yield round(from_si(larger, "mm"), 6)
 
 
-def _quieter(design: TwoRaceDesign) -> Iterator[dict[str, object]]:
-    """Truer races, cleaner races, both; then other drag rates."""
-    for factor in TRUER:
-        entries = _truer(design, factor)
-        yield from ({key: value} for key, value in entries.items())
-        yield entries
-    for factor in FACTORS:
-        yield {"rolling_drag_per_s": _rounded(design.case.drag * factor)}
-
-
-def _truer(design: TwoRaceDesign, factor: float) -> dict[str, object]:
-    """A less eccentric race with less friction, as far as standard fits and a clean race go."""
-    given, least = design.bare.table.autobalancer[0], max(race.design.eccentricity.least for race in design.races)
-    return {
-        "race_eccentricity_mm": truer(given.race_eccentricity_mm, factor, least),
-        "rolling_friction_mm": smoother(given.rolling_friction_mm, factor),
-    }
+def _truer(design: TwoRaceDesign) -> list[dict[str, object]]:
+    """Less eccentric races, races with less friction, both, as far as standard fits and careful work go."""
+    least = max(race.design.eccentricity.least for race in design.races)
+    changes = truer_races(design.races[0].design.case, least)
+    return [{key.removeprefix("autobalancer."): value for key, value in entries.items()} for entries in changes]
 
 
 def _sturdier(design: TwoRaceDesign) -> Iterator[dict[str, object]]:
     """Truer and cleaner races, the next larger ball, more room, a larger share of the mass; then all of them."""
     tables = design.bare.table.autobalancer
     larger = next(_larger(design), None)
-    races = [_truer(design, factor) for factor in TRUER]
+    races = [entries for entries in _truer(design) if len(entries) > 1]
     rooms: list[dict[str, object]] = [
         {key: _rounded(max(getattr(table, key) for table in tables) * factor) for key in ROOM} for factor in ROOMIER
     ]
     heavier: list[dict[str, object]] = [{"max_mass_fraction": share} for share in HEAVIER]
     balls: list[dict[str, object]] = [] if larger is None else [{"ball_diameter_mm": larger}]
-    combined = [{**room, **heavier[-1]} for room in rooms] + [{**races[0], **rooms[0]}]
+    combined = [{**room, **heavier[-1]} for room in rooms] + [{**entries, **rooms[0]} for entries in races[:1]]
     yield from (*races, *balls, *rooms, *heavier, *combined)
 
 

@@ -59,7 +59,7 @@ def stability_check(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> 
     passed = all(each.stable for each in judged)
     yield coded(
         "ABU103", verdict(passed), f"Fastest-growing disturbance of the balanced state, at {speed}", worst.growth, 0.0,
-        "1/s", None if passed else "Raise rolling_drag_per_s of both races, or damp the bearings.",
+        "1/s", None if passed else "Use a more viscous oil in both races, or damp the bearings.",
     )  # fmt: skip
 
 

@@ -330,7 +330,7 @@ def _still(runs: WheelRuns) -> Check:
     text = "Growth of a small disturbance, balls evenly spread (calculated for light balls, imbalances in phase)"
     if passed and not safe:
         text += f"; {others:.3g} 1/s in another arrangement"
-    remedy = None if passed and safe else "Change the contact stiffness, or raise rolling_drag_per_s of both races."
+    remedy = None if passed and safe else "Change the contact stiffness, or use a more viscous oil in both races."
     growth = even if abs(even) > GROWS else 0.0
     return coded("ABU423", verdict(passed, safe), text, growth, 0.0, "1/s", remedy, of=name)
 

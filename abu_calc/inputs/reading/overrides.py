@@ -3,7 +3,7 @@
 import copy
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import Final
 
@@ -75,10 +75,7 @@ def following(earlier: Sequence[Override], later: Sequence[Override], model: typ
     later = in_key_units(later, model)
     gone = {override.path for override in later}
     for override in later:
-        *parent, key = override.path
-        table = table_at(model, tuple(parent))
-        if table is not None and isinstance(key, str):
-            gone |= {(*parent, other) for other in table.displaced_by(key, override.value)}
+        gone.update(_displaced(override, model))
     return (*(override for override in earlier if override.path not in gone), *later)
 
 
@@ -162,16 +159,21 @@ def apply(document: dict[str, object], overrides: Sequence[Override], model: typ
     notes = []
     paths = {override.path for override in overrides}
     for override in overrides:
-        *parent, key = override.path
-        table = table_at(model, tuple(parent))
-        held = value_at(document, parent)
-        if table is None or not isinstance(held, dict) or not isinstance(key, str):
-            continue
-        for other in table.displaced_by(key, override.value):
-            if other in held and (*parent, other) not in paths:
+        for *parent, other in _displaced(override, model):
+            held = value_at(document, parent)
+            if isinstance(held, dict) and other in held and (*parent, other) not in paths:
                 del held[other]
                 notes.append(f"{override.option} takes the place of {key_path((*parent, other))}")
     return notes
+
+
+def _displaced(override: Override, model: type[Table]) -> Iterator[tuple[Part, ...]]:
+    """Paths whose place an override takes."""
+    *parent, key = override.path
+    table = table_at(model, tuple(parent))
+    if table is not None and isinstance(key, str):
+        for other in table.displaced_by(key, override.value):
+            yield tuple(other.split(".")) if "." in other else (*parent, other)
 
 
 def _split(text: str) -> tuple[str, str, str]:

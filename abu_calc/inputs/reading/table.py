@@ -169,7 +169,10 @@ class Table(BaseModel):
 
     @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
-        """The keys that make no sense beside `key = value`: an override of one takes the others' place."""
+        """The keys that make no sense beside `key = value`: an override of one takes the others' place.
+
+        Those of other tables with their table: "autobalancer.rolling_drag_per_s".
+        """
         return ()
 
     def unused(self) -> frozenset[str]:

@@ -7,11 +7,13 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.design.next_step import NUMBERS, in_words
+from abu_calc.features.design.next_step import NUMBERS
 from abu_calc.features.design.study import SizeResult
 from abu_calc.foundation.checks import RANK, Check
 from abu_calc.foundation.errors import AbuError
 from abu_calc.inputs.read_machine import Machine, read_machine, variant_of
+from abu_calc.sizing.actions import PINS
+from abu_calc.sizing.change_words import in_words
 from tests.features.design.test_next_step import at
 from tests.hard_machines import FILES_BY_HAND
 from tests.remembered import recalled
@@ -23,7 +25,7 @@ QUICK = {0, 2, 3}
 RANDOM = [pytest.param(seed, marks=pytest.mark.slow if seed in QUICK else pytest.mark.hard) for seed in range(40)]
 
 ACTION = re.compile(
-    r"Set (?P<entries>.+?)(?: \(drag rate \S+ 1/s at \S+ °C\)| \(an oil or grease that gives this drag rate\))?: "
+    r"(?P<entries>[A-Z0-9].+?): "
     r"(?:[^:]+? then (?P<verb>passes|warns)"
     r"|(?P<what>[^:]+?) (?:falls|rises) from (?P<before>\S+) to (?P<after>\S+)(?: \S+)?) \(simulated\)\. "
     r"(?:All checks then pass|Then (?P<left>.+) still warns?)\."
@@ -45,7 +47,9 @@ def faults(name: str, machine: Machine, before: SizeResult) -> Iterator[str]:
         after = abu_calc.size(variant_of(machine, ",".join(change)))
         yield from (f"{name}: {change} {fault}" for fault in (*worse(before, after), *broken(before, after)))
         for check in actions.values():
-            yield from (f"{name} {check.code}: {check.remedy}: {fault}" for fault in untrue(check, before, after))
+            yield from (
+                f"{name} {check.code}: {check.remedy}: {fault}" for fault in untrue(check, machine, before, after)
+            )
 
 
 def worse(before: SizeResult, after: SizeResult) -> Iterator[str]:
@@ -68,13 +72,15 @@ def broken(before: SizeResult, after: SizeResult) -> Iterator[str]:
             yield f"leads to {value}, promised was {promise}"
 
 
-def untrue(check: Check, before: SizeResult, after: SizeResult) -> Iterator[str]:
+def untrue(check: Check, machine: Machine, before: SizeResult, after: SizeResult) -> Iterator[str]:
     """What an action tells that is not so in the result with its entries."""
     action = ACTION.fullmatch(check.remedy or "")
     if action is None:
         yield "is no such sentence"
         return
-    if action["entries"] != in_words(check.overrides):
+    made = [f"autobalancer.{key}={getattr(before.autobalancer, key):.10g}" for key in PINS]
+    words = in_words(check.overrides, machine.whole("size"), made)
+    if words[:1].upper() + words[1:] != action["entries"]:
         yield f"names other entries than {check.overrides}"
     left = [each.code for each in after.checks if each.requested and each.status != "pass"]
     if sorted({*left}) != sorted((action["left"] or "").split(" and ") if action["left"] else []):

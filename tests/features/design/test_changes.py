@@ -14,7 +14,6 @@ from abu_calc.features.design.changes import (
     changes_for_starts,
     design_with,
     more_damping,
-    other_drags,
 )
 from abu_calc.features.design.start_rules import StartFacts
 from abu_calc.simulation.ensemble import simulate_members
@@ -64,22 +63,6 @@ def followed(made: Design, entries: dict[str, Any]) -> Design:
 
 
 @pytest.mark.parametrize(
-    ("given", "only_more", "expected"),
-    [
-        (15.0, False, [18.0, 12.0, 27.0, 8.0, 40.0]),
-        (15.0, True, [18.0, 27.0, 40.0, 60.0]),
-        (17.0, True, [27.0, 40.0, 60.0]),
-        (500.0, False, [60.0, 40.0, 27.0, 18.0, 12.0]),
-        (60.0, True, []),
-        (0.0, False, [3.0, 5.0, 8.0, 12.0, 18.0]),
-    ],
-)
-def test_the_nearest_drag_rates_come_first(given: float, only_more: bool, expected: list[float]) -> None:
-    """None within a factor of 1.15, as 18 is from 17; if balls stall, more alone."""
-    assert other_drags(given, only_more=only_more) == expected
-
-
-@pytest.mark.parametrize(
     ("shares", "changed", "more", "less"),
     [
         ((1 / 3,), LATE, True, False),
@@ -111,12 +94,16 @@ def off(rate: float, made: Design) -> float:
     return abs(math.log(rate / made.case.drag))
 
 
-def test_a_file_that_gives_a_drag_rate_gets_drag_rates() -> None:
+def test_a_file_that_gives_a_drag_rate_gets_oils() -> None:
+    """Nobody can set a drag rate: an oil with its fill takes its place, and counts with its cold and hot drag."""
     made = design(autobalancer__rolling_drag_per_s=15.0)
     changes = proposed(made, start(made, 3.0, **LATE))
-    assert not of(changes, "oil.grade")
-    key = "autobalancer.rolling_drag_per_s"
-    assert [entries[key] for entries in of(changes, key)] == [12.0, 8.0]
+    assert not any("drag" in key for entries in changes for key in entries)
+    oils = of(changes, "oil.grade")
+    assert oils and all({"oil.viscosity_index", "oil.fill_ml"} <= entries.keys() for entries in oils)
+    case = followed(made, oils[0]).case
+    assert case.oil is not None and not case.oil.overridden and case.drag == case.oil.working.drag < 15.0
+    assert case.drag_shares == case.oil.shares
 
 
 def test_other_balls_are_proposed_if_a_listed_start_case_fails_at_the_given_drag_rate() -> None:

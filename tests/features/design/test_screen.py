@@ -126,7 +126,7 @@ def test_what_the_next_command_does_is_told_by_its_own_action(sized: SizeResult)
     own = Check("ABU701", "starts", "warn", "why", 1.0, 2.0, "g·mm", "Set c = 1: b.", overrides=("oil.grade=VG 100",))
     verdict = Verdict.of([seat, own], "", sized.provenance, own.overrides)
     text = flat(as_text(size_screen(replace(sized, checks=(seat, own), verdict=verdict))))
-    assert "Next b. abu size" in text and "Next a." not in text
+    assert "Next Set c = 1: b. abu size" in text and "Specify m6" not in text
 
 
 def test_a_start_case_louder_than_without_is_told_so(sized: SizeResult) -> None:
