@@ -192,17 +192,18 @@ def usual(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
 
 
 def worse_wheels(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
-    """Starts of the usual band with more friction than the file's and, if the imbalance was measured, with a wheel as
-    bad as the margin of the capacity allows.
+    """Starts of the usual band with more friction than the file's and a wheel as bad as the margin of the capacity
+    allows, if the imbalance was measured: that is no maximum.
 
     There machines break most (own trial: 50 of 68 runs): the balls have little way to spare, and friction stops them.
     """
-    worse = design.case.autobalancer.capacity_margin if measured(design) else 1.0
+    if not measured(design):
+        return
     least, most = friction_factors(design)
     for start in usual(design, starts):
         share = math.log(start.varied.friction_arm / least) / math.log(most / least)
-        varied = replace(start.varied, imbalance=worse, friction_arm=between((1.0, most), share))
-        yield replace(start, varied=varied)
+        worse, friction = design.case.autobalancer.capacity_margin, between((1.0, most), share)
+        yield replace(start, varied=replace(start.varied, imbalance=worse, friction_arm=friction))
 
 
 def between(ends: Factors, place: float) -> float:
