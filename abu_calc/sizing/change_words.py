@@ -71,4 +71,5 @@ def _entry(entry: str, file: Mapping[str, object]) -> str:
     of = [] if parents[0] in PLAIN else [f"{part + 1}" if isinstance(part, int) else part for part in parents]
     instead = "" if before is None or plain(before) == value else f" instead of {plain(before)}"
     words = f"{' '.join([*of, name])} {value}{instead} {SYMBOLS.get(unit, unit)}"
-    return words.replace("run_up", "run-up").replace("_", " ").replace(",", ", ").strip()
+    words = words.replace("run_up", "run-up").replace("_", " ").replace(",", ", ").strip()
+    return f"a harder, smoother race ({words}, to be measured)" if key == "rolling_friction_mm" else words
