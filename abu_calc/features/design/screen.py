@@ -74,7 +74,8 @@ def first_lines(result: SizeResult) -> tuple[Block, ...]:
     return (
         Heading(title_with_speed(result)), verdict_paragraph(result.verdict, result.checks),
         *unusual_values(result), BLANK,
-        *labelled("Make" if result.status == "pass" else "Best", _make(result)), BLANK,
+        *(() if result.verdict.leave_out else
+          (*labelled("Make" if result.status == "pass" else "Best", _make(result)), BLANK)),
         numbers(result), BLANK, *_runs(result), *_assumed(result), *_arm(result),
         *replaced(result), *next_lines(result.verdict, result.checks, result.warnings),
     )  # fmt: skip
@@ -119,8 +120,8 @@ def _make(result: SizeResult) -> list[str]:
         f"housing Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
         f"{section.bore_diameter_mm:g} {fit}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g, "
         f"{number(100 * abu.mass_fraction, 2)} %",
-        f"run-out TIR: race ≤ {split.race_tir_um:.3g} µm, spindle ≤ {split.spindle_tir_um:.3g} µm "
-        f"(eccentricity {split.total_um:.3g} µm)",
+        f"run-out TIR: race to bore ≤ {split.race_tir_um:.3g} µm, spindle ≤ {split.spindle_tir_um:.3g} µm "
+        f"(off axis: {split.total_um:.3g} µm)",
         _capacity(result),
     ]
 
