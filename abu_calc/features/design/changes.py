@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import islice
 from typing import Final
 
+from abu_calc.features.design.band import turned_in_use
 from abu_calc.features.design.start_rules import StartFacts
 from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation.errors import AbuError
@@ -67,9 +68,9 @@ def changes_for_starts(facts: StartFacts, *, loud: bool) -> Iterator[dict[str, o
 
 
 def more_damping(design: Design) -> dict[str, object] | None:
-    """Entries that double the damping of springs; None for another suspension."""
+    """Entries that double the damping of springs; None for another suspension, and for hands, which nobody sets."""
     dampings = design.case.table.suspension.dampings
-    if dampings is None or not isinstance(design.case.suspension, Springs):
+    if dampings is None or not isinstance(design.case.suspension, Springs) or turned_in_use(design):
         return None
     return {"suspension.damping_ratios": [float(f"{DAMPED * damping:.6g}") for damping in dampings]}
 

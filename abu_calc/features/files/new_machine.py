@@ -20,6 +20,8 @@ ECCENTRIC: Final = ((9000.0, 0.006), (0.0, 0.010))
 NUMBER: Final = r"(-?\d+(?:\.\d*)?|-?\.\d+)"
 ROOM: Final = re.compile(rf"Ø?\s*{NUMBER}\s*[x×X*]\s*{NUMBER}\s*(?:mm)?")
 HANDLE: Final = re.compile(rf"([^=]*[^=\s])\s*=\s*{NUMBER}\s*,\s*{NUMBER}\s*,\s*{NUMBER}")
+HEAVIEST_HELD: Final = 12.0
+"""Mass [kg] above which a grinder is hardly held in the hands (assumed)."""
 UNITS: Final = {"wheel": "mm", "mass": "kg", "speed": "rpm", "level": "dB"}
 COLUMN: Final = 34
 """Column in which comments begin."""
@@ -176,7 +178,9 @@ def _lines(given: Mapping[str, Any], usual: frozenset[str]) -> Iterator[str]:
         yield row("name", name)
         yield row("position_mm", position)
     yield "\n[suspension]"
-    yield row("model", "springs", "held in two hands (ISO 10068:2012)")
+    in_hands = "held in two hands (ISO 10068:2012)"
+    on_feet = f"assumed: {in_hands}; give the measured frequencies if it stands, hangs or is bolted"
+    yield row("model", "springs", in_hands if given["mass"] <= HEAVIEST_HELD else on_feet)
     yield row("natural_frequencies_hz", [2.5, 2.5])
     yield row("damping_ratios", [0.5, 0.5])
     yield "\n[wheel]"

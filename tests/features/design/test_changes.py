@@ -36,7 +36,7 @@ STALLED = {"slip": 0.8}
 @cache
 def design(**given: Any) -> Design:
     """The machine of the tests of sizing, with entries changed."""
-    tables = {key: dict(value) if "__" not in key else value for key, value in given.items()}
+    tables = {key: value if "__" in key else dict(value) for key, value in given.items()}
     return size(machine(**tables))
 
 
@@ -143,8 +143,9 @@ def test_a_faster_run_up_is_proposed_if_run_ups_alone_fail() -> None:
     assert not of(proposed(design(), start(design(), run_up=1.0, slip=0.5)), key)
 
 
-def test_the_damping_of_springs_is_doubled() -> None:
-    made = design()
+def test_the_damping_of_springs_is_doubled_but_not_that_of_hands() -> None:
+    assert more_damping(design()) is None
+    made = design(machine__held="as-given")
     (entries,) = of(proposed(made, start(made, **LATE)), "suspension.damping_ratios")
     damped = followed(made, entries)
     assert damped.case.suspension.damping == pytest.approx([2 * c for c in made.case.suspension.damping])  # type: ignore[union-attr]
