@@ -167,6 +167,9 @@ def body_advice(case: Case) -> str:
     moved = [Moved("the effective mass without an autobalancer", masses[0], masses[1], "kg").text]
     if abs(imbalances[1] - imbalances[0]) > SAME * imbalances[0]:
         moved.append(_moved_imbalance(*imbalances))
+    else:
+        louder = 20 * math.log10(masses[0] / masses[1])
+        moved.append(f"the level without one {'rises' if louder > 0 else 'falls'} by {abs(louder):.1f} dB")
     given = words(entries)
     return (
         f"Measure {keys}. With {given}, usual for this mass, {' and '.join(moved)} (calculated): {set_options(entries)}"

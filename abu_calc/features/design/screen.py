@@ -20,7 +20,7 @@ from abu_calc.features.design.tables import (
     title_with_speed,
     unusual_values,
 )
-from abu_calc.features.design.verdict import STARTS_UNIT, Verdict, faults, keeps_limit
+from abu_calc.features.design.verdict import IN_VAIN, STARTS_UNIT, Verdict, faults, keeps_limit
 from abu_calc.foundation.checks import RANK, Check, Grade, worst
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
@@ -121,7 +121,7 @@ def _make(result: SizeResult) -> list[str]:
         f"{section.bore_diameter_mm:g} {fit}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g, "
         f"{number(100 * abu.mass_fraction, 2)} %",
         f"run-out TIR: race to bore ≤ {split.race_tir_um:.3g} µm, spindle ≤ {split.spindle_tir_um:.3g} µm "
-        f"(off axis: {split.total_um:.3g} µm)",
+        f"(with fit {split.total_um:.3g} µm off)",
         _capacity(result),
     ]
 
@@ -350,8 +350,11 @@ def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str
     if verdict.word != "suits" and any(SLIP in text for text in warnings):
         return labelled("Next", ["correct the value marked with !, or keep it if it is meant, before any change"])
     if verdict.next is None:
-        failed = "leave the autobalancer out" if verdict.leave_out else "see what the checks ask for: --full"
-        return [] if verdict.word == "suits" else labelled("Next", [failed])
+        if verdict.leave_out:
+            return labelled("Next", ["leave the autobalancer out"])
+        if verdict.word == "suits" or IN_VAIN in verdict.sentence:
+            return []
+        return labelled("Next", ["see what the checks ask for: --full, or --patience 300 for more changes"])
     own = (check for grade in RANK for check in checks if check.status == grade and check.overrides
            and all(f"--set {shell_word(entry)}" in verdict.next for entry in check.overrides))  # fmt: skip
     promised = next((check.remedy for check in own), None) or ""

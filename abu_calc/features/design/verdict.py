@@ -34,6 +34,8 @@ LEAST_BENEFIT: Final = 3.0
 """Reduction of the idle level [dB] below which the sentence says how little it is."""
 
 
+IN_VAIN: Final = "No change of the file was found that mends it."
+"""Last words of the sentence if all changes were tried in vain."""
 RARE: Final = "one of 1000 takes"
 """Words of a check that the time of rare starts decides."""
 LATER: Final = "Slowest at another drag rate"
@@ -74,8 +76,8 @@ class Verdict(Record):
             sentence += f" {benefit}"
         if grade == "pass":
             return cls(word=WORDS[grade], sentence=sentence, next=None, promise=None)
-        if incurable and grade == "fail":
-            sentence += " No change of the file was found that mends it."
+        if incurable and grade != "not-done":
+            sentence += f" {IN_VAIN}"
         step = next_command("abu size", reading, entries) if entries else None
         useless = incurable and any(check.status == "fail" and check.code in OF_BALANCING for check in checks)
         return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise, leave_out=useless)
