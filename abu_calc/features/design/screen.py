@@ -135,7 +135,8 @@ def _capacity(result: SizeResult) -> str:
     needed = " + ".join(f"{name} {number(part, 3)}" for name, part in parts)
     margin = f"{limit / bare:.3g} × ({needed})" if bare and limit > bare else needed
     large = "; larger balls roll more easily" if own > AMPLE * limit else ""
-    return f"carries {number(own, 4)} g·mm {'≥' if own >= limit else '<'} {margin}{large}"
+    sign = "≥" if own >= limit else "<"
+    return f"carries {number(own, 4)} {sign} {number(limit, 4)} g·mm = {margin}{large}"
 
 
 def numbers(result: SizeResult) -> Grid:
