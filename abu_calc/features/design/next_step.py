@@ -479,8 +479,8 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
     design = before.facts.design
     own = overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
     change = in_words(best.entries, design.case.table, own)
-    kept = ", balls and race kept" if own and set(own) <= set(best.entries) else ""
-    return Action(f"{change[:1].upper()}{change[1:]}{kept}: {text} ({SIMULATED}). {then}", best.entries)
+    kept = " Keep balls and race." if own and set(own) <= set(best.entries) else ""
+    return Action(f"{change[:1].upper()}{change[1:]}: {text} ({SIMULATED}).{kept} {then}", best.entries)
 
 
 def _apart(before: float | None, after: float | None) -> bool:

@@ -28,6 +28,7 @@ ACTION = re.compile(
     r"(?P<entries>[A-Z0-9].+?): "
     r"(?:[^:]+? then (?P<verb>passes|warns)"
     r"|(?P<what>[^:]+?) (?:falls|rises) from (?P<before>\S+) to (?P<after>\S+)(?: \S+)?) \(simulated\)\. "
+    r"(?:Keep balls and race\. )?"
     r"(?:All checks then pass|Then (?P<left>.+) still warns?)\."
 )
 """What is set, what this check then does or which number goes from what to what, and which checks still warn."""

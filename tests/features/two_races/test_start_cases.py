@@ -14,6 +14,7 @@ from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.features.two_races.start_cases import (
     FIRST_TOLERANCE,
     OF_BAND,
+    OF_USUAL,
     TwoRaceOutcome,
     ensemble_of,
     rest_time,
@@ -61,9 +62,13 @@ def test_start_cases_cover_phases_starts_and_oils() -> None:
     nominal = [case for case in cases if case.at_nominal]
     assert {case.start for case in cases} == {"bunched", "spread", "standstill"} and any(case.run_up for case in cases)
     assert {case.phases for case in nominal} == {(phase * math.pi / 2,) for phase in range(4)}
-    assert {case.drag / design.case.drag for case in cases} == {1.0, 1 / 3, 3.0}
     of_band = [case for case in cases if case.varied != Variation()]
-    assert len(of_band) == OF_BAND and all(case.promised for case in of_band)
+    assert {case.drag / design.case.drag for case in cases if case not in of_band} == {1.0, 1 / 3, 3.0}
+    assert [case.promised for case in of_band] == [True] * OF_BAND + [False] * OF_USUAL
+    usual = of_band[OF_BAND:]
+    assert all(0.3 <= case.varied.friction_arm <= 2 for case in usual)
+    assert all(1 / 3 <= case.drag / design.case.drag <= 3 for case in usual)
+    assert all(0.95 <= (case.speed or 0) / design.case.speed <= 1.05 for case in usual)
     assert all(0 <= case.varied.race_eccentricity <= 1 and 0.1 <= case.varied.imbalance <= 1 for case in of_band)
 
 

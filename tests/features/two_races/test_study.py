@@ -124,7 +124,7 @@ def test_the_preset_passes_and_its_numbers_fit_together() -> None:
     assert result.frequency.stable
     ensemble = result.ensemble
     assert ensemble is not None
-    assert (ensemble.members, ensemble.balanced, ensemble.hanging, ensemble.lost) == (44, 44, 0, 0)
+    assert (ensemble.members, ensemble.balanced, ensemble.hanging, ensemble.lost) == (52, 52, 0, 0)
     for race in result.autobalancers:
         assert race.capacity_g_mm >= 1.2 * race.resultant_worst_g_mm * (1 - 1e-9)
         assert race.resultant_typical_g_mm < race.resultant_worst_g_mm

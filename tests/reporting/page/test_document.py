@@ -140,7 +140,7 @@ def test_calculation_note_and_what_is_needed_to_repeat_it(written: Any) -> None:
     assert "Range:" in words
     assert "Source:" in words
     assert document["input"]["sha256"] in words
-    assert "autobalancer.capacity_margin = 1.3" in words
+    assert "autobalancer.capacity_margin = 1.2" in words
 
 
 @pytest.mark.slow
