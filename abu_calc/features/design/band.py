@@ -199,11 +199,10 @@ def worse_wheels(design: Design, starts: Iterable[Member]) -> Iterator[Member]:
     """
     if not measured(design):
         return
-    least, most = friction_factors(design)
-    for start in usual(design, starts):
-        share = math.log(start.varied.friction_arm / least) / math.log(most / least)
-        worse, friction = design.case.autobalancer.capacity_margin, between((1.0, most), share)
-        yield replace(start, varied=replace(start.varied, imbalance=worse, friction_arm=friction))
+    worse, most = design.case.autobalancer.capacity_margin, friction_factors(design)[1]
+    for start, (_, friction, *_) in zip(usual(design, starts), sequence(OF_USUAL), strict=False):
+        varied = replace(start.varied, imbalance=worse, friction_arm=between((1.0, most), friction))
+        yield replace(start, varied=varied)
 
 
 def between(ends: Factors, place: float) -> float:

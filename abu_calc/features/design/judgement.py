@@ -141,10 +141,8 @@ def judge(
     return Judgement(facts, seats, region, arm, moved, runs, failures, work, checks)
 
 
-THINNED = (
-    "Only {run} of {all} designed start cases were simulated, since each takes long (--patience 300 allows all of them "
-    "300 s)."
-)
+SEARCHED_LESS = "designed start cases were simulated, since each takes long"
+"""Words of the warning that fewer start cases than usual were run."""
 
 MOST_SEARCHED = 2_000_000
 """Work of the listed starts beyond which fewer further ones are tried: as many as take about as much again."""
@@ -176,7 +174,8 @@ def proven(
     if first.work > MOST_SEARCHED and not patience.given():
         most = max(FEWEST_SEARCHED, int(MOST_SEARCHED * len(first.outcomes) / first.work))
         number = len(tuple(design_part(design, 0)))
-        facts = replace(facts, warnings=(THINNED.format(run=min(most, number), all=number),))
+        less = f"Only {min(most, number)} of {number} {SEARCHED_LESS} (--patience 300 allows all of them 300 s)."
+        facts = replace(facts, warnings=(less,))
     return replace(facts, searched=search(design, accuracy, progress, workers, first.given, trial.seen, most))
 
 

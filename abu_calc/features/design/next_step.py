@@ -26,6 +26,7 @@ from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine, variant_of
+from abu_calc.reporting.blocks import capitalised
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
@@ -480,7 +481,7 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
     own = overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
     change = in_words(best.entries, design.case.table, own)
     kept = " Keep balls and race." if own and set(own) <= set(best.entries) else ""
-    return Action(f"{change[:1].upper()}{change[1:]}: {text} ({SIMULATED}).{kept} {then}", best.entries)
+    return Action(f"{capitalised(change)}: {text} ({SIMULATED}).{kept} {then}", best.entries)
 
 
 def _apart(before: float | None, after: float | None) -> bool:

@@ -6,11 +6,11 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Final
 
 from abu_calc.features.design.data_gaps import DRAG, DataGap
+from abu_calc.features.design.judgement import SEARCHED_LESS
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.tables import (
     INERTIA,
     LOUDER,
-    SEARCHED_LESS,
     SLIP,
     TENTH,
     highest_first,
@@ -121,7 +121,7 @@ def _make(result: SizeResult) -> list[str]:
         f"{section.bore_diameter_mm:g} {fit}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g, "
         f"{number(100 * abu.mass_fraction, 2)} %",
         f"run-out TIR: race to bore ≤ {split.race_tir_um:.3g} µm, spindle ≤ {split.spindle_tir_um:.3g} µm "
-        f"(with fit {split.total_um:.3g} µm off)",
+        f"({split.total_um:.3g} µm off axis)",
         _capacity(result),
     ]
 
@@ -310,11 +310,8 @@ def _runs(result: SizeResult) -> list[Block]:
     usual = ", ".join(name for key, name in USUAL_NAMES.items() if key in ends)
     others = f"; usual {usual}" if usual else ""
     over = f": {', '.join(named)}{others}" if named else " at the values of the file"
-    fewer = (
-        "; fewer than usual, since each takes long (--patience 300)"
-        if SEARCHED_LESS in "".join(result.warnings)
-        else ""
-    )
+    few = any(SEARCHED_LESS in text for text in result.warnings)
+    fewer = "; fewer than usual, since each takes long (--patience 300)" if few else ""
     return labelled("Runs", [f"{many(many_starts.runs, 'start case')}{over}{fewer}"])
 
 
@@ -348,11 +345,13 @@ def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str
 
     A value in what seems another unit is corrected first.
     """
-    if verdict.word != "suits" and any(SLIP in text for text in warnings):
-        return labelled("Next", ["correct the value marked with !, or keep it if it is meant, before any change"])
+    slip = any(SLIP in text for text in warnings)
+    if verdict.next is not None and slip:
+        return labelled("Next", ["correct the value marked with !, or see --full for a change if it is meant"])
     if verdict.next is None:
         if verdict.leave_out:
-            return labelled("Next", ["leave the autobalancer out"])
+            unless = ", unless the value marked with ! is a slip" if slip else ""
+            return labelled("Next", [f"leave the autobalancer out{unless}"])
         if verdict.word == "suits" or IN_VAIN in verdict.sentence:
             return []
         return labelled("Next", ["see what the checks ask for: --full, or --patience 300 for more changes"])

@@ -22,8 +22,6 @@ from abu_calc.standards.balls import inch_size
 
 SLIP: Final = "Meant in "
 """Words of the warning about a value that would be usual in another unit."""
-SEARCHED_LESS: Final = "designed start cases were simulated"
-"""Words of the warning that fewer start cases than usual were run."""
 INERTIA: Final = "modelled as a point mass"
 """Words of the warning that a machine has no inertia; it is the first note."""
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import ACCURACY, Judgement, judge
-from abu_calc.features.design.next_step import Entries, harmless, proposals
+from abu_calc.features.design.next_step import LESS, Entries, harmless, proposals
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT
 from abu_calc.features.sweep.failed_limits import flags_of
@@ -193,10 +193,6 @@ def _tightened(study: SweepStudy, failed: Sequence[FailedLimit], varied: Collect
             continue
         half = rescaled(way, 0.5).text
         yield Change(f"scatter of {key} halved: {half}", (), {key: half})
-        if key in varied and key in OF_RACE:
+        if key in varied and key in LESS:
             half = rescaled(way, 0.5, about_zero=True).text
             yield Change(f"{key} halved: {half}", (), {key: half})
-
-
-OF_RACE: Final = ("autobalancer.race_eccentricity_mm", "autobalancer.rolling_friction_mm")
-"""Values of a race that are the better, the less they are."""
