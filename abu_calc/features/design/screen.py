@@ -37,7 +37,7 @@ LABEL: Final = 9
 """Columns of the labels at the left."""
 MOST_FAULTS: Final = 3
 """Checks with a row of their own, beside those that the table shows."""
-NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU701"})
+NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU402", "ABU701"})
 """Checks without which no value of a table is a pass."""
 REPLACE: Final = {
     "autobalancer.race_eccentricity_mm": "Specify the run-out that the shop holds.",

@@ -178,9 +178,8 @@ def _lines(given: Mapping[str, Any], usual: frozenset[str]) -> Iterator[str]:
         yield row("name", name)
         yield row("position_mm", position)
     yield "\n[suspension]"
-    in_hands = "held in two hands (ISO 10068:2012)"
-    on_feet = f"assumed: {in_hands}; give the measured frequencies if it stands, hangs or is bolted"
-    yield row("model", "springs", in_hands if given["mass"] <= HEAVIEST_HELD else on_feet)
+    stands = "" if given["mass"] <= HEAVIEST_HELD else "assumed: if it stands or is bolted, measure; "
+    yield row("model", "springs", f"{stands}held in two hands (ISO 10068:2012)")
     yield row("natural_frequencies_hz", [2.5, 2.5])
     yield row("damping_ratios", [0.5, 0.5])
     yield "\n[wheel]"

@@ -21,6 +21,7 @@ from abu_calc.features.design.band import (
     sequence,
     turned_in_use,
     usual,
+    worse_wheels,
 )  # fmt: skip
 from abu_calc.features.design.repeats import decisive, repeated
 from abu_calc.features.design.start_search import SearchResult, fails
@@ -103,6 +104,20 @@ def test_a_measured_imbalance_is_no_maximum(design: Design) -> None:
     assert max(member.varied.imbalance for member in usual(design, starts(design))) == 1
     own = [row for row in band(found) if row.key == "wheel.imbalance_g_mm"]
     assert [row.promised for row in own] == [True, False] and own[1].high == pytest.approx(margin * own[0].high)
+
+
+@pytest.mark.parametrize("interval", [None, [0.0015, 0.003], [0.002, 0.002]])
+def test_worse_wheels_have_all_that_the_margin_allows_and_no_less_friction(interval: list[float] | None) -> None:
+    """Only of a measured imbalance. The friction of an identified arm stays in its interval, be it a single value."""
+    known = {} if interval is None else {"identified": {"rolling_friction_mm": interval}}
+    of_level = design_of(wheel__imbalance_g_mm=None, wheel__measured_level_db=111.0, **known)
+    members = list(worse_wheels(of_level, starts(of_level)))
+    most = 2.0 if interval is None else interval[1] / 0.002
+    assert len(members) == 60 and not any(member.promised for member in members)
+    assert {member.varied.imbalance for member in members} == {of_level.case.autobalancer.capacity_margin}
+    frictions = [member.varied.friction_arm for member in members]
+    assert 1 <= min(frictions) <= 1 + 0.05 * (most - 1) and most - 0.05 * (most - 1) <= max(frictions) <= most
+    assert not list(worse_wheels(design_of(), starts(design_of())))
 
 
 @pytest.mark.parametrize(

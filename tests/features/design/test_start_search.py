@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import abu_calc
-from abu_calc.features.design import start_search
+from abu_calc.features.design import judgement, start_search
 from abu_calc.features.design.repeats import worst_further
 from abu_calc.features.design.start_rules import RULES, StartFacts
 from abu_calc.features.design.start_search import (
@@ -34,6 +34,7 @@ from abu_calc.features.design.start_search import (
     tail_shape,
 )
 from abu_calc.foundation.checks import Check, Finding, coded
+from abu_calc.foundation.patience import limited
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
 from abu_calc.simulation.scene_of_design import contact_half_angle
@@ -311,6 +312,22 @@ def test_a_late_start_is_found_among_more_parts_if_rare_ones_seem_late(monkeypat
     assert alone.foreseen > NEAR * long_tailed.case.table.limits.longest_quiet_time
     quiet = search(design("avtovaz-707-305"), 0.01)
     assert len(quiet.outcomes) - quiet.near == len(list(design_part(design("avtovaz-707-305"), 0)))
+
+
+@pytest.mark.slow
+def test_if_each_start_takes_long_fewer_of_all_kinds_are_run_and_that_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With no work left beside the listed starts eight are run; the warning counts them. Asked patience runs all."""
+    machine = design("avtovaz-707-305")
+    monkeypatch.setattr(judgement, "MOST_SEARCHED", 0)
+    facts = judgement.proven(machine)
+    assert facts.searched is not None and facts.searched.near == 0 and facts.listed_pass
+    assert len(facts.searched.outcomes) == judgement.FEWEST_SEARCHED
+    assert {outcome.member.promised for outcome in facts.searched.outcomes} == {True, False}
+    every = len(list(design_part(machine, 0)))
+    assert facts.warnings[0].startswith(f"Only {judgement.FEWEST_SEARCHED} of {every} {judgement.SEARCHED_LESS}")
+    with limited(300):
+        patient = judgement.proven(machine)
+    assert not patient.warnings and patient.searched is not None and len(patient.searched.outcomes) >= every
 
 
 @pytest.mark.hard
