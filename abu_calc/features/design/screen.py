@@ -20,7 +20,7 @@ from abu_calc.features.design.tables import (
     title_with_speed,
     unusual_values,
 )
-from abu_calc.features.design.verdict import IN_VAIN, STARTS_UNIT, Verdict, faults, keeps_limit
+from abu_calc.features.design.verdict import IN_VAIN, STARTS_UNIT, Verdict, faults, in_capitals, keeps_limit
 from abu_calc.foundation.checks import RANK, Check, Grade, worst
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
@@ -81,18 +81,9 @@ def first_lines(result: SizeResult) -> tuple[Block, ...]:
     )  # fmt: skip
 
 
-def verdict_words(verdict: Verdict) -> str:
-    """The verdict as its sentence begins, in capitals: no verdict is told by its colour alone.
-
-    >>> verdict_words(Verdict(word="does-not-suit", sentence="Does not suit: …", next=None, promise=None))
-    'DOES NOT SUIT'
-    """
-    return verdict.word.replace("-but", ", but").replace("-", " ").upper()
-
-
 def verdict_paragraph(verdict: Verdict, checks: Sequence[Check]) -> Paragraph:
     """The sentence, its first words in capitals."""
-    words = verdict_words(verdict)
+    words = in_capitals(verdict.word)
     return Paragraph(f"{words}{verdict.sentence[len(words) :]}", worst(checks))
 
 
@@ -371,4 +362,4 @@ def last_lines(result: Result, verdict: Verdict, notes: int = 0) -> list[Block]:
     """The verdict once more, and where the rest stands."""
     more = f", {many(notes, 'note')}" if notes else ""
     commands = f"--full: all numbers{more}   -o report.html   -o section.svg"
-    return [Paragraph(f"{verdict_words(verdict)}   {commands}", worst(result.checks))]
+    return [Paragraph(f"{in_capitals(verdict.word)}   {commands}", worst(result.checks))]

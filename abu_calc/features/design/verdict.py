@@ -83,6 +83,15 @@ class Verdict(Record):
         return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise, leave_out=useless)
 
 
+def in_capitals(word: str) -> str:
+    """The word of a verdict as its sentence begins: no verdict is told by its colour alone.
+
+    >>> in_capitals("does-not-suit"), in_capitals("suits-but")
+    ('DOES NOT SUIT', 'SUITS, BUT')
+    """
+    return word.replace("-but", ", but").replace("-", " ").upper()
+
+
 def faults(checks: Sequence[Check], grade: Grade) -> list[Check]:
     """The checks of a grade, without those that follow from another one as bad."""
     bad = [check for check in checks if check.requested and check.status != "pass"]

@@ -9,8 +9,8 @@ from abu_calc.features.identification.results import IdentifiedValue, IdentifyRe
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.parts import check_blocks, facts, notices, provenance_blocks
-from abu_calc.reporting.screen import one_screen, verdict_line
+from abu_calc.reporting.parts import check_blocks, facts, next_command, notices, provenance_blocks
+from abu_calc.reporting.screen import one_screen, shortened, verdict_line
 
 NAMES: Final = {
     "rolling_drag_per_s": ("viscous drag rate", "1/s"),
@@ -88,7 +88,7 @@ PLACES: Final = (
     "Fix a velocity or acceleration sensor across the spindle, near the race.",
     "Put a mark on the heavy spot of the rotor, and a pick-up where the sensor points.",
     "Record each start from the switching-on until the balls rest, in a CSV with t_s, vx_mm_per_s and mark.",
-    "Record one more start with the balls taken out, for --without.",
+    "Record one more start with the balls taken out: no-balls.csv.",
     "If the sensor sits away from the race, repeat that run with the trial mass: the change calibrates lengths.",
 )
 """What to do at the rig."""
@@ -102,10 +102,22 @@ def plan_blocks(result: MeasurePlanResult) -> tuple[Block, ...]:
         Heading("Expected values", "expected"),
         _values(result.expected, "expected"),
         Heading("At the rig", "rig"),
-        *(Paragraph(text) for text in PLACES),
+        *(Paragraph(f"{k}. {text}", hang=3) for k, text in enumerate(PLACES, 1)),
+        Paragraph(f"{len(PLACES) + 1}. Then:", hang=3),
+        Paragraph(next_command("abu identify", result.provenance, (), *_options(result)), whole=True),
         *notices(result),
         *provenance_blocks(result.provenance),
     )
+
+
+def _options(result: MeasurePlanResult) -> tuple[str, ...]:
+    run_up = () if result.run_up_s is None else (f"--run-up {result.run_up_s:g}",)
+    return ("start*.csv", "--without no-balls.csv", *run_up)
+
+
+def plan_screen(result: MeasurePlanResult) -> tuple[Block, ...]:
+    """One screen of it."""
+    return shortened(result, plan_blocks(result))
 
 
 def identify_extras(result: IdentifyResult) -> Extras:
