@@ -95,7 +95,7 @@ def without_entries(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     return lines
 
 
-_NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
+NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
 
 
 class SaidSentences:
@@ -109,7 +109,7 @@ class SaidSentences:
         if not entries:
             return action
         said = self._said.setdefault(entries, [])
-        new = [sentence for sentence in _NEXT_SENTENCE.split(action) if sentence not in said]
+        new = [sentence for sentence in NEXT_SENTENCE.split(action) if sentence not in said]
         said += new
         return " ".join(new)
 

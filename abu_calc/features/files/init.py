@@ -27,7 +27,12 @@ def init(
     room: Annotated[str | None, option("--room ØxWIDTH", "Room for the autobalancer, mm.", MACHINE)] = None,
     level: Annotated[str | None, option("--level DB", "Idle level measured without it.", MACHINE)] = None,
     handle: Annotated[
-        list[str] | None, option("--handle NAME=x,y,z", "Handle, mm from the centre of mass: x to the spindle, y across, z to the wheel; repeatable.", MACHINE)
+        list[str] | None,
+        option(
+            "--handle NAME=x,y,z",
+            "Handle, mm from the centre of mass: x to the spindle, y across, z to the wheel; repeatable.",
+            MACHINE,
+        ),
     ] = None,
     all_keys: Annotated[bool, option("--all-keys", "Write every key with a comment instead.")] = False,
     preset: Annotated[str | None, option("--preset NAME", "Copy this preset.")] = None,

@@ -9,7 +9,15 @@ from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
 from abu_calc.foundation.checks import Status
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
-from abu_calc.reporting.parts import check_blocks, facts, measured_after_blocks, notices, provenance_blocks, value_of
+from abu_calc.reporting.parts import (
+    NEXT_SENTENCE,
+    check_blocks,
+    facts,
+    measured_after_blocks,
+    notices,
+    provenance_blocks,
+    value_of,
+)
 from abu_calc.reporting.screen import shortened, verdict_line
 
 RIGHT: Final = frozenset({1, 2, 3, 4, 5})
@@ -254,11 +262,15 @@ LEFT_OUT = (
     *("wear-without", "wear-with"),
 )
 """Ids of the sections that are left to the whole report."""
+MOST_SENTENCES: Final = 3
+"""Sentences of the verdict on one screen; the checks tell the first change."""
 
 
 def grinding_screen(result: GrindingResult) -> tuple[Block, ...]:
     """Verdict, numbers that matter, balls, contact, wear, friction; curves are left to the whole report."""
-    return shortened(result, grinding_blocks(result), *LEFT_OUT, head=3)
+    title, grades, _, *others = grinding_blocks(result)
+    told = Paragraph(" ".join(NEXT_SENTENCE.split(result.verdict)[:MOST_SENTENCES]), _mark(result))
+    return shortened(result, (title, grades, told, *others), *LEFT_OUT, head=3)
 
 
 def start_blocks(starts: LoadedStarts | None) -> list[Block]:

@@ -49,7 +49,7 @@ def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
 
 def _first_lines(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     many_starts = result.ensemble
-    covered = "over all phases of the imbalances; usual oil, friction, speed"
+    covered = "over all imbalance phases; usual oil, friction, speed"
     runs = [] if many_starts is None else labelled("Runs", [f"{many(many_starts.runs, 'start case')} {covered}"])
     return (
         Heading(result.title), verdict_paragraph(result.verdict, result.checks), BLANK, *_make(result), BLANK,
@@ -91,16 +91,18 @@ def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
 
 def _make(result: TwoRaceSizeResult) -> list[Block]:
     rows = (
-        ("Place along the axis, mm", lambda race: number(race.plane_mm, 4)),
         ("Balls", lambda race: f"{race.ball_count} × Ø{round(race.ball_diameter_mm, 3):g} mm"),
         ("Race R, groove R, mm", _radii),
         ("Housing", lambda race: f"Ø{number(race.outer_diameter_mm, 4)} × {number(race.width_mm, 3)} mm"),
-        ("Capacity, g·mm", lambda race: number(race.capacity_g_mm, 4)),
-        ("  required, worst phase", lambda race: number(race.resultant_worst_g_mm, 4)),
+        (
+            "Carries, must carry, g·mm",
+            lambda race: f"{number(race.capacity_g_mm, 4)}, {number(race.resultant_worst_g_mm, 4)}",
+        ),
         ("Mass with balls, g", lambda race: number(race.mass_g, 4)),
     )
     cells = tuple((label, *(show(race) for race in result.autobalancers)) for label, show in rows)
-    return [Grid(("Make" if result.status == "pass" else "Best", "race 1", "race 2"), cells, frozenset({1, 2}))]
+    places = (f"race {k}, at {number(race.plane_mm, 4)} mm" for k, race in enumerate(result.autobalancers, 1))
+    return [Grid(("Make" if result.status == "pass" else "Best", *places), cells, frozenset({1, 2}))]
 
 
 def _radii(race: TwoRaceAutobalancer) -> str:
