@@ -99,7 +99,9 @@ NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
 
 
 class SaidSentences:
-    """Sentences of the actions that stand on a screen, by their entries: another action with them repeats none."""
+    """Sentences of the actions that stand on a screen, by their entries: another action with them repeats none, and not
+    the change.
+    """
 
     def __init__(self) -> None:
         self._said = dict[tuple[str, ...], list[str]]()
@@ -110,8 +112,9 @@ class SaidSentences:
             return action
         said = self._said.setdefault(entries, [])
         new = [sentence for sentence in NEXT_SENTENCE.split(action) if sentence not in said]
+        change = f"{said[0].partition(': ')[0]}: " if said else None
         said += new
-        return " ".join(new)
+        return " ".join(new) if change is None else " ".join(new).replace(change, "The same change: ", 1)
 
 
 PASTED: Final = 74
@@ -213,6 +216,12 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
         values = [f"{entry}: {key} = {written(value)}" for key, entry, value in provenance.converted]
         blocks += [Paragraph("Values written with a unit:"), *(Paragraph(value, indent=4) for value in values)]
     return blocks
+
+
+def contents(blocks: Iterable[Block]) -> list[Block]:
+    """Headings of a whole report, at its head."""
+    named = " · ".join(block.text for block in blocks if isinstance(block, Heading))
+    return [Heading("Contents", "contents"), Paragraph(named)]
 
 
 def options_of(provenance: Provenance) -> str:

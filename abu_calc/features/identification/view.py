@@ -28,8 +28,7 @@ def identify_blocks(result: IdentifyResult) -> tuple[Block, ...]:
         Heading("Starts", "starts"),
         _starts(result),
         *check_blocks(result.checks),
-        Heading("Assumptions", "assumptions"),
-        *(Paragraph(text) for text in result.assumed),
+        *_assumptions(result),
         *notices(result),
         *provenance_blocks(result.provenance),
     )
@@ -38,7 +37,7 @@ def identify_blocks(result: IdentifyResult) -> tuple[Block, ...]:
 def identify_screen(result: IdentifyResult) -> tuple[Block, ...]:
     """The values, the block to paste, and what they rest on."""
     answer = _answer(result)
-    return one_screen(result, answer[:2], [*answer[2:], *_block(result), *(Paragraph(text) for text in result.assumed)])
+    return one_screen(result, answer[:2], [*answer[2:], *_block(result), *_assumptions(result)])
 
 
 def _answer(result: IdentifyResult) -> list[Block]:
@@ -73,6 +72,10 @@ def _block(result: IdentifyResult) -> list[Block]:
     if result.toml is None:
         return []
     return [Heading("Lines for the machine file", "lines"), *(Paragraph(line) for line in result.toml.splitlines())]
+
+
+def _assumptions(result: IdentifyResult) -> list[Block]:
+    return [Heading("Assumptions", "assumptions"), *map(Paragraph, result.assumed)]
 
 
 def _starts(result: IdentifyResult) -> Grid:

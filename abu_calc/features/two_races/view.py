@@ -17,6 +17,7 @@ from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.parts import (
     check_blocks,
+    contents,
     default_blocks,
     facts,
     limit_in_file,
@@ -74,8 +75,13 @@ def _table(result: TwoRaceSizeResult) -> Grid:
 
 def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     """The whole report."""
+    details = _details(result)
+    return *_first_lines(result), *contents(details), *details
+
+
+def _details(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+    """From the decision to the reasons."""
     return (
-        *_first_lines(result),
         Heading("Vibration and quiet time", "vibration"),
         *_numbers(result),
         *(block for index in range(len(result.autobalancers)) for block in _race(result, index)),

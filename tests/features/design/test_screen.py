@@ -98,7 +98,7 @@ def test_rows_of_the_screen_are_numbers_of_the_result(sized: SizeResult) -> None
     loudest = max(many.level_db.worst or 0.0, further.level_db)
     assert row_of(text, f"loudest of {many.runs} start cases").split() == [f"{loudest:.1f}", "109", "pass"]
     quiet = max(many.quiet_time_s.worst or 0.0, further.quiet_time_s or 0.0)
-    assert row_of(text, "Quiet after, s: slowest start").split() == [f"{quiet:.2f}", "1.00", "pass"]
+    assert row_of(text, "Quiet after, s: slowest start").split() == [f"{quiet:.2f}", "1.00", "pass,", "tightest"]
     assert f"{sized.autobalancer.mass_g:.0f} g," in flat(text) and "Assumed Point mass. Measure" in flat(text)
 
 
