@@ -95,7 +95,7 @@ def without_entries(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     return lines
 
 
-NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
+_NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
 
 
 class SaidSentences:
@@ -111,31 +111,16 @@ class SaidSentences:
         if not entries:
             return action
         said = self._said.setdefault(entries, [])
-        new = [sentence for sentence in NEXT_SENTENCE.split(action) if sentence not in said]
+        new = [sentence for sentence in _NEXT_SENTENCE.split(action) if sentence not in said]
         change = f"{said[0].partition(': ')[0]}: " if said else None
         said += new
         return " ".join(new) if change is None else " ".join(new).replace(change, "The same change: ", 1)
 
 
-PASTED: Final = 74
-"""Most letters of a line of options."""
-
-
 def paste_lines(overrides: Sequence[str]) -> list[Paragraph]:
-    """Entries as options of a command line that can be pasted: every line but the last goes on in the next.
-
-    Each option stands in the first line that has room for it, so that the lines are few.
-    """
-    lines = list[str]()
-    for entry in overrides:
-        option = f"--set {shell_word(entry)}"
-        for k, line in enumerate(lines):
-            if len(line) + len(option) < PASTED:
-                lines[k] += f" {option}"
-                break
-        else:
-            lines.append(option)
-    return [Paragraph(line if line is lines[-1] else f"{line} \\", indent=4) for line in lines]
+    """Entries as options of a command line, on one line that every shell takes, however long it is."""
+    options = " ".join(f"--set {shell_word(entry)}" for entry in overrides)
+    return [Paragraph(options, indent=4, whole=True)] if options else []
 
 
 def unlike(checks: Iterable[Check]) -> list[list[Check]]:

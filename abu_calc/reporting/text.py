@@ -23,7 +23,7 @@ STYLES = {
     "not-done": "bold magenta",
     "warning": "yellow",
 }
-WORDS = {"WARN": "warn", "FAIL": "fail", "NOT EVALUATED": "not-done"}
+WORDS = {"WARN": "warn", "FAIL": "fail", "NOT EVALUATED": "not-done", "LOUDER THAN WITHOUT": "warn"}
 """Cells of tables that are styled as these marks are."""
 WIDEST = 100
 MARGIN = 2

@@ -11,12 +11,12 @@ from abu_calc.features.design.judgement import SEARCHED_LESS
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.tables import (
     INERTIA,
-    LOUDER,
     SLIP,
     TENTH,
     highest_first,
     inch,
     level_in_digits,
+    louder,
     other_notes,
     title_with_speed,
     unusual_values,
@@ -196,7 +196,7 @@ def _idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
     if many_starts is not None and loudest is not None and (expected is None or loudest > expected + TENTH):
         *cells, grade = level_row(f"  loudest of {many(many_starts.runs, 'start case')}", None, loudest, check)
         label, without, after, limit = cells
-        yield label, without, after, limit, _louder(loudest, before) or grade
+        yield label, without, after, limit, louder(loudest, before) or grade
 
 
 def level_row(label: str, before: float | None, after: float | None, check: Check | None) -> Row:
@@ -246,13 +246,9 @@ def _grinding(result: SizeResult) -> Iterator[Row]:
     before, after, early = loaded.level_before_db, loaded.level_after_db, loaded.level_at_once_db
     without = "not known" if before is None else level_in_digits(before)
     settled = "not known" if after is None else level_in_digits(after)
-    yield "Grinding, pressed when quiet", without, settled, "", _louder(after, before)
+    yield "Grinding, pressed when quiet", without, settled, "", louder(after, before)
     if after is not None and early is not None and early > after + TENTH:
-        yield "  pressed earlier (not judged)", "", level_in_digits(early), "", _louder(early, before)
-
-
-def _louder(level: float | None, before: float | None) -> str:
-    return LOUDER if level is not None and before is not None and level > before else ""
+        yield "  pressed earlier (not judged)", "", level_in_digits(early), "", louder(early, before)
 
 
 def time_rows(

@@ -115,7 +115,7 @@ def _following(checks: Sequence[Check], grade: Grade) -> list[str]:
     if not names:
         return []
     told = " and ".join(names) if len(names) <= MOST_REASONS else many(len(names), "check")
-    return [f"With that {told} fail{'s' * (len(names) == 1)}."]
+    return [f"With that, {told} fail{'s' * (len(names) == 1)}."]
 
 
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:

@@ -1,5 +1,6 @@
 """The report of `abu grinding`, on one screen and whole: verdict, levels, balls, contact, start cases, wear."""
 
+import re
 from typing import Final
 
 from abu_calc.features.grinding.outcomes import LoadedOutcomeGroup, LoadedStarts
@@ -9,15 +10,7 @@ from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
 from abu_calc.foundation.checks import Status
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
-from abu_calc.reporting.parts import (
-    NEXT_SENTENCE,
-    check_blocks,
-    facts,
-    measured_after_blocks,
-    notices,
-    provenance_blocks,
-    value_of,
-)
+from abu_calc.reporting.parts import check_blocks, facts, measured_after_blocks, notices, provenance_blocks, value_of
 from abu_calc.reporting.screen import shortened, verdict_line
 
 RIGHT: Final = frozenset({1, 2, 3, 4, 5})
@@ -269,7 +262,7 @@ MOST_SENTENCES: Final = 3
 def grinding_screen(result: GrindingResult) -> tuple[Block, ...]:
     """Verdict, numbers that matter, balls, contact, wear, friction; curves are left to the whole report."""
     title, grades, _, *others = grinding_blocks(result)
-    told = Paragraph(" ".join(NEXT_SENTENCE.split(result.verdict)[:MOST_SENTENCES]), _mark(result))
+    told = Paragraph(" ".join(re.split(r"(?<=\.) (?=[A-Z])", result.verdict)[:MOST_SENTENCES]), _mark(result))
     return shortened(result, (title, grades, told, *others), *LEFT_OUT, head=3)
 
 

@@ -99,6 +99,8 @@ PLACES: Final = (
 
 def plan_blocks(result: MeasurePlanResult) -> tuple[Block, ...]:
     """What to record, and what it will tell."""
+    run_up = () if result.run_up_s is None else (f"--run-up {result.run_up_s:g}",)
+    options = "start*.csv", "--without no-balls.csv", *run_up
     return (
         Heading(f"{result.title}: recordings for abu identify"),
         facts(result, "runs", "rate_hz", "length_s", "noise_um", "largest_velocity_mm_per_s", "trial_mass_g_mm"),
@@ -107,15 +109,10 @@ def plan_blocks(result: MeasurePlanResult) -> tuple[Block, ...]:
         Heading("At the rig", "rig"),
         *(Paragraph(f"{k}. {text}", hang=3) for k, text in enumerate(PLACES, 1)),
         Paragraph(f"{len(PLACES) + 1}. Then:", hang=3),
-        Paragraph(next_command("abu identify", result.provenance, (), *_options(result)), whole=True),
+        Paragraph(next_command("abu identify", result.provenance, (), *options), whole=True),
         *notices(result),
         *provenance_blocks(result.provenance),
     )
-
-
-def _options(result: MeasurePlanResult) -> tuple[str, ...]:
-    run_up = () if result.run_up_s is None else (f"--run-up {result.run_up_s:g}",)
-    return ("start*.csv", "--without no-balls.csv", *run_up)
 
 
 def plan_screen(result: MeasurePlanResult) -> tuple[Block, ...]:

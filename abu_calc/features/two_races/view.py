@@ -1,5 +1,7 @@
 """The screen and the whole report of `abu size` for a machine with two races."""
 
+from typing import Final
+
 from abu_calc.features.design.screen import (
     Row,
     labelled,
@@ -20,11 +22,14 @@ from abu_calc.reporting.parts import (
     contents,
     default_blocks,
     facts,
-    limit_in_file,
     provenance_blocks,
     warning_blocks,
 )
 from abu_calc.reporting.screen import BLANK, many
+
+MEANT: Final = (
+    "Levels above: without autobalancers at the worst phase; with them median and loudest start case, any oil."
+)
 
 
 def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
@@ -117,24 +122,12 @@ def _radii(race: TwoRaceAutobalancer) -> str:
 
 
 def _numbers(result: TwoRaceSizeResult) -> list[Block]:
-    vibration, ensemble = result.vibration, result.ensemble
-    cells = tuple(
-        (
-            place.name, number(place.level_before_db, 4), _or_dash(place.level_after_db),
-            _or_dash(place.level_after_worst_db),
-        )
-        for place in vibration.handles
-    )  # fmt: skip
-    heading = "Vibration, dB re 5e-8 m/s", "without", "median", "loudest"
-    blocks: list[Block] = [Paragraph(""), Grid(heading, cells, frozenset({1, 2, 3}))]
-    limit = limit_in_file(next((check for check in result.checks if check.code == "ABU401"), None))
-    meant = "Without autobalancers: worst phase. With them: median and loudest start case, any oil."
-    blocks.append(Paragraph(f"{meant} Limit: {limit}." if limit else meant))
+    ensemble = result.ensemble
+    blocks: list[Block] = [Paragraph(MEANT)]
     if ensemble is not None:
         spread = ensemble.quiet_time_s
         unanswered = f"; {ensemble.lost} more gave no answer" if ensemble.lost else ""
         blocks += [
-            Paragraph(""),
             Paragraph(
                 f"{ensemble.balanced} of {ensemble.members - ensemble.lost} start cases balance, over all phases of "
                 f"the imbalances, in hot and cold oil{unanswered}. Quiet time: median "

@@ -48,8 +48,8 @@ def test_the_worst_grade_decides(grades: tuple[Grade, ...], word: str, sentence:
 @pytest.mark.parametrize(
     ("late", "words"),
     [
-        (["ABU702"], "at most 109.0). With that name ABU702 fails."),
-        (["ABU402", "ABU702"], "at most 96.7). With that name ABU402 and name ABU702 fail."),
+        (["ABU702"], "at most 109.0). With that, name ABU702 fails."),
+        (["ABU402", "ABU702"], "at most 96.7). With that, name ABU402 and name ABU702 fail."),
     ],
 )
 def test_checks_that_fail_with_another_are_named(late: list[str], words: str) -> None:
