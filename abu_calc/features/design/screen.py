@@ -361,8 +361,9 @@ def _moves(gap: DataGap, limit: float = math.inf) -> str:
     given = ", ".join(f"{text} at {value:g}" for text, value in zip(ends, gap.usual_range, strict=False))
     given = given.replace(", beyond these runs, quiet after", ",")
     beyond = f", limit {limit:g} dB" if max(gap.level_db) > limit else ""
-    named = "Drag rate" if gap.key == DRAG else f"{gap.key.rpartition('.')[2]} ="
-    return f"{named} {gap.value:g}; {given or 'no time was simulated'}{beyond}."
+    key = gap.key.rpartition(".")[2]
+    named = f"Drag rate {gap.value:g} 1/s" if gap.key == DRAG else f"{key} = {gap.value:g}"
+    return f"{named}; {given or 'no time was simulated'}{beyond}."
 
 
 def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str] = ()) -> list[Block]:

@@ -39,10 +39,11 @@ ON_A_GRID = (
 def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
     """The whole report."""
     word, check = {True: "STABLE", False: "NOT STABLE", None: "NOT EVALUATED"}[result.stable], result.checks[0]
+    mark = "warn" if _elsewhere(result) and check.status == "pass" else check.status
     rest = ("resting_angles_deg",) if result.resting_angles_deg else ()
     return (
         Heading(f"{result.title}: stability of the balanced state"),
-        Paragraph(f"{word} at {value_of(result, 'speed_rpm')}{_elsewhere(result)}: {check.message}.", check.status),
+        Paragraph(f"{word} at {value_of(result, 'speed_rpm')}{_elsewhere(result)}: {check.message}.", mark),
         *([Paragraph(result.consequence.text)] if result.consequence else []),
         *arm_line(result.arm_advice),
         facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
