@@ -55,7 +55,7 @@ def bearings(seed: int) -> str:
     for number in range(2):
         table: dict[str, Any] = {"name": f"bearing {number}", "designation": rng.choice(DESIGNATIONS)}
         choices: dict[str, Any] = {
-            "radial_load_kN": rng.uniform(0.05, 8), "axial_load_kN": rng.uniform(0, 1), "speed_rpm": rng.uniform(9, 9e3),
+            "radial_load_kN": rng.uniform(0.05, 8), "axial_load_kN": rng.random(), "speed_rpm": rng.uniform(9, 9e3),
             "shaft_fit": rng.choice(["g6", "h6", "js5", "k5", "k6", "m6", "p6"]), "housing_rz_um": rng.uniform(1, 9),
             "housing_fit": rng.choice(["G7", "H7", "J7", "K7", "M7", "N7"]), "shaft_rz_um": rng.uniform(1, 6),
             "shaft_limits_um": [-4.0, 9.0], "asked_interference_um": [2.0, rng.uniform(12, 60)],
