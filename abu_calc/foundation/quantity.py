@@ -4,8 +4,12 @@
     class Autobalancer(Record):
         ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
 
-The unit stands in the name of a field; label, symbol, digits and meaning beside its type. Text, JSON, CSV and the JSON
-Schema of results are made of that.
+Label, symbol, digits and meaning stand beside the type. A field with a unit beside its type is in SI:
+
+    race_radius: Annotated[float, Quantity("race radius", "R", unit="mm")]
+
+Its entry `race_radius_mm` in results and in Python is made when somebody asks for it; so is all that a record is
+written as: text, JSON, CSV and the JSON Schema of results. A field without one is as its name says.
 """
 
 import datetime
@@ -35,6 +39,8 @@ class Quantity(NamedTuple):
     meaning: str = ""
     percent: bool = False
     """Shown in hundredths."""
+    unit: str = ""
+    """Of its entry, as keys carry it; the field is in SI and its name without one."""
 
 
 LEVEL_AFTER: Final = Quantity(
@@ -58,8 +64,8 @@ def record(kind: type[T]) -> type[T]:
     made = dataclass(init=False, eq=False, repr=False, match_args=False)(kind)
     made.__doc__ = _FieldsInDocstring(kind.__dict__.get("__doc__"))  # type: ignore[assignment]
     for name in kind.__annotations__:
-        if name.endswith("_"):  # a field whose entry is a word of Python, such as with_
-            setattr(made, _entry(name), property(attrgetter(name)))
+        if name.endswith("_") and name not in _units(made):  # type: ignore[arg-type]  # a word of Python, such as with_
+            setattr(made, name.removesuffix("_"), property(attrgetter(name)))
     return made
 
 
@@ -74,9 +80,23 @@ class _FieldsInDocstring:
         return f"{cleandoc(self.text)}\n\nFields:\n{listed}" if listed else self.text
 
 
-def _entry(name: str) -> str:
-    """Name of a field's entry in the result: a field ends with _ if the name is a word of Python."""
-    return name.removesuffix("_")
+def _entry(kind: "type[Record]", field: str) -> str:
+    """Name of a field's entry in the result: with its unit; a field ends with _ if the name is a word of Python."""
+    name, unit = field.removesuffix("_"), _units(kind).get(field, "")
+    return f"{name}_{unit}" if unit else name
+
+
+def _units(kind: "type[Record]") -> Mapping[str, str]:
+    """Units of the fields that are in SI."""
+    if kind not in _UNITS:
+        written = any(isinstance(field.type, str) for field in _fields(kind))
+        types = get_type_hints(kind, include_extras=True) if written else {}
+        beside = (
+            (field.name, getattr(types.get(field.name, field.type), "__metadata__", ())) for field in _fields(kind)
+        )
+        pairs = ((name, note.unit) for name, notes in beside for note in notes if isinstance(note, Quantity))
+        _UNITS[kind] = {name: unit for name, unit in pairs if unit}
+    return _UNITS[kind]
 
 
 @record
@@ -104,6 +124,21 @@ class Record:
         for name, value in values.items():
             if type(value) is tuple and value:
                 self.__dict__[name] = as_rows(value)
+
+    def __getattr__(self, name: str) -> Any:
+        """The entry of a field that is in SI, in its unit."""
+        kind = type(self)
+        if kind not in _CONVERSIONS:
+            _CONVERSIONS[kind] = {
+                _entry(kind, field.name): (field.name, _conversion(kind, field, unit))
+                for field in _fields(kind)
+                if (unit := _units(kind).get(field.name))
+            }
+        if name not in _CONVERSIONS[kind]:
+            raise AttributeError(f"{kind.__name__} has no {name!r}", name=name, obj=self)
+        field, convert = _CONVERSIONS[kind][name]
+        value = getattr(self, field)
+        return value if convert is None else convert(value)
 
     def __setattr__(self, name: str, value: object) -> Never:
         raise FrozenInstanceError(f"cannot assign to field {name!r}")
@@ -160,7 +195,7 @@ class Record:
     @classmethod
     def entries(cls) -> tuple[str, ...]:
         """Names of the fields that are entries of the result, in order."""
-        return tuple(_entry(field.name) for field in _fields(cls) if field.name not in cls.left_out)
+        return tuple(_entry(cls, field.name) for field in _fields(cls) if field.name not in cls.left_out)
 
     def to_dict(self) -> dict[str, Any]:
         """The entries as JSON has them."""
@@ -224,6 +259,8 @@ def _conversion(kind: type[Record], field: "Field[Any]", unit: str) -> Callable[
     def converted(value: Any) -> object:
         if isinstance(value, (tuple, Rows)) and not (inner and hasattr(value, "_fields")):
             return tuple(map(converted, value))
+        if isinstance(value, Mapping) and factor != 1:
+            return {key: converted(each) for key, each in value.items()}
         if inner is not None:
             known = value is None or isinstance(value, Record)
             return value if known else getattr(inner, "of", inner.read)(value)
@@ -300,7 +337,11 @@ def field_lines(kind: type[Record]) -> Iterator[str]:
 def hints(kind: type[Record]) -> Mapping[str, Any]:
     """The type of each field, with its quantity."""
     own = get_type_hints(kind, include_extras=True)
-    return own | {_entry(name): hint for name, hint in own.items()}
+    entries = {field.name: _entry(kind, field.name) for field in _fields(kind)}
+    in_si = _units(kind)
+    return {name: hint for name, hint in own.items() if name not in in_si} | {
+        entry: own[name] for name, entry in entries.items()
+    }
 
 
 def quantities(kind: type[Record]) -> Mapping[str, Quantity]:
@@ -315,6 +356,8 @@ def quantities(kind: type[Record]) -> Mapping[str, Quantity]:
 
 
 _QUANTITIES: Final[dict[type[Record], Mapping[str, Quantity]]] = {}
+_UNITS: Final[dict[type[Record], Mapping[str, str]]] = {}
+_CONVERSIONS: Final[dict[type[Record], Mapping[str, tuple[str, Callable[[Any], object] | None]]]] = {}
 _FIELDS: "Final[dict[type[Record], tuple[Field[Any], ...]]]" = {}
 """Read from the types once."""
 _READERS: Final[dict[tuple[object, ...], tuple[_Reader, ...]]] = {}

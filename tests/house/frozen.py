@@ -4,11 +4,13 @@
     python -m tests.house.frozen compare FOLDER [machines]    what differs now: numbers by more than 1e-9, any text
 
 Computing times are left out. Each command line is a process of its own, two at a time. A folder that was written
-remembers its machines; a command line that is in it already is not written again.
+remembers its machines; a command line that is in it already is not written again. A copy of it needs a name as long,
+since texts are wrapped.
 """
 
 import json
 import math
+import random
 import re
 import subprocess
 import sys
@@ -17,6 +19,8 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Final
+
+import tomli_w
 
 from tests.studies.random_machines import family_of, machine_text
 
@@ -28,6 +32,7 @@ TIMES: Final = re.compile(r"(evaluations), [\d.]+ s")
 TIMED: Final = frozenset({"wall_s"})
 """Computing times, in texts and in JSON."""
 WRITTEN: Final = ("json", "txt", "html")
+DESIGNATIONS: Final = ("608", "6203", "6205-2RS", "6208", "7205", "NU208", "30205", "22210", "HK2020", "51108", "7516")
 
 
 def commands(file: Path) -> Iterator[tuple[str, ...]]:
@@ -43,19 +48,48 @@ def commands(file: Path) -> Iterator[tuple[str, ...]]:
         yield ("check-fit",)
 
 
+def bearings(seed: int) -> str:
+    """A file with two bearings, everything about their seats random."""
+    rng = random.Random(seed)
+    tables = list[dict[str, Any]]()
+    for number in range(2):
+        table: dict[str, Any] = {"name": f"bearing {number}", "designation": rng.choice(DESIGNATIONS)}
+        choices: dict[str, Any] = {
+            "radial_load_kN": rng.uniform(0.05, 8), "axial_load_kN": rng.random(), "speed_rpm": rng.uniform(9, 9e3),
+            "shaft_fit": rng.choice(["g6", "h6", "js5", "k5", "k6", "m6", "p6"]), "housing_rz_um": rng.uniform(1, 9),
+            "housing_fit": rng.choice(["G7", "H7", "J7", "K7", "M7", "N7"]), "shaft_rz_um": rng.uniform(1, 6),
+            "shaft_limits_um": [-4.0, 9.0], "asked_interference_um": [2.0, rng.uniform(12, 60)],
+            "ring_temperature_difference_K": rng.uniform(-5, 15), "temperature_range_K": [-40.0, rng.uniform(10, 80)],
+            "housing_material": rng.choice(["aluminium", "magnesium", "cast-iron"]), "internal_clearance": "C3",
+            "inner_ring_load": rng.choice(["stationary", "indeterminate"]), "housing_outer_mm": rng.uniform(150, 300),
+            "starting_torque_N_m": rng.uniform(0.5, 40), "lubricant_viscosity_mm2_per_s": rng.uniform(5, 90),
+        }  # fmt: skip
+        table |= {key: value for key, value in choices.items() if rng.random() < 0.4}
+        tables.append(table)
+    return tomli_w.dumps({"machine": {"name": f"bearings {seed}"}, "bearing": tables})
+
+
 def lines(folder: Path, machines: int) -> dict[str, tuple[str, ...]]:
-    """Command lines by the names of their results. Random machines are written into the folder and sized alone."""
+    """Command lines by the names of their results. Random files are written into the folder: machines are sized alone,
+    bearings judged.
+    """
     files = {
         f"{path.parent.name}-{path.stem}": path for place in FILES for path in sorted((ROOT / place).glob("*.toml"))
     }
     named = {
-        f"{name}-{command[0]}": (*command, str(path)) for name, path in files.items() for command in commands(path)
+        f"{name}-{command[0]}": (*command, path.relative_to(ROOT).as_posix())
+        for name, path in files.items()
+        for command in commands(path)
     }
     for seed in range(FIRST, FIRST + machines):
         path = folder / f"random-{seed}.toml"
         if not path.exists():
             path.write_text(machine_text(seed, family_of(seed)), encoding="utf-8")
         named[f"{path.stem}-size"] = ("size", str(path))
+        path = folder / f"bearings-{seed}.toml"
+        if not path.exists():
+            path.write_text(bearings(seed), encoding="utf-8")
+        named[f"{path.stem}-check-fit"] = ("check-fit", str(path), "--explain")
     return named
 
 
@@ -70,7 +104,9 @@ def outcome(name: str, line: tuple[str, ...], folder: Path) -> dict[str, Any]:
         if path.exists():
             texts[kind] = path.read_text(encoding="utf-8")
             path.unlink()
-    plain = {kind: TIMES.sub(r"\1", text.replace(f"{name}.new.", f"{name}.")) for kind, text in texts.items()}
+    for old, new in ((f"{name}.new.", f"{name}."), (str(ROOT), "ROOT"), (str(folder), "FOLDER")):
+        texts = {kind: text.replace(old, new) for kind, text in texts.items()}
+    plain = {kind: TIMES.sub(r"\1", text) for kind, text in texts.items()}
     result = json.loads(plain.pop("json", "null"))
     return {"status": done.returncode, "result": result, **{kind: text.splitlines() for kind, text in plain.items()}}
 

@@ -53,7 +53,7 @@ DYNAMICS = ("supports", "equations", "switching", "effects", "codegen", "integra
 """The packages inside `dynamics`, behind its own files."""
 
 
-def _layer(name: str) -> int:
+def layer(name: str) -> int:
     """The place of a file's layer, and of a feature behind all layers."""
     parts = name.split(".")
     if len(parts) > 2 and parts[1] == "features":
@@ -76,7 +76,7 @@ def test_every_folder_has_a_place() -> None:
 
 def test_a_file_imports_only_layers_and_features_before_its_own() -> None:
     assert len(files()) > 400
-    above = {name: {other for other in imports()[name] if _layer(other) > _layer(name)} for name in files()}
+    above = {name: {other for other in imports()[name] if layer(other) > layer(name)} for name in files()}
     assert {name: others for name, others in above.items() if others and name not in TOP} == {}
 
 

@@ -214,6 +214,7 @@ def _with_lives(
     if not seats:
         return ()
     from abu_calc.features.seats.life_in_use import UseLoads, lives_in_use
+    from abu_calc.features.seats.seats import with_life
 
     outcomes = () if ensemble is None else ensemble.given
     residuals = [outcome.residual for outcome in outcomes if outcome.balanced]
@@ -224,7 +225,7 @@ def _with_lives(
     residual = statistics.median(residuals) * design.autobalancer.requirement.effective_mass if residuals else None
     loads = UseLoads(design.imbalance.value * speed**2, None if residual is None else residual * speed**2, constant)
     lives = lives_in_use([bearing.bearing for bearing in seats], loads, speed)
-    return tuple(bearing._replace(life_in_use=life) for bearing, life in zip(seats, lives, strict=True))
+    return tuple(map(with_life, seats, lives))
 
 
 def _grinding(runs: Sequence[SceneRun], failures: Sequence[SceneFailure]) -> SceneRun | SceneFailure | None:

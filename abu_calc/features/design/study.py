@@ -32,7 +32,7 @@ from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
 from abu_calc.features.grinding.work import Work, loaded_levels
-from abu_calc.features.seats.records import SeatResult, seat_results
+from abu_calc.features.seats.seats import SeatResult
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check
@@ -315,7 +315,7 @@ def size(
         else EnsembleResult.of(facts.ensemble, design, predicted_level(design, facts.ensemble), facts.searched),
         data_gaps=gaps(),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger) for run in judged.runs),
-        fits=tuple(seat for bearing in judged.seats for seat in seat_results(bearing)),
+        fits=tuple(seat for bearing in judged.seats for seat in bearing.seats),
         swing_arm=None if judged.arm is None else SwingArmRecord.of(judged.arm, step.entries),
         arm_motion=judged.arm_motion,
         drawing=tuple(map(DrawingLine.read, design.drawing)),

@@ -6,15 +6,16 @@ The choice depends on the makers' catalogue, the interference, the stress and th
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache, lru_cache
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.clearance import PRELOADED, Mounting, fails, lighter_group
 from abu_calc.features.seats.creep import holds_at_start
-from abu_calc.features.seats.interference import of_all
+from abu_calc.features.seats.interference import Pair, SeatRecord, of_all
 from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
 from abu_calc.features.seats.joints import makers_classes
 from abu_calc.foundation.errors import RangeError
+from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.internal_clearance import groups_of, internal_clearance, usual_group
 from abu_calc.standards.tolerance_classes import MakerFits, Seat, tolerance_classes
@@ -26,11 +27,21 @@ Start = tuple[float, float | None]
 """Friction coefficient of the seat, starting torque [N·m] (None: not given)."""
 
 
-class Rejected(NamedTuple):
-    """A neighbour of the recommended tolerance class, and why it fails."""
+@record
+class RejectedFit(SeatRecord):
+    """A neighbour of the recommended tolerance class, which fails."""
 
-    fit: str
-    why: str
+    fit: Annotated[str, Quantity("tolerance class")]
+    why: Annotated[str, Quantity("why not")]
+
+
+@record
+class AdmissibleFit(SeatRecord):
+    """A tolerance class that neither creeps nor overstresses."""
+
+    fit: Annotated[str, Quantity("tolerance class")]
+    interference: Annotated[Pair, Quantity("interference", "", 4, "least and most; negative: clearance", unit="um")]
+    clearance_probability: Annotated[float, Quantity("probability of clearance", "", 3)]
 
 
 def advised(joint: Joint, start: Start, usual: MakerFits | None) -> Joint | None:
@@ -69,22 +80,25 @@ def rule_class(joint: Joint, start: Start) -> str | None:
     return loosest.tolerance_class if loosest else None
 
 
-def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, ...]:
-    """The joint with every tabulated class whose grip and stress do not fail: the best, then the nearest of its grade,
-    then those of others."""
+def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[AdmissibleFit, ...]:
+    """Every tabulated class whose grip and stress do not fail: the best, then the nearest of its grade, then others."""
     passing = [candidate for candidate in _by_mean(joint) if _will_do(candidate, start)]
-    if best is None:
-        return tuple(passing)
-    grade = _grade(best.tolerance_class)
 
     def order(candidate: Joint) -> tuple[bool, bool, float]:
-        name = candidate.tolerance_class
+        assert best is not None
+        name, grade = candidate.tolerance_class, _grade(best.tolerance_class)
         return name != best.tolerance_class, _grade(name) != grade, round(abs(candidate.mean - best.mean), 12)
 
-    return tuple(sorted(passing, key=order))
+    return tuple(
+        AdmissibleFit(
+            fit=candidate.tolerance_class, interference=candidate.interference,
+            clearance_probability=candidate.clearance_probability,
+        )
+        for candidate in (passing if best is None else sorted(passing, key=order))
+    )  # fmt: skip
 
 
-def neighbours(best: Joint, start: Start, too_tight: Callable[[Joint], str | None]) -> tuple[Rejected, ...]:
+def neighbours(best: Joint, start: Start, too_tight: Callable[[Joint], str | None]) -> tuple[RejectedFit, ...]:
     """The next looser and the next tighter class of the grade that fail; `too_tight` judges the bearing's clearance."""
     ladder = _like(best)
     looser = [joint for joint in reversed(ladder) if joint.mean < best.mean]
@@ -93,7 +107,7 @@ def neighbours(best: Joint, start: Start, too_tight: Callable[[Joint], str | Non
     for way in (looser, tighter):
         why = ((joint, _why_not(joint, start) or too_tight(joint)) for joint in way)
         # The first alone is asked for: what the others leave of the clearance is not integrated.
-        first = next((Rejected(joint.tolerance_class, reason) for joint, reason in why if reason), None)
+        first = next((RejectedFit(fit=joint.tolerance_class, why=reason) for joint, reason in why if reason), None)
         rejections += [first] if first else []
     return tuple(rejections)
 
@@ -191,7 +205,7 @@ class SeatAdvice(NamedTuple):
     """The joint with the recommended class (None: no tabulated one passes), and the next ones that fail."""
 
     best: Joint | None
-    rejected: tuple[Rejected, ...]
+    rejected: tuple[RejectedFit, ...]
 
 
 class JointAdvice(NamedTuple):

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.clearance import MOST
-from abu_calc.features.seats.creep import CreepJudgement
+from abu_calc.features.seats.creep import Creep
 from abu_calc.features.seats.equivalent_load import carries_by_flanges
 from abu_calc.features.seats.interference import of_all
 from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, LOOSE_ENOUGH, TEMPERATURE, Joint
@@ -18,7 +18,7 @@ from abu_calc.standards.internal_clearance import groups_of, preload_limits
 from abu_calc.standards.tolerance_classes import source_of
 
 if TYPE_CHECKING:
-    from abu_calc.features.seats.clearance import ClearanceLeft
+    from abu_calc.features.seats.clearance import Clearance
 
 _CODES: Final = {
     "shaft": ("ABU601", "ABU602", "ABU603", "ABU604", "ABU605"),
@@ -204,7 +204,7 @@ def _raceway(bearing: SeatedBearing, joint: Joint) -> Check:
 
 
 def start_checks(
-    bearing: str, joint: Joint, creep: CreepJudgement, torque: float | None, recommended: str | None
+    bearing: str, joint: Joint, creep: Creep, torque: float | None, recommended: str | None
 ) -> tuple[Check, ...]:
     """Check that the least interference carries the starting torque.
 
@@ -213,18 +213,18 @@ def start_checks(
     if torque is None or not joint.must_grip:
         return ()
     code = _CODES[joint.seat][2]
-    if creep.least_torque is None:
+    if creep.friction_moment is None:
         why = "no chamfer is given, so the length of the seat is not known"
         return (coded(code, "not-done", why, None, torque, "N·m", "Specify chamfer_mm.", "least", of=bearing),)
     passed = bool(creep.holds_at_start)
     return (coded(
         code, verdict(passed), f"slip torque of {joint.class_text} at its least "
-        "interference after losses, against the starting torque", creep.least_torque, torque, "N·m",
+        "interference after losses, against the starting torque", creep.friction_moment[0], torque, "N·m",
         None if passed else _no_class(joint, recommended), "least", of=bearing,
     ),)  # fmt: skip
 
 
-def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tuple[Check, ...]:
+def clearance_checks(bearing: SeatedBearing, left: "Clearance | None") -> tuple[Check, ...]:
     """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not.
 
     Of a preloaded pair the preload is checked.
@@ -246,7 +246,7 @@ def clearance_checks(bearing: SeatedBearing, left: "ClearanceLeft | None") -> tu
 NO_GROUP: Final = "No clearance group suits these tolerance classes. Specify a larger bearing or reduce the load."
 
 
-def _preload(bearing: SeatedBearing, left: "ClearanceLeft") -> Check:
+def _preload(bearing: SeatedBearing, left: "Clearance") -> Check:
     """The probable preload of a pair against that of the next heavier group, and twice that of the heaviest."""
     heavier, most = groups_of("angular-contact"), left.preload[1] if left.preload else None
     place, limits = heavier.index(left.group), preload_limits(left.group, bearing.inner.diameter)
@@ -377,7 +377,7 @@ def _expansion(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
 
 
 def _losses(joint: Joint) -> str:
-    parts = [(loss.name, loss.value) for loss in joint.losses if loss.name != TEMPERATURE]
+    parts = [(loss.name, loss.amount) for loss in joint.losses if loss.name != TEMPERATURE]
     warm = max(case.loss for case in joint.thermal_cases)
     named = [*parts, (TEMPERATURE, warm)] if warm > 0 else parts
     kept = f", over the {joint.pressure_kept:.0%} of the pressure that is kept" if joint.pressure_kept < _KEPT else ""

@@ -6,12 +6,13 @@ That of angular contact bearings is axial and belongs to a pair; all others have
 import math
 from collections.abc import Callable
 from functools import cached_property
-from typing import Final, NamedTuple
+from typing import Annotated, Final
 
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.interference import Interval
+from abu_calc.features.seats.interference import Interval, Pair, SeatRecord
 from abu_calc.features.seats.joint import Joint, inner_ring_diameter, outer_ring_diameter
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.internal_clearance import (
     CONTACT_ANGLE,
@@ -35,23 +36,24 @@ _Law = tuple[tuple[float, float], ...]
 """Losses of clearance by both seats [m], each with its share of bearings."""
 
 
-class ClearanceLeft(NamedTuple):
-    """Radial clearance [m] of a group before and after mounting: the extremes, the 0.135 % and 99.865 % ends and the
-    mean of all bearings, the share below zero, the part that temperature takes, and the group to choose (None: no
-    group): the tightest whose lower end stays above zero, of a preloaded pair the heaviest below its limit. `axial` of
-    a pair of angular contact bearings, whose `preload` [N] is that of the probable clearances, least and most (None:
-    not a preloaded pair)."""
+@record
+class Clearance(SeatRecord):
+    """Clearance in the bearing, radial or axial of a pair; it belongs to both seats.
 
-    group: str
-    initial: Interval
-    mounted: Interval
-    probable: Interval
-    mean: float
-    below_zero_probability: float
-    by_temperature: float
-    group_to_choose: str | None
-    axial: bool = False
-    preload: tuple[float, float] | None = None
+    The probable one spans the 0.135 % and 99.865 % ends of all bearings. The group to choose is the tightest whose
+    lower end stays above zero, of a preloaded pair the heaviest below its limit.
+    """
+
+    group: Annotated[str, Quantity("group")]
+    initial: Annotated[Interval, Quantity("before mounting", unit="um")]
+    mounted: Annotated[Interval, Quantity("after mounting, extreme", unit="um")]
+    probable: Annotated[Interval, Quantity("after mounting, probable", unit="um")]
+    mean: Annotated[float, Quantity("mean after mounting", "", 3, unit="um")]
+    axial: Annotated[bool, Quantity("whether it is the axial clearance of a pair")]
+    preload: Annotated[Pair | None, Quantity("preload of the pair after mounting", "", 3, "least and most", unit="N")]
+    below_zero_probability: Annotated[float, Quantity("share of bearings without clearance", "", 3)]
+    by_temperature: Annotated[float, Quantity("taken by temperature", "", 3, unit="um")]
+    group_to_choose: Annotated[str | None, Quantity("tightest group that passes")]
 
 
 class Mounting:
@@ -115,12 +117,12 @@ class Mounting:
     assumed="rings as plain tubes; sizes and clearance independent and normal, half a tolerance zone = 3σ",
     source="Lamé; ISO 5753-1:2009 for the groups; NSK and SKF for pairs",
 )
-def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Joint) -> ClearanceLeft:
+def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Joint) -> Clearance:
     mounting = Mounting(bearing, shaft, housing)
     start = mounting.initial(group)
     taken = sum(change * share for change, share in mounting.law)
     probable = Interval(mounting.end(group, _TAIL), mounting.end(group, 1 - _TAIL))
-    return ClearanceLeft(
+    return Clearance(
         group=group,
         initial=start,
         mounted=Interval(*_extremes(mounting, group)),

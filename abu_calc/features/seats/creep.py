@@ -1,30 +1,31 @@
 """Creep of a ring on its seat: by the kind of load on it, and when the machine starts."""
 
 import math
-from typing import Final, Literal, NamedTuple
+from typing import Annotated, Final, Literal
 
 from abu_calc.features.seats.bearing import SEAT_FRICTION
-from abu_calc.features.seats.interference import of_all, probable_interference
+from abu_calc.features.seats.interference import Pair, of_all, probable_interference
 from abu_calc.features.seats.joint import Joint
 from abu_calc.foundation.checks import Grade
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.standards.tolerance_classes import RingLoad
 
 CreepVerdict = Literal["holds", "may creep", "creeps", "needs no grip", "not known"]
 
 
-class CreepJudgement(NamedTuple):
-    """Verdict on creep, with slip torques [N·m] of the seat after losses.
+@record
+class Creep(Record):
+    """Creep of the ring on its seat under its load, and its hold when the machine starts."""
 
-    `probability` that a pair has less interference than required; slip torques at the least and at the least probable
-    interference; whether the least exceeds the starting torque.
-    """
-
-    verdict: CreepVerdict
-    why: str
-    probability: float | None
-    least_torque: float | None
-    probable_torque: float | None
-    holds_at_start: bool | None
+    ring_load: Annotated[RingLoad, Quantity("how the load meets the ring")]
+    verdict: Annotated[CreepVerdict, Quantity("verdict", "", 4, "holds (smallest), may creep (mean), creeps, …")]
+    why: Annotated[str, Quantity("why")]
+    probability: Annotated[float | None, Quantity("share of pairs with less interference than the ring needs", "", 3)]
+    friction_moment: Annotated[
+        Pair | None, Quantity("slip torque", "", 3, "at the least and at the least probable interference", unit="N_m")
+    ]
+    holds_at_start: Annotated[bool | None, Quantity("holds the starting torque")]
 
 
 @formula(
@@ -49,20 +50,26 @@ _VERDICTS: Final[dict[Grade, CreepVerdict]] = {
 }  # fmt: skip
 
 
-def creep(joint: Joint, friction: float, starting_torque: float | None) -> CreepJudgement:
+def creep(joint: Joint, friction: float, starting_torque: float | None) -> Creep:
     """Judge a ring: under a load fixed in direction it requires no interference.
 
     Any other ring holds if the least interference suffices, and may creep if only the mean does.
     """
-    least, probable = _torques(joint, friction) or (None, None)
-    starts = holds_at_start(joint, friction, starting_torque)
+    verdict: CreepVerdict = "needs no grip" if not joint.must_grip else _VERDICTS[joint.grip]
     if not joint.must_grip:
         why = f"load fixed in direction; {of_all(joint.clearance_probability)} have clearance"
-        return CreepJudgement("needs no grip", why, None, least, probable, None)
-    if joint.short is None:
-        return CreepJudgement("not known", "radial load or chamfer not given", None, least, probable, starts)
-    why = f"{of_all(joint.short)} have less interference than required"
-    return CreepJudgement(_VERDICTS[joint.grip], why, joint.short, least, probable, starts)
+    elif joint.short is None:
+        verdict, why = "not known", "radial load or chamfer not given"
+    else:
+        why = f"{of_all(joint.short)} have less interference than required"
+    return Creep(
+        ring_load=joint.ring.load,
+        verdict=verdict,
+        why=why,
+        probability=joint.short if joint.must_grip else None,
+        friction_moment=_torques(joint, friction),
+        holds_at_start=holds_at_start(joint, friction, starting_torque),
+    )
 
 
 def holds_at_start(joint: Joint, friction: float, starting_torque: float | None) -> bool | None:

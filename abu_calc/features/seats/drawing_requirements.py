@@ -3,12 +3,13 @@
 A repair starts from the interference left in a worn seat and gives the dimensions to restore.
 """
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Annotated, ClassVar
 
-from abu_calc.features.seats.interference import Interval
+from abu_calc.features.seats.interference import Interval, SeatRecord
 from abu_calc.features.seats.joint import Joint
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.standards.bearing_catalogue import next_size
 from abu_calc.standards.tables import toml_table
@@ -20,19 +21,21 @@ _WIDTH_ALONE = {"6X": "0"}
 """Classes of tapered bearings that differ from another one by their width alone (ISO 492)."""
 
 
-class SeatRequirements(NamedTuple):
-    """Field and limits [m] of the seat; roundness and profile [m], on the radius; Ra [m]; axial runout of the shoulder
-    by its grade, and [m] where the grade is tabulated; hardness in words; where it is from. All but the field are
-    unverified."""
+@record
+class Requirements(SeatRecord):
+    """Requirements that the drawing of the seat must state. All but the tolerance class are unverified."""
 
-    field: str
-    limits: DeviationLimits
-    form: float
-    roughness_Ra: float
-    shoulder_runout_grade: str
-    shoulder_runout: float | None
-    hardness: str
-    source: str
+    field: Annotated[str, Quantity("tolerance class")]
+    limits: Annotated[DeviationLimits, Quantity("limits of the tolerance class", unit="um")]
+    roundness: Annotated[float, Quantity("roundness", "", 2, unit="um")]
+    profile: Annotated[float, Quantity("longitudinal profile", "", 2, unit="um")]
+    roughness_Ra: Annotated[float, Quantity("roughness", "Ra", unit="um")]
+    shoulder_runout_grade: Annotated[str, Quantity("grade of the shoulder's runout")]
+    shoulder_runout: Annotated[
+        float | None, Quantity("shoulder runout", "", 4, "None where it is not tabulated", unit="um")
+    ]
+    hardness: Annotated[str, Quantity("hardness at least")]
+    source: Annotated[str, Quantity("source")]
 
 
 @formula(
@@ -44,17 +47,19 @@ class SeatRequirements(NamedTuple):
     checked=("seats of 3 … 500 mm",),
     source="GOST 3325-85; unverified",
 )
-def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) -> SeatRequirements:
+def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) -> Requirements:
     table = toml_table("seat_requirements")
     own, limits = table[joint.seat], part_limits(joint.seat, tolerance_class, joint.diameter)
     bearing_class = _WIDTH_ALONE.get(bearing_class, bearing_class)
     grade = own["shoulder"][bearing_class]
     basic = f"{'h' if joint.seat == 'shaft' else 'H'}{grade}"
     known = basic in tolerance_classes(joint.seat)
-    return SeatRequirements(
+    form = limits.tolerance * table["form_share"][bearing_class]
+    return Requirements(
         field=tolerance_class,
         limits=limits,
-        form=limits.tolerance * table["form_share"][bearing_class],
+        roundness=form,
+        profile=form,
         roughness_Ra=to_si(own["roughness"][bearing_class][joint.diameter > SMALL_SEAT + 1e-9], "um"),
         shoulder_runout_grade=f"IT{grade}",
         shoulder_runout=part_limits(joint.seat, basic, joint.diameter).tolerance if known else None,
@@ -63,13 +68,14 @@ def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) ->
     )
 
 
-class SeatForm(NamedTuple):
-    """What a drawing of a seat states, by a maker: cylindricity and total axial runout of the shoulder [m], Ra [m]."""
+@record
+class DrawnForm(SeatRecord):
+    """Form and roughness that the drawing of a seat states, by a maker's catalogue."""
 
-    cylindricity: float
-    shoulder_runout: float
-    roughness_Ra: float
-    source: str
+    cylindricity: Annotated[float, Quantity("cylindricity", "", 2, unit="um")]
+    shoulder_runout: Annotated[float, Quantity("total axial runout of the shoulder", "", 3, unit="um")]
+    roughness_Ra: Annotated[float, Quantity("roughness", "Ra", unit="um")]
+    source: Annotated[str, Quantity("source")]
 
 
 @formula(
@@ -81,14 +87,15 @@ class SeatForm(NamedTuple):
     checked=("ground seats of 0.6 … 500 mm",),
     source="SKF General Catalogue, 2006, tables 10 to 12",
 )
-def seat_form(joint: Joint, tolerance_class: str, bearing_class: str) -> SeatForm:
+def seat_form(joint: Joint, tolerance_class: str, bearing_class: str) -> DrawnForm:
     table = toml_table("seat_form")
     size = round(from_si(joint.diameter, "mm"), 6)
     bearing_class = _WIDTH_ALONE.get(bearing_class, bearing_class)
     grade = to_si(_row(table["it"]["rows"], size)[table["grade"][bearing_class] - 2], "um")
     smooth = _row(table["roughness"]["rows"], size)
     own = int(tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ") or 6)
-    return SeatForm(grade / 2, grade, to_si(smooth[min(max(7 - own, 0), 2)], "um"), table["source"])
+    ra = to_si(smooth[min(max(7 - own, 0), 2)], "um")
+    return DrawnForm(cylindricity=grade / 2, shoulder_runout=grade, roughness_Ra=ra, source=table["source"])
 
 
 def _row(rows: Sequence[Sequence[float]], size: float) -> Sequence[float]:
@@ -96,16 +103,18 @@ def _row(rows: Sequence[Sequence[float]], size: float) -> Sequence[float]:
     return next(row[1:] for row in rows if size <= row[0])
 
 
-class SeatRepair(NamedTuple):
-    """Interference left, lasting losses taken off [m]; the field to restore, its limits from the nominal size [m];
-    largest gap [m] that a bond must fill (0: none); seat [m] and bearing of the next size (None: not tabulated)."""
+@record
+class Repair(Record):
+    """Interference left in a seat whose limits are measured, and the limits that a repair must restore."""
 
-    grip_left: Interval
-    restore_fit: str
-    restore_limits: DeviationLimits
-    bonding_gap: float
-    next_seat: float | None
-    next_bearing: str | None
+    decimals: ClassVar[Mapping[str, int]] = {"um": 6, "mm": 6}
+
+    grip_left: Annotated[Interval, Quantity("interference left", "", 4, "after losses", unit="um")]
+    restore_fit: Annotated[str, Quantity("tolerance class to restore")]
+    restore_limits: Annotated[DeviationLimits, Quantity("limits to restore", unit="um")]
+    bonding_gap: Annotated[float, Quantity("gap that a bond must fill", "", 4, "of the loosest pair", unit="um")]
+    next_seat: Annotated[float | None, Quantity("seat of the next size", unit="mm")]
+    next_bearing: Annotated[str | None, Quantity("bearing of the next size")]
 
 
 @formula(
@@ -121,13 +130,13 @@ class SeatRepair(NamedTuple):
     assumed="both limits refer to one nominal size, new rings",
     source="derived from the limits of size",
 )
-def seat_repair(joint: Joint, restore: str, designation: str | None) -> SeatRepair | None:
+def seat_repair(joint: Joint, restore: str, designation: str | None) -> Repair | None:
     if joint.measured is None:
         return None
     losses = joint.lasting_losses
     left = Interval(joint.interference.smallest - losses, joint.interference.largest - losses)
     neighbour = next_size(designation, joint.seat) if designation else None
-    return SeatRepair(
+    return Repair(
         grip_left=left,
         restore_fit=restore,
         restore_limits=part_limits(joint.seat, restore, joint.diameter),

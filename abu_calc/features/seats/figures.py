@@ -10,7 +10,9 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Final, NamedTuple
 
-from abu_calc.features.seats.records import Clearance, Pair, SeatResult
+from abu_calc.features.seats.clearance import Clearance
+from abu_calc.features.seats.interference import Pair
+from abu_calc.features.seats.seats import SeatResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.features.seats.view import Seats, by_bearing, section_of
 from abu_calc.reporting.blocks import Block
@@ -274,7 +276,7 @@ def seat_note(result: CheckFitResult) -> tuple[Block, ...]:
     from abu_calc.features.explain.steps import STEPS, step_blocks
     from abu_calc.features.seats.formula_view import seat_numbers
 
-    return tuple(step_blocks(STEPS["seats"], seat_numbers(result.judged, result.seats)))
+    return tuple(step_blocks(STEPS["seats"], seat_numbers(result.judged)))
 
 
 def check_fit_figures(result: CheckFitResult) -> Iterator[Figure]:

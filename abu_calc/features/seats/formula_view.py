@@ -4,24 +4,25 @@ import math
 from collections.abc import Sequence
 
 from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.clearance import Clearance
+from abu_calc.features.seats.interference import um, um_pair
 from abu_calc.features.seats.joint import CENTRIFUGAL, TEMPERATURE, Joint, inner_ring_diameter
 from abu_calc.features.seats.joints import warm_parts
 from abu_calc.features.seats.notes import intensity_factors
 from abu_calc.features.seats.rating_life import exponent
-from abu_calc.features.seats.records import Clearance, SeatResult, um, um_pair
-from abu_calc.features.seats.seats import BearingSeats
+from abu_calc.features.seats.seats import BearingSeats, SeatResult
 from abu_calc.foundation.units import from_si
 
 
-def seat_numbers(bearings: Sequence[BearingSeats], seats: Sequence[SeatResult]) -> tuple[str, ...]:
-    """A line a formula, bearing after bearing, the shaft's before the housing's, which alternate in `seats`."""
+def seat_numbers(bearings: Sequence[BearingSeats]) -> tuple[str, ...]:
+    """A line a formula, bearing after bearing, the shaft's before the housing's."""
     lines: list[str] = []
-    for bearing, shaft, housing in zip(bearings, seats[::2], seats[1::2], strict=True):
-        lines.append(f"{shaft.name}:")
-        for seat, fit in ((shaft, bearing.shaft), (housing, bearing.housing)):
-            lines += [f"{seat.seat}: {line}" for line in _seat(bearing.bearing, fit.joint, seat)]
-        lines += _clearance(bearing, shaft.internal_clearance)
-        lines += _life(bearing, shaft)
+    for bearing in bearings:
+        lines.append(f"{bearing.shaft.name}:")
+        for seat in bearing.seats:
+            lines += [f"{seat.seat}: {line}" for line in _seat(bearing.bearing, seat.joint, seat)]
+        lines += _clearance(bearing, bearing.clearance)
+        lines += _life(bearing, bearing.shaft)
     return tuple(lines)
 
 

@@ -4,9 +4,11 @@
 """
 
 import math
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import ClassVar, NamedTuple, TypeAlias
 
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.quantity import Record, record
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.standards.tolerance_classes import DeviationLimits
 
@@ -35,6 +37,27 @@ _INSIDE = math.erf(3 / math.sqrt(2))
 """Share of a normal law within 3σ of its mean."""
 
 _PANELS = 200
+
+
+Pair: TypeAlias = tuple[float, float]
+"""Lower and upper, or least and most."""
+
+
+@record
+class SeatRecord(Record):
+    """Part of a seat: lengths in micrometres freed of the rounding of the conversion."""
+
+    decimals: ClassVar[Mapping[str, int]] = {"um": 6}
+
+
+def um(length: float) -> float:
+    """Micrometres, freed of the rounding of the conversion."""
+    return round(from_si(length, "um"), 6)
+
+
+def um_pair(pair: Pair) -> Pair:
+    """Limits or an interval in micrometres."""
+    return um(pair[0]), um(pair[1])
 
 
 class Interval(NamedTuple):

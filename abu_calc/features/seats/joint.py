@@ -4,11 +4,13 @@ import math
 import re
 from dataclasses import replace
 from functools import cached_property
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SEAT_DIAMETER, TUBE_RATIO, Ring
 from abu_calc.features.seats.interference import (
     Interval,
+    Pair,
+    SeatRecord,
     clearance_probability,
     probability_below,
     theoretical_interference,
@@ -17,6 +19,7 @@ from abu_calc.features.seats.requirement import creep_interference, load_loss
 from abu_calc.foundation.checks import Grade
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.standards.balls import Material
 from abu_calc.standards.tolerance_classes import DeviationLimits, MakerFits, Seat, part_limits, tolerance_classes
 
@@ -156,12 +159,14 @@ class InterferenceBound(NamedTuple):
     by: str
 
 
-class InterferenceLoss(NamedTuple):
-    """Loss of interference in service [m], and its formula."""
+@record
+class Loss(SeatRecord):
+    """Loss of interference: the load by both rules, of which the larger counts, then the losses given."""
 
-    name: str
-    value: float
-    formula: str
+    name: Annotated[str, Quantity("loss")]
+    amount: Annotated[float, Quantity("taken from the interference", unit="um")]
+    formula: Annotated[str, Quantity("formula")]
+    counted: Annotated[bool, Quantity("counted in the required interference")] = True
 
 
 class ThermalCase(NamedTuple):
@@ -190,6 +195,15 @@ THINNEST: Final = 0.2
 _GRADES: Final = re.compile(r"[a-zA-Z]+")
 
 
+@record
+class ThermalInterference(SeatRecord):
+    """Interference of a seat at one temperature case."""
+
+    case: Annotated[str, Quantity("temperature case", "", 4, "mounting, working, lowest, highest")]
+    rise: Annotated[float | None, Quantity("rise over mounting", "", 4, "None: differences alone are given", unit="K")]
+    interference: Annotated[Pair, Quantity("interference", unit="um")]
+
+
 @dataclass(frozen=True)
 class Joint:
     """One ring on its seat, with the limits of the ring; `losses` [m] only those that the input asks for.
@@ -209,7 +223,7 @@ class Joint:
     ring_limits: DeviationLimits
     radial_load: float | None
     factor: float
-    losses: tuple[InterferenceLoss, ...]
+    losses: tuple[Loss, ...]
     pressure_rate: float
     stress_rate: float
     raceway_rate: float
@@ -311,7 +325,7 @@ class Joint:
     @property
     def counted_losses(self) -> float:
         """Losses [m] that the interference must cover: those given, the thermal one of the loosest case."""
-        others = sum(loss.value for loss in self.losses if loss.name != TEMPERATURE)
+        others = sum(loss.amount for loss in self.losses if loss.name != TEMPERATURE)
         return others + max(0.0, *(case.loss for case in self.thermal_cases))
 
     @cached_property
@@ -375,6 +389,15 @@ class Joint:
     def coldest_or_hottest(self) -> ThermalCase:
         """The case in which the seat is tightest."""
         return min(self.thermal_cases, key=lambda case: case.loss)
+
+    @property
+    def interference_by_temperature(self) -> tuple[ThermalInterference, ...]:
+        """Interference in each temperature case."""
+        low, high = self.interference
+        return tuple(
+            ThermalInterference(case=case.name, rise=case.rise, interference=(low - case.loss, high - case.loss))
+            for case in self.thermal_cases
+        )
 
     @property
     def turns_tight(self) -> bool:
@@ -476,9 +499,9 @@ class Joint:
     @property
     def lasting_losses(self) -> float:
         """Losses [m] that are there when the shaft starts to turn: all but the growth by speed and gains by warmth."""
-        return sum(max(loss.value, 0.0) for loss in self.losses if loss.name != CENTRIFUGAL)
+        return sum(max(loss.amount, 0.0) for loss in self.losses if loss.name != CENTRIFUGAL)
 
     @property
     def mounted_losses(self) -> float:
         """Interference [m] that smoothing and thermal effects take, or give, before the shaft turns."""
-        return sum(loss.value for loss in self.losses if loss.name != CENTRIFUGAL)
+        return sum(loss.amount for loss in self.losses if loss.name != CENTRIFUGAL)

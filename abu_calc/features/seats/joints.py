@@ -8,8 +8,8 @@ from abu_calc.features.seats.joint import (
     CENTRIFUGAL,
     MEASURED,
     TEMPERATURE,
-    InterferenceLoss,
     Joint,
+    Loss,
     ThermalCase,
     Tube,
     contact_pressure,
@@ -57,7 +57,7 @@ def shaft_joint(bearing: SeatedBearing) -> Joint:
         growth = centrifugal_loss(service.speed, bore, ring_diameter, hollow, steel)
         limit = bearing.entry.limiting_speed if bearing.entry else None
         usual_growth = growth if limit is not None and service.speed <= limit * (1 + 1e-9) else 0.0
-        losses.append(InterferenceLoss(CENTRIFUGAL, growth, "(3+ν)·ρ·Ω²·d·(d₁² − d₀²)/(16·E)"))
+        losses.append(Loss(name=CENTRIFUGAL, amount=growth, formula="(3+ν)·ρ·Ω²·d·(d₁² − d₀²)/(16·E)"))
     pressure = contact_pressure(1.0, bore, shaft, ring)
     solid = Tube(0.0, own if part.material in _OWN_REFERENCE else steel)
     kept = pressure / contact_pressure(1.0, bore, solid, ring)
@@ -153,11 +153,11 @@ def _under_needles(bearing: SeatedBearing) -> DeviationLimits:
     return DeviationLimits(lower, lower + part_limits("shaft", "h6", diameter).tolerance)
 
 
-def _warmth(diameter: float, parts: tuple[tuple[float, float], tuple[float, float]] | None) -> list[InterferenceLoss]:
+def _warmth(diameter: float, parts: tuple[tuple[float, float], tuple[float, float]] | None) -> list[Loss]:
     return (
         []
         if parts is None
-        else [InterferenceLoss(TEMPERATURE, temperature_loss(diameter, *parts), "d·(α₂·ΔT₂ − α₁·ΔT₁)")]
+        else [Loss(name=TEMPERATURE, amount=temperature_loss(diameter, *parts), formula="d·(α₂·ΔT₂ − α₁·ΔT₁)")]
     )
 
 
@@ -166,7 +166,7 @@ def _joint(
     bearing: SeatedBearing,
     part: MatingPart,
     ring: Ring,
-    losses: tuple[InterferenceLoss, ...],
+    losses: tuple[Loss, ...],
     rates: tuple[float, float, float, float],
     kept: float,
 ) -> Joint:
@@ -203,9 +203,9 @@ def _cup_classes(bearing: SeatedBearing) -> tuple[str, ...]:
     return row.classes[:2] if row else ()
 
 
-def _smoothing(roughness: float | None) -> list[InterferenceLoss]:
+def _smoothing(roughness: float | None) -> list[Loss]:
     return (
         []
         if roughness is None
-        else [InterferenceLoss("smoothing", smoothing_loss(roughness), "0.4·Rz (DIN 7190-1:2017)")]
+        else [Loss(name="smoothing", amount=smoothing_loss(roughness), formula="0.4·Rz (DIN 7190-1:2017)")]
     )

@@ -1,15 +1,16 @@
 """Rating life of a machine's bearings under the loads of its simulation, without and with the autobalancer."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import Annotated, ClassVar, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.checks import life_check
 from abu_calc.features.seats.rating_life import exponent, life_at
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 
 _STEPS: Final = 180
@@ -29,19 +30,22 @@ class UseLoads(NamedTuple):
     constant: float
 
 
-class Lives(NamedTuple):
-    """Equivalent loads [N] and basic rating lives [s]."""
+@record
+class SimulatedLife(Record):
+    """Loads of a bearing from the simulation, and its basic rating life without and with the autobalancer."""
 
-    load_without: float
-    load_with: float
-    life_without: float
-    life_with: float
+    decimals: ClassVar[Mapping[str, int]] = {"h": 1}
+
+    load_without: Annotated[float, Quantity("equivalent load without the autobalancer", "", 3, unit="kN")]
+    load_with: Annotated[float, Quantity("equivalent load with the autobalancer", "", 3, unit="kN")]
+    life_without: Annotated[float, Quantity("basic rating life without the autobalancer", "", 3, unit="h")]
+    life_with: Annotated[float, Quantity("basic rating life with the autobalancer", "", 3, unit="h")]
 
 
 class LifeInUse(NamedTuple):
     """Lives of one bearing (None: data are missing), and their check."""
 
-    lives: Lives | None
+    lives: SimulatedLife | None
     checks: tuple[Check, ...]
 
 
@@ -115,7 +119,7 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
         f"without the autobalancer {from_si(lives[0], 'h'):.3g} h under {from_si(without, 'kN'):.3g} kN, with it under "
         f"{from_si(with_it, 'kN'):.3g} kN; the loads are imbalance, residual imbalance and the normal force at work"
     )
-    both = Lives(without, with_it, lives[0], lives[1])
+    both = SimulatedLife(load_without=without, load_with=with_it, life_without=lives[0], life_with=lives[1])
     return LifeInUse(both, (life_check("ABU636", bearing, lives[1], message),))
 
 

@@ -5,15 +5,17 @@ groups the parts are sorted into, which go together, and how many pairs each get
 """
 
 import math
-from typing import TYPE_CHECKING, Final, NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing
 from abu_calc.features.seats.equivalent_load import load_factors
-from abu_calc.features.seats.interference import Interval
-from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, MEASURED, TEMPERATURE, InterferenceLoss, Joint
+from abu_calc.features.seats.interference import Interval, Pair, SeatRecord
+from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, MEASURED, TEMPERATURE, Joint, Loss
 from abu_calc.features.seats.joints import makers_classes
 from abu_calc.features.seats.requirement import catalogue_smoothing_loss
 from abu_calc.foundation.formula import formula
+from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.tables import toml_table
 from abu_calc.standards.tolerance_classes import DeviationLimits, Seat, source_of
@@ -107,15 +109,15 @@ class Selection(NamedTuple):
     interference: Interval
 
 
-class Group(NamedTuple):
-    """One group: limits [m] of the parts inside and around, which are matched by number, the interference of their
-    pairs, the share of all pairs that it gets."""
+@record
+class SortingGroup(SeatRecord):
+    """A group of selective assembly: parts of one number are matched."""
 
-    number: int
-    male: DeviationLimits
-    female: DeviationLimits
-    interference: Interval
-    share: float
+    number: Annotated[int, Quantity("group")]
+    part_limits: Annotated[Pair, Quantity("limits of the part", unit="um")]
+    ring_limits: Annotated[Pair, Quantity("limits of the ring", unit="um")]
+    interference: Annotated[Pair, Quantity("interference", unit="um")]
+    pairs_of_100: Annotated[float, Quantity("pairs of a hundred", "", 3)]
 
 
 @formula(
@@ -151,23 +153,25 @@ def selective_groups(male: DeviationLimits, female: DeviationLimits, asked: Inte
     return Selection(groups, Interval(min(ends) - share, max(ends) + share))
 
 
-def sorting_groups(male: DeviationLimits, female: DeviationLimits, count: int) -> tuple[Group, ...]:
+def sorting_groups(part: DeviationLimits, ring: DeviationLimits, seat: Seat, count: int) -> tuple[SortingGroup, ...]:
     """The groups of a selection, from the smallest parts to the largest; none where they are too many to sort.
 
     Both sizes normal and centred, half a field = 3σ, parts outside their fields sorted out: matched groups of both
     parts are then equally full.
 
     >>> part, ring = DeviationLimits(2e-6, 21e-6), DeviationLimits(-15e-6, 0.0)
-    >>> [round(100 * group.share) for group in sorting_groups(part, ring, 3)]
+    >>> [round(group.pairs_of_100) for group in sorting_groups(part, ring, "shaft", 3)]
     [16, 68, 16]
     """
-    if not 1 < count <= MOST_GROUPS:
-        return ()
     groups = []
-    for i in range(count):
-        inside, around = _slice(male, i, count), _slice(female, i, count)
-        pair = Interval(inside.lower - around.upper, inside.upper - around.lower)
-        groups.append(Group(i + 1, inside, around, pair, _share(i, count)))
+    for i in range(count if 1 < count <= MOST_GROUPS else 0):
+        own, rings = _slice(part, i, count), _slice(ring, i, count)
+        inside, around = (own, rings) if seat == "shaft" else (rings, own)
+        pair = inside.lower - around.upper, inside.upper - around.lower
+        share = 100 * _share(i, count)
+        groups.append(SortingGroup(
+            number=i + 1, part_limits=own, ring_limits=rings, interference=pair, pairs_of_100=share,
+        ))  # fmt: skip
     return tuple(groups)
 
 
@@ -183,38 +187,32 @@ def _share(index: int, count: int) -> float:
     return (below((index + 1) / count) - below(index / count)) / (2 * math.erf(3 / math.sqrt(2)))
 
 
-class Item(NamedTuple):
-    """An entry of the list of losses; `counted` in the required interference, or shown beside it."""
-
-    loss: InterferenceLoss
-    counted: bool
-
-
-def ledger(joint: Joint) -> tuple[Item, ...]:
+def ledger(joint: Joint) -> tuple[Loss, ...]:
     """List of losses: the load by both rules, of which the larger counts, then the losses given, each by its formula.
 
     Gains by temperature do not count.
     """
     needs = joint.required.by if joint.required else None
-    items = [Item(InterferenceLoss("load", bound.value, bound.by), bound.by == needs) for bound in joint.criteria]
+    items = [
+        Loss(name="load", amount=bound.value, formula=bound.by, counted=bound.by == needs) for bound in joint.criteria
+    ]
     if joint.criteria and joint.pressure_kept < 1:
         larger = max(bound.value for bound in joint.criteria)
         lost = larger * (1 / joint.pressure_kept - 1)
-        items.append(Item(InterferenceLoss("pressure", lost, "of the load, over the share of the pressure kept"), True))
+        items.append(Loss(name="pressure", amount=lost, formula="of the load, over the share of the pressure kept"))
     warmest = max(joint.thermal_cases, key=lambda case: case.loss)
     if warmest.name in ("lowest", "highest"):
         formula_text = f"d·(α₂·ΔT₂ − α₁·ΔT₁) at the {warmest.name} temperature"
-        items.append(Item(InterferenceLoss(TEMPERATURE, warmest.loss, formula_text), warmest.loss > 0))
+        items.append(Loss(name=TEMPERATURE, amount=warmest.loss, formula=formula_text, counted=warmest.loss > 0))
     for loss in joint.losses:
         if loss.name == TEMPERATURE and warmest.name in ("lowest", "highest"):
-            items.append(Item(loss, False))
+            items.append(replace(loss, counted=False))
             continue
-        items.append(Item(loss, loss.value > 0 or loss.name != TEMPERATURE))
+        items.append(replace(loss, counted=loss.amount > 0 or loss.name != TEMPERATURE))
         if loss.name == "smoothing":
             value = catalogue_smoothing_loss(joint.interference.smallest, joint.diameter)
-            items.append(
-                Item(InterferenceLoss("smoothing", value, "δ·2/(d + 2) (bearing catalogues, unverified)"), False)
-            )
+            text = "δ·2/(d + 2) (bearing catalogues, unverified)"
+            items.append(Loss(name="smoothing", amount=value, formula=text, counted=False))
     return tuple(items)
 
 

@@ -5,154 +5,170 @@ An error of one bearing names its table, and its key if known. Parts that few be
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
-from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice, rule_class
+from abu_calc.features.seats.advice import (
+    AdmissibleFit,
+    JointAdvice,
+    RejectedFit,
+    SeatAdvice,
+    Start,
+    admissible,
+    advice,
+    rule_class,
+)
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.changes import actions
 from abu_calc.features.seats.checks import clearance_checks, life_checks, seat_checks, short_pair_checks, start_checks
-from abu_calc.features.seats.creep import CreepJudgement, creep
-from abu_calc.features.seats.drawing_requirements import SeatForm, SeatRequirements, seat_form, seat_requirements
-from abu_calc.features.seats.interference import Interval, probable_interference, truncated_clearance_probability
-from abu_calc.features.seats.joint import InterferenceLoss, Joint
+from abu_calc.features.seats.clearance import Clearance, clearance_left
+from abu_calc.features.seats.creep import Creep, creep
+from abu_calc.features.seats.drawing_requirements import (
+    DrawnForm,
+    Repair,
+    Requirements,
+    seat_form,
+    seat_repair,
+    seat_requirements,
+)
+from abu_calc.features.seats.interference import (
+    Interval,
+    Pair,
+    SeatRecord,
+    probable_interference,
+    truncated_clearance_probability,
+    um,
+)
+from abu_calc.features.seats.joint import Joint, Loss, ThermalInterference
 from abu_calc.features.seats.joints import housing_joint, shaft_joint
+from abu_calc.features.seats.life_in_use import LifeInUse, SimulatedLife
 from abu_calc.features.seats.lookup import from_table
-from abu_calc.features.seats.notes import Item, clearance_note, ledger, seat_intensity, seat_notes
+from abu_calc.features.seats.notes import (
+    Selection,
+    SortingGroup,
+    clearance_note,
+    ledger,
+    seat_intensity,
+    seat_notes,
+    selective_groups,
+    sorting_groups,
+)
 from abu_calc.features.seats.rating_life import RatingLife, rating_life
-from abu_calc.foundation.checks import Action, Check
+from abu_calc.foundation.checks import Action, Check, Grade, worst
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.units import SI_PER_UNIT
-from abu_calc.standards.tolerance_classes import DeviationLimits, Seat
+from abu_calc.standards.tolerance_classes import Seat
 
 if TYPE_CHECKING:
-    from abu_calc.features.seats.clearance import ClearanceLeft
-    from abu_calc.features.seats.drawing_requirements import SeatRepair
-    from abu_calc.features.seats.life_in_use import LifeInUse
-    from abu_calc.features.seats.notes import Group, Selection
     from abu_calc.inputs.rolling_bearing import Bearing as BearingTable
 
 
-class Admissible(NamedTuple):
-    """A tolerance class that neither creeps nor overstresses, its interference [m] and probability of clearance."""
+@record
+class SeatResult(SeatRecord):
+    """One seat, judged; interference is positive, clearance negative, limits count from the nominal size."""
 
-    fit: str
-    interference: Interval
-    clearance_probability: float
+    left_out: ClassVar[frozenset[str]] = frozenset({"joint", "checks"})
 
-
-class SeatFit(NamedTuple):
-    """One seat: lengths and interferences [m], stress [Pa], load intensity [N/m]; null where a check or note says why.
-
-    `required_interference` is that of a ring under a rotating load; a ring under a load fixed in direction is not held
-    to it. `losses` are those included in it beside the load, `ledger` all that are known, counted or not; `groups`
-    those of the `selection`; `repair` of a seat whose limits are measured; `rule_fit`: the class by the rules for the
-    load alone.
-    """
-
-    name: str
     joint: Joint
-    fit_given: bool
-    probable_interference: Interval
-    clearance_probability_truncated: float
-    ledger: tuple[Item, ...]
-    advice: SeatAdvice
-    admissible_fits: tuple[Admissible, ...]
-    load_intensity: float | None
-    creep: CreepJudgement
-    requirements: SeatRequirements
-    form: SeatForm
-    asked_interference: Interval | None
-    selection: "Selection | None"
-    groups: "tuple[Group, ...]"
-    repair: "SeatRepair | None"
-    notes: tuple[str, ...]
     checks: tuple[Check, ...]
-    rule_fit: str | None
+    name: Annotated[str, Quantity("bearing")]
+    seat: Annotated[Seat, Quantity("seat")]
+    fit: Annotated[str, Quantity("tolerance class", "", 4, "measured if limits are given in its place")]
+    fit_given: Annotated[bool, Quantity("whether a tolerance class is given, else the recommended one is judged")]
+    part_limits: Annotated[Pair, Quantity("limits of the part", unit="um")]
+    ring_limits: Annotated[Pair, Quantity("limits of the ring", unit="um")]
+    interference: Annotated[Pair, Quantity("interference", "", 4, "ei − ES … es − EI", unit="um")]
+    probable_interference: Annotated[
+        Pair, Quantity("probable interference", "", 4, "mean ∓ √((T₁/2)² + (T₂/2)²), outward to whole µm", unit="um")
+    ]
+    clearance_probability: Annotated[float, Quantity("probability of clearance", "Φ(−mean/σ)")]
+    clearance_probability_truncated: Annotated[
+        float, Quantity("probability of clearance, parts outside their limits sorted out")
+    ]
+    required_interference: Annotated[
+        float | None,
+        Quantity("required interference", "", 4, "of a ring under a rotating load, losses included", unit="um"),
+    ]
+    required_by: Annotated[str | None, Quantity("criterion of the required interference")]
+    losses_: Annotated[Mapping[str, float], Quantity("losses counted beside the load", unit="um")]
+    losses: tuple[Loss, ...]
+    permitted_interference: Annotated[float, Quantity("permitted interference", unit="um")]
+    permitted_by: Annotated[str, Quantity("criterion of the permitted interference")]
+    hoop_stress: Annotated[float, Quantity("hoop stress", "", 4, "of the ring at the largest interference", unit="MPa")]
+    part_stress: Annotated[float, Quantity("hoop stress of the part", "", 4, "at the largest interference", unit="MPa")]
+    short_pairs_share: Annotated[
+        float | None, Quantity("share of short pairs", "", 3, "less interference than the specified rule demands")
+    ]
+    pressure_kept: Annotated[
+        float, Quantity("share of the pressure kept", "", 3, "of that in a solid shaft or a thick housing")
+    ]
+    interference_by_temperature: tuple[ThermalInterference, ...]
+    load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "P the equivalent dynamic load")]
+    static_safety: Annotated[float | None, Quantity("static safety", "C0/P0", 3)]
+    basic_rating_life: Annotated[float | None, Quantity("basic rating life", "L_10h", 3, unit="h")]
+    modified_rating_life: Annotated[
+        float | None, Quantity("modified rating life", "", 3, "basic one times a_ISO", unit="h")
+    ]
+    life_modification: Annotated[float | None, Quantity("life modification factor", "a_ISO", 3)]
+    limiting_speed: Annotated[float | None, Quantity("limiting speed", "", 4, "of the catalogue's bearing", unit="rpm")]
+    equivalent_load: Annotated[float | None, Quantity("equivalent dynamic load", "P", 3, unit="kN")]
+    static_load: Annotated[float | None, Quantity("equivalent static load", "P_0", 3, unit="kN")]
+    dynamic_load_rating: Annotated[float | None, Quantity("dynamic load rating", "C", 4, unit="kN")]
+    static_load_rating: Annotated[float | None, Quantity("static load rating", "C0", 4, unit="kN")]
+    catalogue_bearing: Annotated[str | None, Quantity("catalogue bearing of this size")]
+    simulated_life: SimulatedLife | None = None
+    maker_fits: Annotated[
+        tuple[str, ...], Quantity("the makers' tolerance classes", "", 4, "the first is the usual one")
+    ]
+    catalogue_fit: Annotated[str | None, Quantity("tolerance class by the catalogue's row")]
+    rule_fit: Annotated[
+        str | None,
+        Quantity("tolerance class by the rules for the load", "", 4, "its loosest pair has what is required"),
+    ]
+    recommended_fit: Annotated[str | None, Quantity("recommended tolerance class")]
+    recommended_clearance: Annotated[str | None, Quantity("clearance to order")]
+    clearance_of_recommended: Annotated[
+        str | None, Quantity("clearance for the recommended classes", "", 4, "given classes may need a looser group")
+    ]
+    rejected_fits: tuple[RejectedFit, ...]
+    admissible_fits: tuple[AdmissibleFit, ...]
+    load_intensity: Annotated[float | None, Quantity("load intensity", "P_R = k₁·k₂·k₃·F_r/b_s", unit="kN_per_m")]
+    creep: Creep
+    requirements: Requirements
+    form: DrawnForm
+    bearing_kind: Annotated[str | None, Quantity("type of the bearing")]
+    asked_interference: Annotated[Pair | None, Quantity("interference required of every pair", unit="um")]
+    selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n_g")]
+    selective_interference: Annotated[Pair | None, Quantity("interference within the groups", unit="um")]
+    sorting_groups: tuple[SortingGroup, ...]
+    repair: Repair | None
+    notes: Annotated[tuple[str, ...], Quantity("notes")]
+    internal_clearance: Clearance | None
+    bearing_verdict: Annotated[Grade, Quantity("verdict", "", 4, "the worst check of the bearing")] = "pass"
+    diameter: Annotated[float, Quantity("diameter of the seat", "d", unit="mm")]
+    ring_width: Annotated[float, Quantity("width of the ring", "B", unit="mm")]
+    chamfer: Annotated[float | None, Quantity("chamfer of the ring", "r_s", unit="mm")]
 
     @property
-    def seat(self) -> Seat:
-        """Shaft or housing."""
-        return self.joint.seat
+    def tightest_um(self) -> float:
+        """The largest interference; 0 where even that is clearance."""
+        return um(max(self.interference[1], 0.0))
 
     @property
-    def fit(self) -> str:
-        """Tolerance class of the part, or that its limits are measured."""
-        return self.joint.fit_name
+    def needs_no_grip(self) -> bool:
+        """True if the load of the ring is fixed in direction."""
+        return self.creep.ring_load == "stationary"
 
     @property
-    def part_limits(self) -> DeviationLimits:
-        """Limits of the shaft or housing."""
-        return self.joint.part
+    def needed_um(self) -> float | None:
+        """The required interference; none of a ring whose load is fixed in direction."""
+        no_need = self.needs_no_grip or self.required_interference is None
+        return None if no_need else um(self.required_interference or 0.0)
 
     @property
-    def ring_limits(self) -> DeviationLimits:
-        """Limits of the ring."""
-        return self.joint.ring_limits
-
-    @property
-    def interference(self) -> Interval:
-        """Theoretical interference."""
-        return self.joint.interference
-
-    @property
-    def clearance_probability(self) -> float:
-        """Probability that a pair is loose."""
-        return self.joint.clearance_probability
-
-    @property
-    def required_interference(self) -> float | None:
-        """Interference that a ring needs under a rotating load, losses included."""
-        return self.joint.required.value if self.joint.required else None
-
-    @property
-    def required_by(self) -> str | None:
-        """The criterion that sets it."""
-        return self.joint.required.by if self.joint.required else None
-
-    @property
-    def losses(self) -> tuple[InterferenceLoss, ...]:
-        """Losses the input asks for, the load aside."""
-        return self.joint.losses
-
-    @property
-    def permitted_interference(self) -> float:
-        """Largest interference that ring and bearing bear."""
-        return self.joint.permitted.value
-
-    @property
-    def permitted_by(self) -> str:
-        """The criterion that sets it."""
-        return self.joint.permitted.by
-
-    @property
-    def hoop_stress(self) -> float:
-        """Hoop stress of the ring at the largest interference, cold or warm."""
-        return self.joint.hoop_stress
-
-    @property
-    def short_pairs_share(self) -> float | None:
-        """Share of pairs with less interference than the specified rule demands."""
-        return self.joint.short_pairs
-
-    @property
-    def catalogue_fit(self) -> str | None:
-        """The class of the makers' catalogue for this seat; None without C or a row."""
-        return self.joint.catalogue_class
-
-    @property
-    def pressure_kept(self) -> float:
-        """Share of the pressure in a solid shaft or a thick housing that this part gives."""
-        return self.joint.pressure_kept
-
-    @property
-    def recommended_fit(self) -> str | None:
-        """The class to write."""
-        return self.advice.best.tolerance_class if self.advice.best else None
-
-    @property
-    def rejected_fits(self) -> "tuple[Rejected, ...]":
-        """The next looser and the next tighter class that will not do, and why."""
-        return self.advice.rejected
+    def needed_by(self) -> str | None:
+        """The criterion of the interference that is needed."""
+        return None if self.needs_no_grip else self.required_by
 
 
 class BearingSeats(NamedTuple):
@@ -162,17 +178,17 @@ class BearingSeats(NamedTuple):
     """
 
     bearing: SeatedBearing
-    shaft: SeatFit
-    housing: SeatFit
+    shaft: SeatResult
+    housing: SeatResult
     life: RatingLife
-    clearance: "ClearanceLeft | None" = None
+    clearance: Clearance | None = None
     group_to_order: str | None = None
     group_of_recommended: str | None = None
-    life_in_use: "LifeInUse | None" = None
+    life_in_use: LifeInUse | None = None
     actions: "Mapping[str, Action]" = {}  # noqa: RUF012 - a default that nobody changes
 
     @property
-    def seats(self) -> tuple[SeatFit, SeatFit]:
+    def seats(self) -> tuple[SeatResult, SeatResult]:
         """Shaft, housing."""
         return self.shaft, self.housing
 
@@ -206,8 +222,21 @@ def judge(bearing: SeatedBearing) -> BearingSeats:
         bearing, plain.checks, {key: value for key, value in classes.items() if value},
         [group for group in dict.fromkeys(groups) if group], lambda changed: _judged(changed).checks,
     )  # fmt: skip
-    shaft, housing = (seat._replace(checks=_with(proposed, seat.checks)) for seat in plain.seats)
-    return plain._replace(shaft=shaft, housing=housing, actions=proposed)
+    shaft, housing = (replace(seat, checks=_with(proposed, seat.checks)) for seat in plain.seats)
+    return _graded(plain._replace(shaft=shaft, housing=housing, actions=proposed))
+
+
+def with_life(judged: BearingSeats, in_use: LifeInUse) -> BearingSeats:
+    """A bearing with its life under the loads of the simulation."""
+    shaft, housing = (replace(seat, simulated_life=in_use.lives) for seat in judged.seats)
+    return _graded(judged._replace(shaft=shaft, housing=housing, life_in_use=in_use))
+
+
+def _graded(judged: BearingSeats) -> BearingSeats:
+    """A bearing whose seats know its worst check."""
+    grade = worst(judged.checks)
+    shaft, housing = (replace(seat, bearing_verdict=grade) for seat in judged.seats)
+    return judged._replace(shaft=shaft, housing=housing)
 
 
 def _with(proposed: "Mapping[str, Action]", checks: Sequence[Check]) -> tuple[Check, ...]:
@@ -229,16 +258,22 @@ def _judged(bearing: SeatedBearing) -> BearingSeats:
     ]
     asked_of = [joint for joint in joints if joint.must_grip] or joints
     asked = None if bearing.asked_interference is None else Interval(*bearing.asked_interference)
+    left, life, ratings = _clearance(bearing, *joints), rating_life(bearing), bearing.ratings
+    alike = {
+        "load_ratio": bearing.load_ratio, "static_safety": life.static_safety, "basic_rating_life": life.basic,
+        "modified_rating_life": life.modified, "life_modification": life.a_iso, "limiting_speed": life.limiting_speed,
+        "equivalent_load": life.dynamic_load, "static_load": life.static_load, "bearing_kind": bearing.kind,
+        "dynamic_load_rating": ratings.dynamic if ratings else None,
+        "static_load_rating": ratings.static or None if ratings else None,
+        "catalogue_bearing": bearing.entry.designation if bearing.entry else None,
+        "recommended_clearance": recommendation.group, "clearance_of_recommended": recommendation.own_group,
+        "internal_clearance": left,
+    }  # fmt: skip
     shaft, housing = (
-        _seat_fit(bearing, joint, own, not unsaid, asked if joint in asked_of else None)
+        _seat(bearing, joint, own, not unsaid, asked if joint in asked_of else None, recommendation, alike)
         for joint, own, unsaid in zip(joints, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
     )
-    order = clearance_note(recommendation)
-    shaft, housing = (seat._replace(notes=(*seat.notes, *order)) for seat in (shaft, housing))
-    left = _clearance(bearing, *joints)
-    return BearingSeats(
-        bearing, shaft, housing, rating_life(bearing), left, recommendation.group, recommendation.own_group
-    )
+    return BearingSeats(bearing, shaft, housing, life, left, recommendation.group, recommendation.own_group)
 
 
 def _stand_in(joint: Joint, own: SeatAdvice) -> Joint:
@@ -248,67 +283,87 @@ def _stand_in(joint: Joint, own: SeatAdvice) -> Joint:
     return joint.with_class(joint.catalogue_class) if joint.catalogue_class else joint
 
 
-def _clearance(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
+def _clearance(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> Clearance | None:
     if bearing.internal_clearance is None:
         return None
-    from abu_calc.features.seats.clearance import clearance_left
-
     return clearance_left(bearing.internal_clearance, bearing, shaft, housing)
 
 
-def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool, asked: Interval | None) -> SeatFit:
+def _seat(
+    bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool, asked: Interval | None, both: JointAdvice,
+    alike: Mapping[str, Any],
+) -> SeatResult:  # fmt: skip
+    """One seat; `alike`: fields of the bearing itself."""
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
     creep_result = creep(joint, *start)
     recommended = own.best.tolerance_class if own.best else None
     selection, groups = _sorting(joint, asked)
     rule = rule_class(joint, start)
     wanted = recommended or joint.tolerance_class
-    return SeatFit(
-        name=bearing.name,
+    maker, male_and_female = joint.maker, joint.male_and_female
+    return SeatResult(
         joint=joint,
+        name=bearing.name,
+        seat=joint.seat,
+        fit=joint.fit_name,
         fit_given=given,
-        probable_interference=probable_interference(*joint.male_and_female),
-        clearance_probability_truncated=truncated_clearance_probability(*joint.male_and_female),
-        ledger=ledger(joint),
-        advice=own,
-        admissible_fits=tuple(
-            Admissible(candidate.tolerance_class, candidate.interference, candidate.clearance_probability)
-            for candidate in admissible(joint, start, own.best)
-        ),
+        part_limits=joint.part,
+        ring_limits=joint.ring_limits,
+        interference=joint.interference,
+        probable_interference=probable_interference(*male_and_female),
+        clearance_probability=joint.clearance_probability,
+        clearance_probability_truncated=truncated_clearance_probability(*male_and_female),
+        required_interference=joint.required.value if joint.required else None,
+        required_by=joint.required.by if joint.required else None,
+        losses_={loss.name: loss.amount for loss in joint.losses},
+        losses=ledger(joint),
+        permitted_interference=joint.permitted.value,
+        permitted_by=joint.permitted.by,
+        hoop_stress=joint.hoop_stress,
+        part_stress=joint.part_stress,
+        short_pairs_share=joint.short_pairs,
+        pressure_kept=joint.pressure_kept,
+        interference_by_temperature=joint.interference_by_temperature,
+        maker_fits=(*maker.classes, *maker.special) if maker else (),
+        catalogue_fit=joint.catalogue_class,
+        rule_fit=rule,
+        recommended_fit=recommended,
+        rejected_fits=own.rejected,
+        admissible_fits=admissible(joint, start, own.best),
         load_intensity=seat_intensity(bearing, joint),
         creep=creep_result,
         requirements=seat_requirements(joint, wanted, bearing.bearing_class),
         form=seat_form(joint, joint.tolerance_class if given and not joint.measured else wanted, bearing.bearing_class),
         asked_interference=asked,
-        selection=selection,
-        groups=groups,
+        selective_groups=selection.groups if selection else None,
+        selective_interference=selection.interference if selection else None,
+        sorting_groups=groups,
         repair=_repair(bearing, joint, wanted),
-        notes=seat_notes(bearing, joint, own, given, asked, selection, rule),
+        notes=(*seat_notes(bearing, joint, own, given, asked, selection, rule), *clearance_note(both)),
+        diameter=joint.diameter,
+        ring_width=joint.ring.width,
+        chamfer=joint.ring.chamfer,
         checks=seat_checks(bearing, joint, recommended, rule)
         + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended)
         + short_pair_checks(bearing.name, joint, recommended),
-        rule_fit=rule,
+        **alike,
     )
 
 
-def _sorting(joint: Joint, asked: Interval | None) -> "tuple[Selection | None, tuple[Group, ...]]":
+def _sorting(joint: Joint, asked: Interval | None) -> tuple[Selection | None, tuple[SortingGroup, ...]]:
     if asked is None:
         return None, ()
-    from abu_calc.features.seats.notes import selective_groups, sorting_groups
-
     selection = selective_groups(*joint.male_and_female, asked)
-    return selection, sorting_groups(*joint.male_and_female, selection.groups) if selection else ()
+    return selection, (sorting_groups(joint.part, joint.ring_limits, joint.seat, selection.groups) if selection else ())
 
 
-def _repair(bearing: SeatedBearing, joint: Joint, advised: str) -> "SeatRepair | None":
+def _repair(bearing: SeatedBearing, joint: Joint, advised: str) -> Repair | None:
     """Repair to the drawing's tolerance class; to the advised one if the drawing gives none.
 
     None if no limits are measured.
     """
     if joint.measured is None:
         return None
-    from abu_calc.features.seats.drawing_requirements import seat_repair
-
     part = bearing.shaft if joint.seat == "shaft" else bearing.housing
     return seat_repair(joint, part.fit or advised, bearing.designation)
 

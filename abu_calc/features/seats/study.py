@@ -3,8 +3,7 @@
 from dataclasses import replace
 from typing import Any, ClassVar
 
-from abu_calc.features.seats.records import SeatResult, seat_results
-from abu_calc.features.seats.seats import BearingSeats, bearing_notes, seat_bearings
+from abu_calc.features.seats.seats import BearingSeats, SeatResult, bearing_notes, seat_bearings
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import record
 from abu_calc.inputs.read_machine import Machine
@@ -52,7 +51,7 @@ def check_fit(machine: Machine) -> CheckFitResult:
         provenance=replace(
             provenance, defaults=tuple(default for default in provenance.defaults if default[0].startswith("bearing["))
         ),
-        seats=tuple(seat for bearing in judged for seat in seat_results(bearing)),
+        seats=tuple(seat for bearing in judged for seat in bearing.seats),
         judged=judged,
     )
 

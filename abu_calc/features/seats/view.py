@@ -8,8 +8,10 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final, TypeAlias
 
-from abu_calc.features.seats.interference import of_all
-from abu_calc.features.seats.records import Clearance, Pair, Repair, Requirements, SeatResult
+from abu_calc.features.seats.clearance import Clearance
+from abu_calc.features.seats.drawing_requirements import Repair, Requirements
+from abu_calc.features.seats.interference import Pair, of_all
+from abu_calc.features.seats.seats import SeatResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.quantity import quantities

@@ -18,7 +18,7 @@ def um(metres: float) -> float:
 
 
 def warmth(seat) -> float:
-    return um(next(loss.value for loss in seat.losses if loss.name == "temperature"))
+    return um(next(loss.amount for loss in seat.losses if loss.name == "temperature"))
 
 
 @pytest.mark.parametrize("difference", [-20.0, 20.0])
@@ -83,19 +83,20 @@ def test_a_worn_shaft_tells_its_grip_and_what_a_repair_must_restore():
 
 def test_groups_of_the_bench_by_a_count_of_parts():
     """Three groups of k6 on a bore of 0/−15: limits by hand, shares by counting normal parts inside their fields."""
-    groups = sorting_groups(DeviationLimits(2e-6, 21e-6), DeviationLimits(-15e-6, 0.0), 3)
-    assert [(um(one.male.lower), um(one.male.upper)) for one in groups] == [
+    groups = sorting_groups(DeviationLimits(2e-6, 21e-6), DeviationLimits(-15e-6, 0.0), "shaft", 3)
+    assert [(um(one.part_limits.lower), um(one.part_limits.upper)) for one in groups] == [
         (2, 8.3333), (8.3333, 14.6667), (14.6667, 21)]  # fmt: skip
-    assert [(um(one.female.lower), um(one.female.upper)) for one in groups] == [(-15, -10), (-10, -5), (-5, 0)]
+    rings = [(um(one.ring_limits.lower), um(one.ring_limits.upper)) for one in groups]
+    assert rings == [(-15, -10), (-10, -5), (-5, 0)]
     for one in groups:
-        assert one.interference.smallest == pytest.approx(one.male.lower - one.female.upper)
-        assert one.interference.largest == pytest.approx(one.male.upper - one.female.lower)
+        assert one.interference[0] == pytest.approx(one.part_limits.lower - one.ring_limits.upper)
+        assert one.interference[1] == pytest.approx(one.part_limits.upper - one.ring_limits.lower)
     inside = [0.5 * (math.erf(b / 2**0.5) - math.erf(a / 2**0.5)) for a, b in ((-3, -1), (-1, 1), (1, 3))]
-    assert [one.share for one in groups] == pytest.approx([one / sum(inside) for one in inside])
-    assert sum(one.share for one in groups) == pytest.approx(1)
+    assert [one.pairs_of_100 for one in groups] == pytest.approx([100 * one / sum(inside) for one in inside])
+    assert sum(one.pairs_of_100 for one in groups) == pytest.approx(100)
     found = seats(asked_interference_um=(10.0, 28.0)).shaft
-    assert len(found.groups) == 3 and "Every pair has the required" in found.notes[-1]
-    assert seats(asked_interference_um=(0.0, 40.0)).shaft.groups == ()
+    assert len(found.sorting_groups) == 3 and "Every pair has the required" in found.notes[-1]
+    assert seats(asked_interference_um=(0.0, 40.0)).shaft.sorting_groups == ()
 
 
 @pytest.mark.parametrize("share", [0.0, 1e-9, 3e-6, 2e-4, 0.004, 0.03, 0.2, 0.5, 0.8, 0.97, 0.999, 1 - 1e-9, 1.0])

@@ -25,15 +25,15 @@ def um(metres: float) -> float:
 
 def test_the_ledger_lists_every_loss_and_what_counts():
     shaft = seats(shaft_fit="m6", shaft_rz_um=4.0, ring_temperature_difference_K=10.0, speed_rpm=3000.0).shaft
-    told = [(item.loss.name, um(item.loss.value), item.counted) for item in shaft.ledger]
+    told = [(loss.name, um(loss.amount), loss.counted) for loss in shaft.losses]
     assert told[0] == ("load", pytest.approx(13 * 3 * 2.8 / 29, abs=1e-5), False)
     assert told[1] == ("load", pytest.approx(0.08 * math.sqrt(80 * 3000 / 33), abs=1e-5), True)
     assert told[2] == ("smoothing", pytest.approx(0.4 * 4), True)
     assert told[3] == ("smoothing", pytest.approx(11 * 2 / 82, abs=1e-5), False)  # 11 − 11·80/82
     assert told[4] == ("temperature", pytest.approx(12e-6 * 80e3 * 10), True)
     assert [name for name, _, _ in told[5:]] == ["centrifugal growth"]
-    assert "unverified" in shaft.ledger[3].loss.formula
-    counted = sum(item.loss.value for item in shaft.ledger if item.counted)
+    assert "unverified" in shaft.losses[3].formula
+    counted = sum(loss.amount for loss in shaft.losses if loss.counted)
     assert counted == pytest.approx(shaft.required_interference, rel=1e-12)
 
 
@@ -59,17 +59,17 @@ def test_friction_torque_of_the_example():
     shaft = seats(shaft_fit="m6", starting_torque_N_m=100.0).shaft
     pressure = 206e9 * 11e-6 * (1 - (80 / 96.8) ** 2) / 0.160
     strips = sum(0.12 * pressure * (0.040 * math.tau / 360) * 0.029 * 0.040 for _ in range(360))
-    assert shaft.creep.least_torque == pytest.approx(strips, rel=1e-9)
+    assert shaft.creep.friction_moment[0] == pytest.approx(strips, rel=1e-9)
     assert slip_torque(0.12, pressure, 0.080, 0.029) == pytest.approx(strips, rel=1e-9)
-    assert shaft.creep.probable_torque > shaft.creep.least_torque
+    assert shaft.creep.friction_moment[1] > shaft.creep.friction_moment[0]
     assert shaft.creep.holds_at_start is True
 
 
 def test_losses_lower_the_friction_torque_and_speed_does_not():
-    plain = seats(shaft_fit="m6").shaft.creep.least_torque
-    rough = seats(shaft_fit="m6", shaft_rz_um=4.0).shaft.creep.least_torque
+    plain = seats(shaft_fit="m6").shaft.creep.friction_moment[0]
+    rough = seats(shaft_fit="m6", shaft_rz_um=4.0).shaft.creep.friction_moment[0]
     assert rough == pytest.approx(plain * (11 - 1.6) / 11)
-    assert seats(shaft_fit="m6", speed_rpm=3000.0).shaft.creep.least_torque == plain
+    assert seats(shaft_fit="m6", speed_rpm=3000.0).shaft.creep.friction_moment[0] == plain
 
 
 def displacement(r: float, a: float, b: float, inside: float, outside: float) -> float:
@@ -138,20 +138,20 @@ def test_the_source_recommends_m6_and_the_loose_ring_its_own_field():
 def test_the_drawing_of_the_example():
     shaft, housing = (seat.requirements for seat in seats().seats)
     assert (shaft.field, um(shaft.limits.lower), um(shaft.limits.upper)) == ("m6", 11, 30)
-    assert um(shaft.form) == 19 / 4 and um(housing.form) == 10
+    assert um(shaft.roundness) == um(shaft.profile) == 19 / 4 and um(housing.roundness) == 10
     assert (um(shaft.roughness_Ra), um(housing.roughness_Ra)) == (1.25, 2.5)  # 80 mm is still the smaller row
     assert (shaft.shoulder_runout_grade, um(shaft.shoulder_runout)) == ("IT7", 30)
     assert (housing.shoulder_runout_grade, um(housing.shoulder_runout)) == ("IT8", 63)
     assert "unverified" in shaft.source
     fine = seats(bearing_class="4").shaft.requirements
-    assert (um(fine.form), um(fine.roughness_Ra), um(fine.shoulder_runout)) == (8 / 8, 0.32, 8)  # k4
+    assert (um(fine.profile), um(fine.roughness_Ra), um(fine.shoulder_runout)) == (8 / 8, 0.32, 8)  # k4
 
 
 def test_finer_classes_ask_for_more():
     order = [seats(bearing_class=name).seats for name in ("0", "6", "5", "4", "2")]
     for coarse, fine in itertools.pairwise(order):
         for one, other in zip(coarse, fine, strict=True):
-            assert um(other.requirements.form) <= um(one.requirements.form)
+            assert um(other.requirements.profile) <= um(one.requirements.profile)
             assert um(other.requirements.roughness_Ra) <= um(one.requirements.roughness_Ra)
 
 
@@ -184,10 +184,10 @@ def test_groups_are_the_fewest_that_do(a, wide_a, b, wide_b, low, width):
 
 def test_a_band_is_meant_for_the_ring_that_must_grip():
     found = seats(asked_interference_um=(10.0, 28.0))
-    assert found.shaft.selection.groups == 3
+    assert found.shaft.selective_groups == 3
     assert "assembly into 3 equal groups" in found.shaft.notes[-1]
-    assert found.housing.selection is None and found.housing.asked_interference is None
+    assert found.housing.selective_groups is None and found.housing.asked_interference is None
     narrow = seats(asked_interference_um=(10.0, 12.0)).shaft
-    assert narrow.selection is None and "Sorting cannot keep k6" in narrow.notes[-1]
+    assert narrow.selective_groups is None and "Sorting cannot keep k6" in narrow.notes[-1]
     assert "17 … 21 µm" in narrow.notes[-1]
     assert "without sorting" in seats(asked_interference_um=(0.0, 40.0)).shaft.notes[-1]

@@ -5,7 +5,6 @@ from typing import Any
 
 import pytest
 
-from abu_calc.features.seats.records import seat_results
 from abu_calc.features.seats.seats import BearingSeats, seat_bearing
 from abu_calc.features.seats.view import advice_lines
 from abu_calc.foundation.errors import RangeError
@@ -130,7 +129,7 @@ def test_a_group_for_the_classes_given_says_which_group_is_enough() -> None:
     found = seat_bearing(by_designation("6206", radial_load_kN=1.5, housing_fit="N7", shaft_fit=None))
     assert found.group_to_order == "C5"
     assert any("For shaft k5 with housing H7, C3 is enough" in note for note in found.housing.notes)
-    text = "\n".join(str(block) for block in advice_lines(seat_results(found)))
+    text = "\n".join(str(block) for block in advice_lines(found.seats))
     assert "clearance C3 (C5 for the classes given)" in text
 
 

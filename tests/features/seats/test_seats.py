@@ -6,6 +6,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from abu_calc.features.seats.interference import um as micrometres
+from abu_calc.features.seats.interference import um_pair
 from abu_calc.features.seats.seats import seat_bearing
 from abu_calc.foundation.checks import overall
 from abu_calc.standards.tolerance_classes import tolerance_classes
@@ -139,9 +141,9 @@ def test_losses_count_only_where_given():
     assert um(rough.shaft.required_interference - plain.shaft.required_interference) == pytest.approx(1.6)
     assert um(rough.housing.required_interference - plain.housing.required_interference) == pytest.approx(2.52)
     hot = seats(shaft_fit="m6", ring_temperature_difference_K=10.0, speed_rpm=3000.0)
-    assert [loss.name for loss in hot.shaft.losses] == ["temperature", "centrifugal growth"]
-    assert hot.shaft.losses[0].value == pytest.approx(9.6e-6)
-    assert hot.housing.losses == ()
+    assert list(hot.shaft.losses_um) == ["temperature", "centrifugal growth"]
+    assert hot.shaft.losses_um["temperature"] == pytest.approx(9.6)
+    assert hot.housing.losses_um == {}
     assert check(hot.shaft, 0).status == "warn"
     assert "temperature 9.6 µm" in check(hot.shaft, 0).message
 
@@ -198,3 +200,34 @@ def test_a_tighter_field_never_lowers_the_interference(bore, field):
         assert looser.interference.smallest <= tighter.interference.smallest
         assert looser.interference.largest <= tighter.interference.largest
         assert looser.clearance_probability >= tighter.clearance_probability
+
+
+def test_micrometres_are_free_of_the_rounding_of_metres() -> None:
+    assert micrometres(2e-6 + 1e-13) == 2.0 and um_pair((-15e-6, 0.0)) == (-15.0, 0.0)
+
+
+def test_both_seats_come_shaft_first_with_their_limits() -> None:
+    """80 k6: +2 … +21 µm, ring −15 … 0 µm (ISO 286-2, ISO 492)."""
+    shaft, housing = seats().seats
+    assert (shaft.seat, housing.seat) == ("shaft", "housing")
+    assert (shaft.part_limits_um, shaft.ring_limits_um) == ((2.0, 21.0), (-15.0, 0.0))
+    assert shaft.interference_um == (2.0, 36.0) and shaft.tightest_um == 36.0
+    assert (shaft.diameter_mm, shaft.ring_width_mm, shaft.chamfer_mm) == pytest.approx((80.0, 33.0, 2.0))
+
+
+def test_a_ring_under_a_fixed_load_needs_no_interference() -> None:
+    shaft, housing = seats().seats
+    assert housing.needs_no_grip and housing.needed_um is None and housing.needed_by is None
+    assert not shaft.needs_no_grip and shaft.needed_um == shaft.required_interference_um is not None
+
+
+def test_a_clearance_fit_has_no_tightest_interference() -> None:
+    _, housing = seats(housing_fit="G7").seats
+    assert housing.interference_um[1] < 0 and housing.tightest_um == 0.0
+
+
+def test_the_clearance_left_and_the_verdict_stand_in_both_seats() -> None:
+    judged = seat_bearing(by_designation("6208", shaft_fit="p6", housing_fit="N7", internal_clearance="CN"))
+    shaft, housing = judged.seats
+    assert shaft.internal_clearance == housing.internal_clearance is not None
+    assert shaft.bearing_verdict == housing.bearing_verdict == "fail"

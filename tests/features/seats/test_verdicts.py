@@ -356,5 +356,5 @@ def keeps_its_checks(name: str, service: dict[str, Any], shares: list[float]) ->
 )
 def test_the_counted_losses_add_up_to_the_required_interference(changes: dict[str, Any]) -> None:
     found = judged("6210", radial_load_kN=3, shaft_rz_um=2.0, **changes)
-    counted = sum(item.loss.value for item in found.shaft.ledger if item.counted)
+    counted = sum(loss.amount for loss in found.shaft.losses if loss.counted)
     assert counted == pytest.approx(found.shaft.required_interference, rel=1e-12)

@@ -13,11 +13,15 @@ from tests.cli.runner import abu
 FLESHING = ("check-fit", "mmg-3200k-knife-shaft")
 
 
+def _metres(micrometres: Sequence[float]) -> tuple[float, ...]:
+    return tuple(1e-6 * limit for limit in micrometres)
+
+
 def zones(*seats: tuple[Sequence[float], Sequence[float], str]) -> list[str]:
     """The drawing of a shaft and a housing whose ring, part and field are these."""
     known = check_fit(read_machine(FLESHING[1])).seats[:2]
     return zone_lines(*(
-        replace(row, ring_limits_um=tuple(ring), part_limits_um=tuple(part), fit=fit)
+        replace(row, ring_limits=_metres(ring), part_limits=_metres(part), fit=fit)
         for row, (ring, part, fit) in zip(known, seats, strict=True)
     ))  # fmt: skip
 
