@@ -18,7 +18,7 @@ from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_rules import OF_STARTS as OF_BALANCE
 from abu_calc.features.design.start_search import loudness, slowness
-from abu_calc.features.design.verdict import WORDS
+from abu_calc.features.design.verdict import WORDS, creeps
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import RANK, Action, Check, worst
 from abu_calc.foundation.errors import AbuError
@@ -472,6 +472,8 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
     now = next((each for each in best.after.checks if _key(each) == _key(check)), check)
     if check.code in left:
         text = f"{check.name} then warns"
+    elif creeps(check):
+        text = "the balls then come to rest"
     elif found is not None:
         number, old, new = found
         from_, to = (math.inf if value is None else value * number.per for value in (old, new))

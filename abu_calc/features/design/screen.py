@@ -81,7 +81,7 @@ def first_lines(result: SizeResult) -> tuple[Block, ...]:
         *(() if result.verdict.leave_out else
           (*labelled("Make" if result.status == "pass" else "Best", _make(result)), BLANK)),
         numbers(result), BLANK, *_runs(result), *_assumed(result), *_arm(result),
-        *replaced(result), *next_lines(result.verdict, result.checks, result.warnings),
+        *replaced(result), *(next_lines(result.verdict, result.checks, result.warnings) or _in_use(result)),
     )  # fmt: skip
 
 
@@ -117,7 +117,7 @@ def _make(result: SizeResult) -> list[str]:
         f"housing Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
         f"{section.bore_diameter_mm:g} {fit}, {abu.housing.split(':')[0]}; {number(abu.mass_g, 3)} g, "
         f"{number(100 * abu.mass_fraction, 2)} %",
-        f"run-out TIR: race to bore ≤ {split.race_tir_um:.3g}, spindle ≤ {split.spindle_tir_um:.3g} µm "
+        f"run-out TIR: race to bore ≤ {split.race_tir_um:.3g} µm, spindle ≤ {split.spindle_tir_um:.3g} µm "
         f"({split.total_um:.3g} µm off axis)",
         _capacity(result),
     ]
@@ -127,13 +127,14 @@ def _capacity(result: SizeResult) -> str:
     """What the balls carry and must carry, and why that is more than the imbalance."""
     bare, own, model = result.required_capacity_g_mm, result.autobalancer.capacity_g_mm, result.model
     limit = next((check.limit for check in result.checks if check.code == "ABU201"), None) or bare
+    if not bare:
+        return f"carries {number(own, 4)} g·mm"
     named = ("imbalance", result.imbalance_g_mm), ("wheel run-out", model.runout_part_g_mm)
     parts = [(name, part) for name, part in (*named, ("race", model.eccentricity_part_g_mm)) if part > LEAST_SHARE]
     needed = " + ".join(f"{name} {number(part, 3)}" for name, part in parts)
-    margin = f"{limit / bare:.3g} × ({needed})" if bare and limit > bare else needed
+    least = "" if own >= limit else f", at least {limit / bare:.3g} ×"
     large = "; larger balls roll more easily" if own > AMPLE * limit and result.status == "pass" else ""
-    sign = "≥" if own >= limit else "<"
-    return f"carries {number(own, 4)} {sign} {number(limit, 4)} g·mm = {margin}{large}"
+    return f"carries {number(own, 4)} g·mm, {own / bare:.3g} × what is needed: {needed}{least}{large}"
 
 
 def numbers(result: SizeResult) -> Grid:
@@ -388,6 +389,14 @@ def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str
         brief = re.sub(r" \(viscosity index[^)]*\)", "", capitalised(verdict.change))  # the command has it
         promised = f"{brief}: {promised.partition(': ')[2].replace(' Keep balls and race.', '')}"
     return [*labelled("Next", [promised]), Paragraph(verdict.next, whole=True)]
+
+
+def _in_use(result: SizeResult) -> list[Block]:
+    """How to use what suits: pressed early, it may be louder than without."""
+    loaded = result.vibration_loaded
+    if result.verdict.word != "suits" or loaded is None or not louder(loaded.level_at_once_db, loaded.level_before_db):
+        return []
+    return labelled("Next", ["press only when it is quiet: before, it is louder than without"])
 
 
 def replaced(result: Result) -> list[Block]:
