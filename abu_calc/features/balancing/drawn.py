@@ -7,7 +7,8 @@ import math
 from collections.abc import Iterable
 from typing import Final
 
-from abu_calc.features.balancing.records import PlaneCorrection, RunReadings
+from abu_calc.features.balancing.case import RunReadings
+from abu_calc.features.balancing.solution import PlaneCorrection
 from abu_calc.features.balancing.study import BalanceResult
 
 WIDTH: Final = 36

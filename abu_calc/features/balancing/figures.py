@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Final
 
 from abu_calc.features.balancing.drawn import lag_of, sense_of, sketch_words
-from abu_calc.features.balancing.records import PlaneCorrection
+from abu_calc.features.balancing.solution import PlaneCorrection
 from abu_calc.features.balancing.study import BalanceResult
 from abu_calc.features.balancing.view import misfit, orders_of
 from abu_calc.features.explain.steps import STEPS, step_blocks

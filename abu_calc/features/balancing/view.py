@@ -6,16 +6,11 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
+from abu_calc.features.balancing.case import RunReadings, SensorReading
+from abu_calc.features.balancing.corrections import Share
 from abu_calc.features.balancing.drawn import LEGEND, drawing, plane_picture, sense_of, sketch
-from abu_calc.features.balancing.records import (
-    PlaneCorrection,
-    ResidualCheck,
-    RunReadings,
-    SensorReading,
-    Share,
-    Verification,
-)
-from abu_calc.features.balancing.study import BalanceResult
+from abu_calc.features.balancing.solution import PlaneCorrection
+from abu_calc.features.balancing.study import BalanceResult, ResidualCheck, Verification
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import one_screen, verdict_line
