@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
+from abu_calc.features.balancing.corrections import Share
 from abu_calc.features.balancing.drawn import (
     ACROSS,
     HEIGHT,
@@ -17,7 +18,6 @@ from abu_calc.features.balancing.drawn import (
     sketch_words,
 )
 from abu_calc.features.balancing.figures import balance_extras
-from abu_calc.features.balancing.corrections import Share
 from abu_calc.features.balancing.solution import PlaneCorrection
 from tests.features.balancing.field import Fan
 from tests.features.balancing.rig import RIG, ROTOR, Workshop, written
