@@ -1,9 +1,8 @@
 """Results of `abu identify`: values with intervals, every start, and what they rest on."""
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar, Final, Self
+from typing import Annotated, ClassVar, Final
 
-from abu_calc.features.identification.bench import BenchValues
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.result import Result
@@ -16,6 +15,20 @@ class IdentifiedValue(Record):
     value: Annotated[float, Quantity("value", "", 4)]
     low: Annotated[float, Quantity("low", "", 4)]
     high: Annotated[float, Quantity("high", "", 4)]
+
+
+@record
+class ExpectedValues(Record):
+    """Values of the file, each with the interval that the starts will give; null where they will give none."""
+
+    rolling_drag_per_s: Annotated[IdentifiedValue | None, Quantity("viscous drag rate", "h₀", 4, "1/s")] = None
+    rolling_friction_mm: Annotated[
+        IdentifiedValue | None, Quantity("lever arm of rolling friction", "k_r", 4, "mm")
+    ] = None
+    race_eccentricity_mm: Annotated[IdentifiedValue | None, Quantity("race eccentricity", "Δ", 4, "mm")] = None
+    race_eccentricity_angle_deg: Annotated[
+        IdentifiedValue | None, Quantity("its angle from the mark", "φ", 4, "deg")
+    ] = None
 
 
 KEYS: Final = ("rolling_drag_per_s", "rolling_friction_mm", "race_eccentricity_mm")
@@ -45,24 +58,15 @@ class BenchRecord(Record):
     rolling_drag_per_s: Annotated[IdentifiedValue, Quantity("viscous drag rate at low slip", "h₀", 4, "1/s")]
     rolling_friction_mm: Annotated[IdentifiedValue, Quantity("lever arm of rolling friction", "k_r", 4, "mm")]
 
-    @classmethod
-    def of(cls, film: BenchValues) -> Self:
-        """Values with two standard errors to both sides."""
-        drag, lever = (
-            IdentifiedValue(value=value * unit, low=max(0.0, value - 2 * error) * unit, high=(value + 2 * error) * unit)
-            for value, error, unit in ((film.drag, film.drag_error, 1.0), (film.lever, film.lever_error, 1e3))
-        )
-        return cls(rolling_drag_per_s=drag, rolling_friction_mm=lever)
-
 
 @record
 class StartCourse(Record):
     """One start: distance of the axis from its end over time, as measured."""
 
     file: Annotated[str, Quantity("recording")]
-    end_um: Annotated[tuple[float, float], Quantity("end from the mark", "", 4)]
-    distance_um: Annotated[tuple[float, ...], Quantity("distance from the end", "", 4)]
-    predicted_um: Annotated[tuple[float, ...] | None, Quantity("simulated with the identified values", "", 4)]
+    end: Annotated[tuple[float, float], Quantity("end from the mark", unit="um")]
+    distance: Annotated[tuple[float, ...], Quantity("distance from the end", unit="um")]
+    predicted: Annotated[tuple[float, ...] | None, Quantity("simulated with the identified values", unit="um")]
 
 
 @record
@@ -79,11 +83,11 @@ class IdentifyResult(Result):
     race_eccentricity_angle_deg: Annotated[IdentifiedValue | None, Quantity("its angle from the mark", "φ", 4, "deg")]
     starts: Annotated[int, Quantity("recorded starts")]
     mark: Annotated[bool, Quantity("a mark was recorded")]
-    noise_um: Annotated[float, Quantity("noise of a recorded place", "σ", 3)]
+    noise: Annotated[float, Quantity("noise of a recorded place", "σ", 3, unit="um")]
     friction_number: Annotated[
         float | None, Quantity("friction over gravity", "Λ", 3, "below 1 gravity shakes friction out")
     ]
-    residual_um: Annotated[float, Quantity("mean distance of the ends from the axis", "", 3)]
+    residual: Annotated[float, Quantity("mean distance of the ends from the axis", "", 3, unit="um")]
     fits_worse_share: Annotated[float | None, Quantity("simulated sets that fit worse", "", 2, percent=True)]
     run_up_s: Annotated[float, Quantity("run-up time", "", 3)]
     measured_run_up_s: Annotated[float | None, Quantity("run-up time by the mark", "", 3)]

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from typing import Final
 
 from abu_calc.features.explain.steps import STEPS, step_blocks
-from abu_calc.features.identification.plan import ExpectedValues, MeasurePlanResult
-from abu_calc.features.identification.results import IdentifiedValue, IdentifyResult
+from abu_calc.features.identification.plan import MeasurePlanResult
+from abu_calc.features.identification.results import ExpectedValues, IdentifiedValue, IdentifyResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
