@@ -10,8 +10,8 @@ from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import body_advice
-from abu_calc.sizing.type_test import ChosenWheel, required
-from abu_calc.standards.type_test import uncertainty_source
+from abu_calc.sizing.type_test import required
+from abu_calc.standards.type_test import TestWheel, uncertainty_source
 
 DOUBTFUL: Final = 0.01
 """Share of starts without an end that calls for a remark."""
@@ -19,7 +19,7 @@ STRAIGHT: Final = "straight"
 
 
 def remarks(
-    design: Design, wheel: ChosenWheel, spindle: Spindle, imbalance_alone: float, test: SimulatedTest | None,
+    design: Design, wheel: TestWheel, spindle: Spindle, imbalance_alone: float, test: SimulatedTest | None,
     with_: WithAutobalancer | None,
 ) -> Iterator[str]:  # fmt: skip
     """Remarks, those that move the value most first. `imbalance_alone`: a_hv without background [m/s²]."""
@@ -53,7 +53,7 @@ def remarks(
         )
 
 
-def beyond_capacity(design: Design, wheel: ChosenWheel, even: float | None) -> Iterator[str]:
+def beyond_capacity(design: Design, wheel: TestWheel, even: float | None) -> Iterator[str]:
     """Remark on a break-even eccentricity [m] at which the balls no longer carry the test wheel at every angle."""
     if even is None:
         return
@@ -80,7 +80,7 @@ def _background(spindle: Spindle, imbalance_alone: float) -> Iterator[str]:
         )
 
 
-def _sources(design: Design, wheel: ChosenWheel) -> Iterator[str]:
+def _sources(design: Design, wheel: TestWheel) -> Iterator[str]:
     layout = design.case.table.machine.layout
     if layout != STRAIGHT and wheel.status == "secondary":
         yield (

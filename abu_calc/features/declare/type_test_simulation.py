@@ -5,7 +5,6 @@ another displacement at each start, and both move the handles: a_hv = W_h Ω²·
 """
 
 import math
-from collections.abc import Sequence
 from functools import cached_property
 from typing import Final
 
@@ -208,16 +207,3 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
                 break
             high *= FURTHER
     return BreakEven(ideal, estimated, found, tuple(sorted(tried.items())))
-
-
-def causes(test: SimulatedTest, name: str) -> Sequence[tuple[str, float]]:
-    """Each cause at a handle alone [m/s² rms]: race eccentricity, friction, imbalance in another plane, background."""
-    gain = next(each for each in test.spindle.body.gains if each.name == name)
-    race, scale = math.sqrt(gain.race), test.spindle.gain
-    parts = {
-        "race eccentricity": scale * race * test.eccentricity,
-        "rolling friction": scale * race * test.friction_rms,
-        "test wheel": scale * math.sqrt(gain.imbalance) * test.imbalance,
-        "background": test.spindle.background,
-    }
-    return sorted(parts.items(), key=lambda part: -part[1])
