@@ -6,7 +6,7 @@ The motion is a recording, or a simulated one: at the axis of a scene, or where 
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Final, Generic, TypeVar
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from abu_calc.features.levels.octaves import (
     hand_arm_filter,
     octave_filter,
     place_filter,
-    third_octave_filter,
     weighted_rms,
     why_not,
 )
@@ -37,20 +36,14 @@ ENDS: Final = 0.1
 """Share of a record at either end over which its mean rises and falls: parts of periods count for less."""
 
 
-@dataclass(frozen=True)
-class Band:
-    """Rms velocity [m/s] in an octave; None with the reason why it is not known."""
-
-    octave: Octave
-    velocity: float | None
-    reason: str | None = None
+Width = TypeVar("Width", Octave, ThirdOctave)
 
 
 @dataclass(frozen=True)
-class ThirdBand:
-    """Rms velocity [m/s] in a third octave; None with the reason why it is not known."""
+class Band(Generic[Width]):
+    """Rms velocity [m/s] in an octave or a third octave; None with the reason why it is not known."""
 
-    third: ThirdOctave
+    octave: Width
     velocity: float | None
     reason: str | None = None
 
@@ -64,12 +57,12 @@ class AxisLevels:
 
     name: str
     velocity: float | None
-    bands: tuple[Band, ...]
+    bands: tuple[Band[Octave], ...]
     displacement: float | None
     acceleration: float | None
     weighted: float | None
     reason: str | None = None
-    thirds: tuple[ThirdBand, ...] = ()
+    thirds: tuple[Band[ThirdOctave], ...] = ()
 
     @property
     def corrected(self) -> float | None:
@@ -110,13 +103,19 @@ class PlaceLevels:
         """True if every octave is known."""
         return all(band.velocity is not None for axis in self.axes for band in axis.bands)
 
-    def loudest(self, index: int) -> Band:
-        """An octave on the axis where it is loudest."""
-        return max((axis.bands[index] for axis in self.axes), key=lambda band: band.velocity or -1.0)
+    @property
+    def loudest(self) -> tuple[Band[Octave], ...]:
+        """Each octave on the axis where it is loudest."""
+        return _loudest([axis.bands for axis in self.axes])
 
-    def loudest_third(self, index: int) -> ThirdBand:
-        """A third octave on the axis where it is loudest."""
-        return max((axis.thirds[index] for axis in self.axes), key=lambda band: band.velocity or -1.0)
+    @property
+    def loudest_thirds(self) -> tuple[Band[ThirdOctave], ...]:
+        """Each third octave on the axis where it is loudest."""
+        return _loudest([axis.thirds for axis in self.axes])
+
+
+def _loudest(axes: Sequence[tuple[Band[Width], ...]]) -> tuple[Band[Width], ...]:
+    return tuple(max(bands, key=lambda band: band.velocity or -1.0) for bands in zip(*axes, strict=True))
 
 
 def largest(values: Iterable[float | None]) -> float | None:
@@ -139,23 +138,17 @@ def axis_levels(name: str, signal: AxisSignal, *, thirds: bool = False) -> AxisL
     wide = place_filter(), acceleration_filter(), hand_arm_filter()
     reason = why_not(signal, wide[0])
     place, acceleration, weighted = (band_rms(signal, weighting) if reason is None else None for weighting in wide)
-    narrow = tuple(_third(signal, third) for third in third_octaves()) if thirds else ()
+    narrow = tuple(_band(signal, third) for third in third_octaves()) if thirds else ()
     return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason, narrow)
 
 
-def _third(signal: AxisSignal, third: ThirdOctave) -> ThirdBand:
-    band = third_octave_filter(third)
-    reason = why_not(signal, band)
-    return ThirdBand(third, band_rms(signal, band) if reason is None else None, reason)
-
-
-def _band(signal: AxisSignal, octave: Octave) -> Band:
+def _band(signal: AxisSignal, octave: Width) -> Band[Width]:
     band = octave_filter(octave)
     reason = why_not(signal, band)
     return Band(octave, band_rms(signal, band) if reason is None else None, reason)
 
 
-def _whole(signal: AxisSignal, bands: Sequence[Band]) -> float | None:
+def _whole(signal: AxisSignal, bands: Sequence[Band[Octave]]) -> float | None:
     """Rms velocity [m/s]; of places by a spline of the fifth degree, its slope within 0.1 % at 8 samples a turn."""
     first = min(math.ceil(signal.start * signal.rate), len(signal.samples) - 2)
     if signal.derivative == 1:
@@ -210,7 +203,7 @@ def _each(axis: AxisLevels, change: Callable[[float, str | Octave | ThirdOctave]
         return None if value is None else change(value, part)
 
     bands = tuple(replace(band, velocity=changed(band.velocity, band.octave)) for band in axis.bands)
-    thirds = tuple(replace(band, velocity=changed(band.velocity, band.third)) for band in axis.thirds)
+    thirds = tuple(replace(band, velocity=changed(band.velocity, band.octave)) for band in axis.thirds)
     return replace(
         axis,
         bands=bands,

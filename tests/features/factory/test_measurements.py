@@ -60,4 +60,4 @@ def test_a_file_has_its_own_name(tmp_path: Path) -> None:
 
 def test_soft_races_are_those_of_practice() -> None:
     soft = soft_race()
-    assert soft.short == "IV-2014, Sh-2203" and soft.friction == pytest.approx((1e-5, 5e-5))
+    assert soft["short"] == "IV-2014, Sh-2203" and soft["friction_mm"] == [0.01, 0.05]

@@ -29,7 +29,7 @@ PLACE = PlaceLevels(
 
 def test_a_place_takes_the_largest_of_its_axes() -> None:
     assert PLACE.velocity == 3e-3 and PLACE.louder("acceleration") == 9.0 and PLACE.total is None
-    assert not PLACE.complete and PLACE.loudest(4).velocity == 3e-3
+    assert not PLACE.complete and PLACE.loudest[4].velocity == 3e-3
     weighted = replace(
         PLACE, axes=tuple(replace(axis, weighted=a) for axis, a in zip(PLACE.axes, (3.0, 4.0), strict=True))
     )
