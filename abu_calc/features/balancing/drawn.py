@@ -31,6 +31,11 @@ def drawing(
     return [f"  {line:<{WIDTH}}  {other}".rstrip() for line, other in zip(*pictures, strict=True)]
 
 
+def called(name: str) -> str:
+    """A plane by its name."""
+    return "plane" if name == "single" else f"{name} plane"
+
+
 def sense_of(turns_from_left: str) -> int:
     """1 if the rotor turns counterclockwise to one at its left end: degrees against rotation then run clockwise."""
     return 1 if turns_from_left == "counterclockwise" else -1
@@ -106,8 +111,7 @@ def sketch_words(result: BalanceResult) -> list[str]:
         words.append(
             f"The high spot h of the vibration {passes}: the phase of sensor {sensor.name} in run 1, {run.phase}."
         )
-    plane_name = "the plane" if name == "single" else f"the {name} plane"
-    words.append(f"The heavy spot o of {plane_name} is {plane.angle_deg:.1f}° from 0 against rotation.")
+    words.append(f"The heavy spot o of the {called(name)} is {plane.angle_deg:.1f}° from 0 against rotation.")
     return words
 
 

@@ -113,11 +113,6 @@ def _rounded(mass: float) -> float:
     return round(math.floor(mass / step + 1e-9) * step, 15)
 
 
-def known_influence(case: Balancing) -> Matrix | None:
-    """Influence of the planes by the rig's data at the speed of the first run; None without them."""
-    return None if case.roll is None else influence(case.roll, case.runs[0].speed)
-
-
 @dataclass(frozen=True)
 class WantedRun:
     """A run that is missing: its speed [rad/s], the plane of its trial mass (None: none), its angle [degrees], and the
@@ -197,7 +192,8 @@ def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[st
         yield f"Next run: {rpm}, {name}the trial mass of {from_si(wanted.before.mass, 'g'):.3g} g {at}."
         return
     own = [run for run in case.runs if run.speed == wanted.speed]
-    proposed = next((each for each in proposals(file, own, known_influence(case)) if each.plane == plane), None)
+    matrix = influence(case.roll, case.runs[0].speed) if case.roll else None
+    proposed = next((each for each in proposals(file, own, matrix) if each.plane == plane), None)
     if proposed is None:
         yield f"Next run: {rpm}, {name}a trial mass {at}."
         yield "Give rotor.mass_kg to have a safe trial mass proposed."
