@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from typing import Annotated, ClassVar, Final
 
 from abu_calc.features.balancing.corrections import Drill, Making
-from abu_calc.features.balancing.errors import Deviations
 from abu_calc.features.balancing.formulas import RollOnRig
 from abu_calc.features.balancing.instrument import Instrument
 from abu_calc.features.balancing.read import Readings
 from abu_calc.features.balancing.recording.recorded_run import RecordedRun, read_rig_record, recorded_run
 from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
-from abu_calc.features.balancing.tables import PLANES, Errors, ReadingsFile, Run, Trial
+from abu_calc.features.balancing.tables import PLANES, ReadingsFile, Run, Trial
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, to_si, wrapped_deg
@@ -142,21 +141,15 @@ def behind_the_mark(file: ReadingsFile, angle_deg: float) -> float:
 
 def making_of(file: ReadingsFile) -> Making:
     """Limits, stock and drill of the corrections in SI."""
-    how, drill = file.correction, None
+    how, values, drill = file.correction, file.correction.in_si(), None
     if how.drill_diameter_mm is not None:
-        most = None if how.max_hole_depth_mm is None else to_si(how.max_hole_depth_mm, "mm")
         drill = Drill(
-            to_si(how.drill_diameter_mm, "mm"), how.density, how.drill_direction == "radial",
-            math.radians(how.drill_point_deg or 180.0), most,
+            values["drill_diameter"], how.density, how.drill_direction == "radial", values["drill_point"] or math.pi,
+            values["max_hole_depth"],
         )  # fmt: skip
-
-    def grams(value: float | None) -> float | None:
-        return None if value is None else to_si(value, "g")
-
     return Making(
-        grams(file.rotor.max_removable_g), grams(how.max_added_g), grams(how.max_per_place_g),
-        tuple(sorted(to_si(weight, "g") for weight in how.stock_weights_g or ())), drill,
-        None if how.hole_spacing_mm is None else to_si(how.hole_spacing_mm, "mm"),
+        file.rotor.in_si()["max_removable"], values["max_added"], values["max_per_place"],
+        tuple(sorted(values["stock_weights"] or ())), drill, values["hole_spacing"],
     )  # fmt: skip
 
 
@@ -173,16 +166,6 @@ def _roll(file: ReadingsFile) -> RollOnRig | None:
     return RollOnRig(
         rig.left_support_mass_kg, rig.right_support_mass_kg, rig.left_stiffness_N_per_m, rig.right_stiffness_N_per_m,
         rig.damping_ratio, rotor.mass_kg or 0.0, rotor.transverse_inertia_kg_m2 or 0.0, a, b, c, d,
-    )  # fmt: skip
-
-
-def deviations(errors: Errors) -> Deviations:
-    """The errors of the file in SI."""
-    return Deviations(
-        errors.amplitude_percent / 100, math.radians(errors.phase_deg), errors.speed_percent / 100,
-        errors.support_mass_percent / 100, errors.stiffness_percent / 100, errors.damping_ratio,
-        errors.rotor_mass_percent / 100, errors.inertia_percent / 100, to_si(errors.length_mm, "mm"),
-        errors.placed_mass_percent / 100, math.radians(errors.placed_angle_deg), errors.coefficient_percent / 100,
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Final
 
 import numpy as np
 
-from abu_calc.features.balancing.case import RunReadings, balancing, behind_the_mark, deviations, making_of, mass_of
+from abu_calc.features.balancing.case import RunReadings, balancing, behind_the_mark, making_of, mass_of
 from abu_calc.features.balancing.corrections import Making, Share, correction, total, turned
 from abu_calc.features.balancing.errors import (
     ROUNDING,
@@ -170,11 +170,11 @@ class Found:
 
 def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coefficients | None = None) -> Found:
     """The answer of a file. Raises InputError, and NotTrustworthyError where errors would be larger than it."""
-    case, sigma = balancing(file, tuple(taken), coefficients), deviations(file.errors)
+    case, sigma = balancing(file, tuple(taken), coefficients), Deviations(**file.errors.in_si())
     fitted = tuple(mass_of(file, mass) for mass in file.correction.fitted)
     replaced = fitted if file.correction.answer == "total" else ()
     answer = _answer(case, method_of(case), sigma, replaced)
-    service, making = _service_speed(file, case), making_of(file)
+    service, making = file.tolerance.in_si()["service_speed"] or max(run.speed for run in case.runs), making_of(file)
     radii = tuple(to_si(radius, "mm") for radius in file.radii_mm)
     shares: list[tuple[Share, ...]] = [
         () if answer.below else _shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)
@@ -201,7 +201,7 @@ def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coeffic
         disagreement=disagreement,
         tolerance=tolerance_of(file, service),
         service_speed=service,
-        bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
+        bending_speed=file.rotor.in_si()["first_bending_speed"],
         planes=file.planes,
         radii=radii,
         making=making,
@@ -267,10 +267,6 @@ def _of_fitted(case: Balancing, fitted: Sequence[TrialMass], sigma: Deviations) 
     ]  # fmt: skip
 
 
-def _or_none(value: float | None, unit: str) -> float | None:
-    return None if value is None else to_si(value, unit)
-
-
 def _hopeless(case: Balancing, method: Method, share: float) -> str:
     masses = {"runs without phase": [], "trial masses": ["heavier trial masses"]}.get(method, ["trial masses"])
     *ways, last = ["Another speed", "smaller errors", *masses, *["planes farther apart"] * (case.planes == 2)]
@@ -330,11 +326,6 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
     placed = placing([(Q,) for Q in solution.imbalance], sigma)
     left = remainders(there, solved(there, "rig data"), changes(there, "rig data", sigma), placed, (0j, 0j))
     return speed, _error_share(left)
-
-
-def _service_speed(file: ReadingsFile, case: Balancing) -> float:
-    given = file.tolerance.service_speed_rpm
-    return max(run.speed for run in case.runs) if given is None else to_si(given, "rpm")
 
 
 def _shares(file: ReadingsFile, making: Making, plane: int, Q: complex, radius: float) -> tuple[Share, ...]:
