@@ -38,6 +38,7 @@ from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.type_test import TypeTest
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.sizing import size as size_design
@@ -159,8 +160,7 @@ def _wheel(tables: MachineFile) -> TestWheel:
     wheel = chosen_wheel(tables)
     if wheel is not None:
         return wheel
-    test = tables.type_test
-    given = None if test is None else test.test_wheel_diameter_mm
+    given = tables.type_test and tables.type_test.test_wheel_diameter_mm
     raise InputError(
         "there is no built-in test wheel of this diameter",
         place=Place(key="wheel.diameter_mm" if given is None else "type_test.test_wheel_diameter_mm"),
@@ -216,10 +216,11 @@ def _result(
     used = None if tested is None or tested.in_use is None else max(tested.in_use.means.values())
     imbalance_alone = math.sqrt(max(bare[highest] ** 2 - spindle.background**2, 0.0))
     bare_band, band = declared_bands(case, design.autobalancer, wheel.imbalance) or (None, None)
+    asked, limit = table.type_test or TypeTest(), imbalance_alone / math.sqrt(spindle.factor**2 - 1)
     plan = Plan(
         orientations=spindle.orientations,
-        runs=1 if table.type_test is None else table.type_test.runs,
-        operators=3 if table.type_test is None else table.type_test.operators,
+        runs=asked.runs,
+        operators=asked.operators,
         starts=0 if test is None else len(test.turns),
         seed=SEED,
         moving=0 if test is None else test.ends.moving,
@@ -230,22 +231,11 @@ def _result(
         checks=(balancing, *_comparison(machine, design, wheel, bare[highest], uncertainty, tested, with_)),
         warnings=(
             *machine.warnings,
-            *remarks(design, wheel, spindle, imbalance_alone, test, with_),
+            *remarks(design, wheel, spindle, limit, test, with_),
             *beyond_capacity(design, wheel, even.simulated),
         ),
         provenance=Provenance.of(machine),
-        model=DeclareModel(
-            speed_rad_per_s=case.speed,
-            weighting=spindle.gain / case.speed**2,
-            mass_without_autobalancer_kg=case.body.mass,
-            mass_kg=design.system_mass,
-            effective_mass_kg=spindle.body.effective_mass,
-            friction_band_m=spindle.balls.band,
-            race_eccentricity_m=case.race_eccentricity,
-            handles=tuple(gain.name for gain in spindle.body.gains),
-            transmission=tuple(math.sqrt(gain.race) for gain in spindle.body.gains),
-            rest=tuple(math.sqrt(gain.imbalance) for gain in spindle.body.gains),
-        ),
+        model=_model(design, spindle),
         test_wheel=wheel,
         handle=highest if test is None else test.highest,
         body=_body(case),
@@ -267,7 +257,7 @@ def _result(
         lowers=test is not None and test.declared < bare[highest],
         causes=() if test is None else _causes(test),
         background_a_hv_m_per_s2=spindle.background,
-        background_limit_m_per_s2=imbalance_alone / math.sqrt(spindle.factor**2 - 1),
+        background_limit_m_per_s2=limit,
         wheel_in_use=WheelInUse(
             imbalance=design.imbalance.value,
             without_m_per_s2=max(in_use.values()),
@@ -278,6 +268,22 @@ def _result(
         distribution_m_per_s2=()
         if test is None
         else tuple(float(x) for x in np.quantile(test.values[test.highest], np.linspace(0, 1, 51))),
+    )
+
+
+def _model(design: Design, spindle: Spindle) -> DeclareModel:
+    case = design.case
+    return DeclareModel(
+        speed_rad_per_s=case.speed,
+        weighting=spindle.gain / case.speed**2,
+        mass_without_autobalancer_kg=case.body.mass,
+        mass_kg=design.system_mass,
+        effective_mass_kg=spindle.body.effective_mass,
+        friction_band_m=spindle.balls.band,
+        race_eccentricity_m=case.race_eccentricity,
+        handles=tuple(gain.name for gain in spindle.body.gains),
+        transmission=tuple(math.sqrt(gain.race) for gain in spindle.body.gains),
+        rest=tuple(math.sqrt(gain.imbalance) for gain in spindle.body.gains),
     )
 
 
