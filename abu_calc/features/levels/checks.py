@@ -63,7 +63,7 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     totals = [place.total for place in places]
     largest_total = largest(totals)
     if largest_total is None or None in totals:
-        reason = next(axis.reason for place in places for axis in place.axes if axis.weighted is None)
+        reason = next(axis.reason for place in places for axis in place.axes if axis.weighted_acceleration is None)
         return coded("ABU413", "not-done", reason or "not known", None, limit, "m/s²", LONGER)
     exposure = daily_exposure(largest_total, 60 * minutes)
     highest = daily_exposure(max(map(_highest_total, places)), 60 * minutes)
@@ -81,7 +81,7 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
 
 def _highest_total(place: PlaceLevels) -> float:
     """The most that three axes can come to where fewer were measured, none of the others above these."""
-    parts = [axis.weighted or 0.0 for axis in place.axes]
+    parts = [axis.weighted_acceleration or 0.0 for axis in place.axes]
     if len(parts) == 1:
         return largest_total_of_one_axis() * parts[0]
     return math.hypot(*parts, max(parts)) if len(parts) == 2 else math.hypot(*parts)

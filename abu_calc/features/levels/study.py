@@ -10,6 +10,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.features.levels.checks import held_loads, level_checks
 from abu_calc.features.levels.levels import (
     LAST,
+    AxisLevel,
     Band,
     PlaceLevels,
     axis_levels,
@@ -71,24 +72,6 @@ class ThirdOctaveLevel(Record):
     level_db: Annotated[float | None, Quantity("level", "L")]
     velocity_rms: Annotated[float | None, Quantity("velocity rms", "v", unit="mm_per_s")]
     why_not: Annotated[str | None, Quantity("why it is not known")]
-
-
-@record
-class AxisLevel(Record):
-    """One axis of a place."""
-
-    optional: ClassVar[frozenset[str]] = frozenset({"third_octave_levels_db"})
-
-    name: Annotated[str, Quantity("axis")]
-    level_db: Annotated[float | None, Quantity("level", "L")]
-    velocity_rms: Annotated[float | None, Quantity("velocity rms", "v", unit="mm_per_s")]
-    octave_levels_db: Annotated[tuple[float | None, ...], Quantity("octaves 8 … 1000 Hz", "L")]
-    third_octave_levels_db: Annotated[
-        tuple[float | None, ...] | None, Quantity("third octaves 6.3 … 1250 Hz", "L", 4, "with --third-octaves")
-    ]
-    displacement_rms: Annotated[float | None, Quantity("displacement rms", "s_v", 3, unit="um")]
-    acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted")]
-    weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_h", 3)]
 
 
 @record
@@ -341,24 +324,12 @@ def _place_level(
         octaves=tuple(OctaveLevel(limit_db=float(band.octave.limit.level), **_entries(band)) for band in place.loudest),
         third_octaves=tuple(ThirdOctaveLevel(**_entries(band)) for band in place.loudest_thirds) or None,
         corrected_level_db=level(place.corrected),
-        displacement_rms=place.louder("displacement"),
+        displacement_rms=place.louder("displacement_rms"),
         acceleration_m_per_s2=place.louder("acceleration"),
-        weighted_axis_m_per_s2=place.louder("weighted"),
+        weighted_axis_m_per_s2=place.louder("weighted_acceleration"),
         weighted_acceleration_m_per_s2=total,
         daily_exposure_m_per_s2=None if minutes is None or total is None else daily_exposure(total, 60 * minutes),
-        axes=tuple(
-            AxisLevel(
-                name=axis.name,
-                level_db=level(axis.velocity),
-                velocity_rms=axis.velocity,
-                octave_levels_db=tuple(level(band.velocity) for band in axis.bands),
-                third_octave_levels_db=tuple(level(band.velocity) for band in axis.thirds) or None,
-                displacement_rms=axis.displacement,
-                acceleration_m_per_s2=axis.acceleration,
-                weighted_acceleration_m_per_s2=axis.weighted,
-            )
-            for axis in place.axes
-        ),
+        axes=place.axes,
         level_before_db=before,
         static_load_without_N=bare,
         static_load_N=fitted,

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from abu_calc.features.levels.checks import held_loads, level_checks
-from abu_calc.features.levels.levels import AxisLevels, Band, PlaceLevels
+from abu_calc.features.levels.levels import Band, PlaceLevels, axis_level
 from abu_calc.foundation.checks import Check
 from abu_calc.sizing import size
 from abu_calc.standards.vibration import octaves
@@ -25,7 +25,7 @@ def place(levels: dict[float, float], name: str = "grip", weighted: float | None
         Band(octave, velocity(levels[octave.nominal])) if octave.nominal in levels else Band(octave, None, "too short")
         for octave in octaves()
     )
-    return PlaceLevels(name, (AxisLevels("x", None, bands, None, None, weighted, "too short"),))
+    return PlaceLevels(name, (axis_level("x", None, bands, None, None, weighted, "too short"),))
 
 
 QUIET = {octave.nominal: 60.0 for octave in octaves()}

@@ -132,7 +132,7 @@ def test_third_octaves_of_noise_add_up_to_their_octave_and_to_the_weighted_accel
         # Narrow bands of noise fluctuate by the edges, which the filters cut differently.
         assert third == pytest.approx(octave.velocity, rel=0.06 if index < 2 else 0.02)
     total = math.hypot(*(band.octave.weight * band.octave.centre * (band.velocity or 0.0) for band in found.thirds))
-    assert found.weighted == pytest.approx(total, rel=0.03)
+    assert found.weighted_acceleration == pytest.approx(total, rel=0.03)
     assert axis_levels("x", AxisSignal(noise[:4096], 4096.0, 0)).thirds == ()
 
 
@@ -168,10 +168,10 @@ def test_place_and_acceleration_beside_the_velocity(derivative: int) -> None:
     w = 2 * math.pi * 96.67
     found = axis_levels("x", sine(96.67, 4096.0, 2.0, derivative))
     # From an acceleration the start of a record of 2 s is still felt.
-    assert found.displacement == pytest.approx(1 / w, rel=5e-3 if derivative == 1 else 1e-3)
+    assert found.displacement_rms == pytest.approx(1 / w, rel=5e-3 if derivative == 1 else 1e-3)
     assert found.acceleration == pytest.approx(w, rel=1e-3)
     # That of an acceleration is the sum of the octaves, which overlap a little at their edges: 0.02 dB near one.
-    assert found.velocity == pytest.approx(1.0, rel=2.5e-3 if derivative == 1 else 1e-3)
+    assert found.velocity_rms == pytest.approx(1.0, rel=2.5e-3 if derivative == 1 else 1e-3)
     assert band_rms(sine(96.67, 4096.0, 2.0, derivative), acceleration_filter()) == found.acceleration
 
 
