@@ -96,7 +96,6 @@ class Found:
     """
 
     case: Balancing
-    sigma: Deviations
     solution: Solution
     by: Sequence[ErrorContribution]
     below: bool
@@ -186,7 +185,6 @@ def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coeffic
     planes_share, disagreement = _misfits(case, answer, left)
     return Found(
         case=case,
-        sigma=sigma,
         solution=answer.solution,
         by=answer.by,
         placed=placed,

@@ -212,7 +212,7 @@ def _result(
     uncertainty = declared_uncertainty(reproducibility(bare[highest]))
     test = None if tested is None else tested.test
     means = {} if test is None else test.means
-    even = BreakEven(None, None, None, ()) if tested is None else tested.even
+    even = BreakEven(None, None, ()) if tested is None else tested.even
     used = None if tested is None or tested.in_use is None else max(tested.in_use.means.values())
     imbalance_alone = math.sqrt(max(bare[highest] ** 2 - spindle.background**2, 0.0))
     bare_band, band = declared_bands(case, design.autobalancer, wheel.imbalance) or (None, None)

@@ -17,7 +17,6 @@ from abu_calc.formulas.type_test import (
     HandleGain,
     TypeTestBody,
     acceleration_per_displacement,
-    break_even,
     evenly,
     frictionless_break_even,
 )
@@ -165,18 +164,16 @@ def simulated_test(
 class BreakEven:
     """Race eccentricities [m] at which the declared value is that without autobalancer, or None: at none is it lower.
 
-    `frictionless`: closed form; `estimated`: closed form with friction; `simulated`; `tried`: eccentricities [m] of the
-    search with the declared value [m/s²].
+    `frictionless`: closed form; `simulated`; `tried`: eccentricities [m] of the search with the declared value [m/s²].
     """
 
     frictionless: float | None
-    estimated: float | None
     simulated: float | None
     tried: tuple[tuple[float, float], ...]
 
 
 def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> BreakEven:
-    """Search by simulation, with the same random starts at each eccentricity; closed forms beside it."""
+    """Search by simulation, with the same random starts at each eccentricity; the closed form beside it."""
     spindle, imbalance = test.spindle, test.imbalance
     limit = max(spindle.without(imbalance).values())
     noise = spindle.background / spindle.gain
@@ -184,13 +181,11 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
         spindle.body.gains, imbalance, limit / (spindle.factor * spindle.gain), evenly(MANY), noise
     )
     if ideal is None:
-        return BreakEven(None, None, None, ())
+        return BreakEven(None, None, ())
     if not spindle.balls.band:
         points = (share * ideal for share in FRICTIONLESS)
-        return BreakEven(
-            ideal, ideal, ideal,
-            tuple((point, simulated_test(spindle, imbalance, point, starts).declared) for point in points),
-        )  # fmt: skip
+        tested = ((point, simulated_test(spindle, imbalance, point, starts).declared) for point in points)
+        return BreakEven(ideal, ideal, tuple(tested))
     tried: dict[float, float] = {}
 
     def excess(eccentricity: float) -> float:
@@ -198,7 +193,7 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
         tried[eccentricity] = simulated_test(spindle, imbalance, eccentricity, starts).declared
         return tried[eccentricity] - limit
 
-    estimated, found = break_even(ideal, test.friction_rms), None
+    found = None
     if excess(0.0) < 0:
         high = ideal
         for _ in range(MOST_FURTHER):
@@ -206,4 +201,4 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
                 found = root(lambda e: tried[e] - limit if e in tried else excess(e), 0.0, high, EXACT * ideal)
                 break
             high *= FURTHER
-    return BreakEven(ideal, estimated, found, tuple(sorted(tried.items())))
+    return BreakEven(ideal, found, tuple(sorted(tried.items())))
