@@ -9,12 +9,14 @@ from abu_calc.features.factory.at_handles import AtHandles, at_handles
 from abu_calc.features.factory.measurements import (
     MeasuredMachine,
     Span,
+    ValueSource,
+    degrees_of_freedom,
     factory_machines,
     factory_source,
     machines_of,
     soft_race,
+    value_sources,
 )
-from abu_calc.features.factory.value_sources import ValueSource, degrees_of_freedom, value_sources
 from abu_calc.features.levels.study import levels
 from abu_calc.foundation.checks import Status
 from abu_calc.foundation.frozen import dataclass
