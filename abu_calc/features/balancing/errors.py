@@ -71,15 +71,9 @@ def changes(case: Balancing, method: Method, sigma: Deviations) -> list[ErrorCon
 
 
 def _change(cause: str, high: Solution, low: Solution, steps: float) -> ErrorContribution:
-    def half(upper: Vector, other: Vector) -> Vector:
-        return tuple((up - down) / steps for up, down in zip(upper, other, strict=True))
-
-    misfits = tuple(half(misfit, other) for misfit, other in zip(high.misfits, low.misfits, strict=True))
-    influences = tuple(
-        tuple(half(row, other) for row, other in zip(rows, others, strict=True))
-        for rows, others in zip(high.influences, low.influences, strict=True)
-    )
-    return ErrorContribution(cause, half(high.imbalance, low.imbalance), misfits, influences)
+    names = ("imbalance", "misfits", "influences")
+    halves = (np.subtract(getattr(high, name), getattr(low, name)) / steps for name in names)
+    return ErrorContribution(cause, *(half.tolist() for half in halves))
 
 
 Varied = Iterator[tuple[str, Balancing, Balancing | None]]
