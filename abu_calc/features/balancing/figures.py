@@ -239,7 +239,6 @@ def _bars(
 
 
 def _numbers(result: BalanceResult) -> tuple[str, ...]:
-    """Values of the formulas for this result."""
     lines = [
         f"{called(name)}: q = {number(plane.mass_g)} g at {plane.angle_deg:.1f}°, "
         f"q·R = {number(plane.imbalance_g_mm)} g·mm"

@@ -179,7 +179,6 @@ def _wanted_without_phase(case: Balancing) -> Iterator[WantedRun]:
 
 
 def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[str]:
-    """Sentences on a run with its trial mass."""
     rpm = f"{from_si(wanted.speed, 'rpm'):.0f} rpm"
     if wanted.plane is None:
         yield f"Next run: {rpm}, without a trial mass."

@@ -226,7 +226,6 @@ def _share_below(values: tuple[float, ...], value: float) -> float:
 
 
 def _over_eccentricity(result: DeclareResult) -> Iterator[Figure]:
-    """Declared value against race eccentricity."""
     points = [(1e3 * at.race_eccentricity_mm, at.declared_m_per_s2) for at in result.by_eccentricity]
     if len(points) < 3:
         return

@@ -242,7 +242,6 @@ def _start(recorded: Recording, from_s: float | None) -> float:
 
 
 def _remarks(recorded: Recording, signals: Sequence[AxisSignal]) -> Iterator[str]:
-    """Remarks on a record that a reader must know."""
     if recorded.simulated and signals[0].whole:
         yield "The file is a trajectory of a simulation: means are taken over its last twentieth."
     folded = max(map(folded_share, signals))

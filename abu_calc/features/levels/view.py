@@ -146,7 +146,6 @@ def _totals(result: LevelsResult) -> list[Block]:
 
 
 def _axes(places: Sequence[PlaceLevel]) -> list[Block]:
-    """Every axis of every place, octave by octave."""
     header = ("place", "axis", *(f"{octave.nominal_hz:g}" for octave in places[0].octaves), "all", "a_h")
     rows = tuple(
         (place.name, axis.name, *map(_tenths, axis.octave_levels_db), _tenths(axis.level_db),
