@@ -218,7 +218,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "declare",
         "declare.command",
         ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
-        "declare.pages:declare_extras",
+        "declare.view:declare_extras",
         group="Measure",
     ),
     Feature("factory", "factory.command", ("factory.study:FactoryResult",), group="Measure"),

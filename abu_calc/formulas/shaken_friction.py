@@ -1,5 +1,6 @@
 """Dry rolling friction of balls that gravity shakes once in a revolution, on a horizontal spindle."""
 
+import math
 from typing import Final
 
 from abu_calc.foundation.formula import formula
@@ -51,3 +52,21 @@ def remaining_band(band: float, speed: float) -> float:
     [0.0, 0.11, 26.71]
     """
     return max(band - COUNTED * GRAVITY / speed**2, 0.0)
+
+
+@formula(
+    "Viscous drag rate equivalent to dry friction that gravity shakes, for slow balls on a horizontal spindle",
+    "(2/π)·(k_r/r)·J·R_p·Ω³/g",
+    "1/s",
+    where="It adds to the drag of the oil while the balls are slow: the end of a decay shows the friction.",
+    assumed="a friction number below 1, and balls slower than g/(J·R_p·Ω) in the rotor",
+    source="derived by averaging; compared with simulations",
+)
+def equivalent_drag(
+    lever: float, pitch_radius: float, ball_radius: float, speed: float, inertia_factor: float
+) -> float:
+    """
+    >>> round(equivalent_drag(0.5e-6, 23e-3, 7.9375e-3, 607.37, 1.4), 1)
+    29.5
+    """
+    return 2 / math.pi * lever / ball_radius * inertia_factor * pitch_radius * speed**3 / GRAVITY

@@ -24,6 +24,15 @@ def number(value: float, digits: int = 4) -> str:
     return f"{rounded:#.{digits}g}"
 
 
+def or_dash(value: float | None, digits: int = 3) -> str:
+    """A number, or a dash if there is none.
+
+    >>> or_dash(2.0), or_dash(None)
+    ('2.00', '–')
+    """
+    return "–" if value is None else number(value, digits)
+
+
 def capitalised(text: str) -> str:
     """A text that begins a line."""
     return text[:1].upper() + text[1:]

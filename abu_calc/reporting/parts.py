@@ -12,7 +12,18 @@ from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.quantity import Record, quantities
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.text import shown as exact
-from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, level_text, number, shown, with_unit
+from abu_calc.reporting.blocks import (
+    Block,
+    Facts,
+    Grid,
+    Heading,
+    Paragraph,
+    level_text,
+    number,
+    or_dash,
+    shown,
+    with_unit,
+)
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
 
@@ -294,15 +305,11 @@ def readings_grid(rows: Sequence[tuple[str, InstrumentReadings]]) -> Grid:
     """Places and states against what instruments show of them."""
     header = ("", "mm/s", "µm", "m/s²", "a_h W_h", "a_hv W_h")
     cells = tuple(
-        (name, *map(_short, (reading.velocity_mm_per_s, reading.displacement_um, reading.acceleration_m_per_s2,
+        (name, *map(or_dash, (reading.velocity_mm_per_s, reading.displacement_um, reading.acceleration_m_per_s2,
                              reading.weighted_m_per_s2, reading.total_m_per_s2)))
         for name, reading in rows
     )  # fmt: skip
     return Grid(header, cells, frozenset(range(1, 6)))
-
-
-def _short(value: float | None) -> str:
-    return "–" if value is None else number(value, 3)
 
 
 def measured_after_line(comparison: MeasuredAfterRecord) -> str:

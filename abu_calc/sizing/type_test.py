@@ -34,6 +34,7 @@ from abu_calc.sizing.case import Case
 from abu_calc.sizing.places import body_suspension
 from abu_calc.sizing.vibration import truer, truer_races
 from abu_calc.standards.type_test import (
+    TestWheel,
     balancing_factor,
     declared_uncertainty,
     reproducibility,
@@ -45,28 +46,16 @@ IN_FILE = "machine file"
 """Source of a test wheel whose imbalance the file gives."""
 
 
-@dataclass(frozen=True)
-class ChosenWheel:
-    """Test wheel of a machine [SI]; the diameter and the feed force are None if the file gives an imbalance alone."""
-
-    diameter: float | None
-    imbalance: float
-    feed_force: float | None
-    source: str
-    status: str
-
-
-def chosen_wheel(table: MachineFile) -> ChosenWheel | None:
+def chosen_wheel(table: MachineFile) -> TestWheel | None:
     """The test wheel that the file gives, else the built-in one of its diameter; None if there is none."""
     test = table.type_test
     given = None if test is None else test.test_wheel_diameter_mm
     known = test_wheel(to_si(table.wheel.diameter_mm if given is None else given, "mm"))
     if test is not None and test.test_wheel_imbalance_g_mm is not None:
         diameter = None if given is None else to_si(given, "mm")
-        return ChosenWheel(diameter, to_si(test.test_wheel_imbalance_g_mm, "g_mm"), None, IN_FILE, "given")
-    if known is None:
-        return None
-    return ChosenWheel(known.diameter, known.imbalance, known.feed_force, known.source, known.status)
+        imbalance = to_si(test.test_wheel_imbalance_g_mm, "g_mm")
+        return TestWheel(diameter=diameter, imbalance=imbalance, feed_force=None, source=IN_FILE, status="given")
+    return known
 
 
 def type_test_body(case: Case, candidate: Candidate | None = None) -> TypeTestBody:

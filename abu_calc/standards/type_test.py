@@ -4,25 +4,28 @@ The facts are from a secondary source, those of K unverified; results say so.
 """
 
 from functools import cache
+from typing import Annotated
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.tables import toml_table
 
 
-@dataclass(frozen=True)
-class TestWheel:
-    """A test wheel of aluminium [SI]: diameter, imbalance [kg m], feed force [N] if it is known, source."""
+@record
+class TestWheel(Record):
+    """The test wheel; no diameter and no feed force if the file gives an imbalance alone."""
 
     __test__ = False  # not a test of pytest
+    schema_title = "TestWheelRecord"
 
-    diameter: float
-    imbalance: float
-    feed_force: float | None
-    source: str
-    status: str
+    diameter: Annotated[float | None, Quantity("diameter", unit="mm")]
+    imbalance: Annotated[float, Quantity("imbalance", "U", unit="g_mm")]
+    feed_force: Annotated[float | None, Quantity("feed force of the standard", "", 3, unit="N")]
+    source: Annotated[str, Quantity("source")]
+    status: Annotated[str, Quantity("status of the source", "", 4, "secondary, or given")]
 
 
 @cache
@@ -38,11 +41,14 @@ def test_wheels() -> tuple[TestWheel, ...]:
     rule, origin = table["rule"], (table["source"], table["status"])
 
     def wheel(diameter: float, imbalance: float, force: float | None, source: str, status: str) -> TestWheel:
-        return TestWheel(to_si(diameter, "mm"), to_si(imbalance, "g_mm"), force, source, status)
+        return TestWheel(
+            diameter=to_si(diameter, "mm"), imbalance=to_si(imbalance, "g_mm"), feed_force=force, source=source,
+            status=status,
+        )  # fmt: skip
 
     wheels = [wheel(diameter, imbalance, float(force), *origin) for diameter, imbalance, force in table["rows"]]
     wheels += [wheel(d, rule["factor"] * d**2, None, rule["source"], rule["status"]) for d in rule["diameters"]]
-    return tuple(sorted(wheels, key=lambda each: each.diameter))
+    return tuple(sorted(wheels, key=lambda each: each.diameter or 0.0))
 
 
 def test_wheel(diameter: float) -> TestWheel | None:
@@ -51,7 +57,7 @@ def test_wheel(diameter: float) -> TestWheel | None:
     >>> test_wheel(0.150).feed_force, test_wheel(0.178)
     (30.0, None)
     """
-    return next((wheel for wheel in test_wheels() if abs(wheel.diameter - diameter) < 1e-6), None)
+    return next((wheel for wheel in test_wheels() if abs((wheel.diameter or 0.0) - diameter) < 1e-6), None)
 
 
 test_wheel.__test__ = test_wheels.__test__ = False  # type: ignore[attr-defined]

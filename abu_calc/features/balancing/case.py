@@ -2,19 +2,19 @@
 
 import hashlib
 import math
-from typing import Final
+from collections.abc import Sequence
+from typing import Annotated, ClassVar, Final
 
 from abu_calc.features.balancing.corrections import Drill, Making
-from abu_calc.features.balancing.errors import Deviations
 from abu_calc.features.balancing.formulas import RollOnRig
 from abu_calc.features.balancing.instrument import Instrument
 from abu_calc.features.balancing.read import Readings
 from abu_calc.features.balancing.recording.recorded_run import RecordedRun, read_rig_record, recorded_run
 from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
-from abu_calc.features.balancing.tables import PLANES, Errors, ReadingsFile, Run, Trial
+from abu_calc.features.balancing.tables import PLANES, ReadingsFile, Run, Trial
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si, to_si, wrapped_deg
 
 WIDE_PULSE: Final = math.radians(1.0)
 UNSURE: Final = math.radians(0.5)
@@ -28,27 +28,50 @@ of the amplitude. `SHARE` is the least share of the rotation in what a sensor sh
 """
 
 
-@dataclass(frozen=True)
-class Taken:
-    """A run in SI, its unit and sensors, and the record it comes from."""
+@record
+class SensorReading(Record):
+    """Reading of a sensor, in the unit of the run."""
+
+    name: Annotated[str, Quantity("sensor")]
+    amplitude: Annotated[float, Quantity("amplitude", "A_j", 5, "in the unit of the run")]
+    phase_deg: Annotated[float | None, Quantity("phase", "ψ_j", 5, "by the convention of the run, −180 … 180")]
+
+
+@record
+class RunReadings(Record):
+    """A run as it was taken; of a recorded one the data of its marks."""
+
+    left_out: ClassVar[frozenset[str]] = frozenset({"run", "instrument", "convention", "record"})
+    optional: ClassVar[frozenset[str]] = frozenset({"left", "right"})
 
     run: RunOnRig
     instrument: Instrument
-    sensors: tuple[str, ...]
-    phase: str | None = None
+    convention: str | None
     """Convention of the phases as the file names it."""
-    record: RecordedRun | None = None
-    file: str | None = None
-    sha256: str | None = None
+    record: RecordedRun | None
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    quantity: Annotated[str, Quantity("quantity", "", 4, "displacement, velocity or acceleration")]
+    unit: Annotated[str, Quantity("unit of amplitudes", "", 4, "0–peak if it names no kind of amplitude")]
+    phase: Annotated[str | None, Quantity("phases", "", 4, "lag: A·cos(ωt − phase), lead: A·cos(ωt + phase)")]
+    left: SensorReading | None
+    right: SensorReading | None
+    sensors: tuple[SensorReading, ...]
+    file: Annotated[str | None, Quantity("recorded in")]
+    sha256: Annotated[str | None, Quantity("SHA-256 of the record")]
+    revolutions: Annotated[int | None, Quantity("revolutions evaluated")]
+    mark_edge: Annotated[
+        str | None, Quantity("passage of the mark by", "", 4, "leading, middle or trailing of a pulse")
+    ]
+    trials: Annotated[int, Quantity("known masses that were on")]
 
 
-def taken_runs(readings: Readings) -> tuple[Taken, ...]:
+def taken_runs(readings: Readings) -> tuple[RunReadings, ...]:
     """Every run; records are read and evaluated. Raises InputError with the place of what is wrong."""
     file = readings.tables
     return tuple(_taken(readings, file, index, run) for index, run in enumerate(file.run))
 
 
-def _taken(readings: Readings, file: ReadingsFile, index: int, run: Run) -> Taken:
+def _taken(readings: Readings, file: ReadingsFile, index: int, run: Run) -> RunReadings:
     weights = tuple(mass_of(file, trial) for trial in run.trial)
     sensor = math.radians(run.sensor_to_mark_deg)
     given = None if run.speed_rpm is None else to_si(run.speed_rpm, "rpm")
@@ -62,12 +85,12 @@ def _taken(readings: Readings, file: ReadingsFile, index: int, run: Run) -> Take
     phases = tuple(sense * math.radians(each.phase_deg) for each in values if each.phase_deg is not None)
     names = tuple(name for name, _ in run.sensors)
     made = RunOnRig(given, instrument.quantity, amplitudes, phases, sensor, weights, planes=len(file.planes))
-    return Taken(made, instrument, names, run.phase)
+    return _as_taken(made, instrument, names, convention=run.phase)
 
 
 def _recorded(
     readings: Readings, run: Run, speed: float | None, sensor: float, weights: tuple[TrialMass, ...], planes: int
-) -> Taken:
+) -> RunReadings:
     path, instrument = readings.beside(run.file or ""), run.instrument
     samples = read_rig_record(path)
     try:
@@ -80,7 +103,27 @@ def _recorded(
         tuple(tone.phase for tone in tones), sensor, weights,
         tuple(instrument.amplitude(tone.noise) for tone in tones), record.unsure, planes,
     )  # fmt: skip
-    return Taken(made, instrument, PLANES, None, record, run.file, hashlib.sha256(path.read_bytes()).hexdigest())
+    sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+    return _as_taken(made, instrument, PLANES, record=record, file=run.file, sha256=sha256)
+
+
+def _as_taken(
+    run: RunOnRig, instrument: Instrument, names: Sequence[str], *, convention: str | None = None,
+    record: RecordedRun | None = None, file: str | None = None, sha256: str | None = None,
+) -> RunReadings:  # fmt: skip
+    sense = -1.0 if convention == "lead" else 1.0
+    phases = [None if phase is None else wrapped_deg(sense * phase) for phase in run.phases or [None] * len(names)]
+    sensors = {
+        name: SensorReading(name=name, amplitude=instrument.reading(amplitude), phase_deg=phase)
+        for name, amplitude, phase in zip(names, run.amplitudes, phases, strict=True)
+    }
+    return RunReadings(
+        run=run, instrument=instrument, convention=convention, record=record, speed=run.speed, quantity=run.quantity,
+        unit=instrument.shown, phase=(convention or "lag") if run.phases else None, left=sensors.get("left"),
+        right=sensors.get("right"), sensors=tuple(sensors.values()), file=file, sha256=sha256,
+        revolutions=record.revolutions if record else None, mark_edge=record.marks.edge if record else None,
+        trials=len(run.weights),
+    )  # fmt: skip
 
 
 def mass_of(file: ReadingsFile, trial: Trial) -> TrialMass:
@@ -98,25 +141,19 @@ def behind_the_mark(file: ReadingsFile, angle_deg: float) -> float:
 
 def making_of(file: ReadingsFile) -> Making:
     """Limits, stock and drill of the corrections in SI."""
-    how, drill = file.correction, None
+    how, values, drill = file.correction, file.correction.in_si(), None
     if how.drill_diameter_mm is not None:
-        most = None if how.max_hole_depth_mm is None else to_si(how.max_hole_depth_mm, "mm")
         drill = Drill(
-            to_si(how.drill_diameter_mm, "mm"), how.density, how.drill_direction == "radial",
-            math.radians(how.drill_point_deg or 180.0), most,
+            values["drill_diameter"], how.density, how.drill_direction == "radial", values["drill_point"] or math.pi,
+            values["max_hole_depth"],
         )  # fmt: skip
-
-    def grams(value: float | None) -> float | None:
-        return None if value is None else to_si(value, "g")
-
     return Making(
-        grams(file.rotor.max_removable_g), grams(how.max_added_g), grams(how.max_per_place_g),
-        tuple(sorted(to_si(weight, "g") for weight in how.stock_weights_g or ())), drill,
-        None if how.hole_spacing_mm is None else to_si(how.hole_spacing_mm, "mm"),
+        file.rotor.in_si()["max_removable"], values["max_added"], values["max_per_place"],
+        tuple(sorted(values["stock_weights"] or ())), drill, values["hole_spacing"],
     )  # fmt: skip
 
 
-def balancing(file: ReadingsFile, runs: tuple[Taken, ...], coefficients: Coefficients | None = None) -> Balancing:
+def balancing(file: ReadingsFile, runs: tuple[RunReadings, ...], coefficients: Coefficients | None = None) -> Balancing:
     """All data that an answer is made of."""
     return Balancing(_roll(file), tuple(taken.run for taken in runs), coefficients)
 
@@ -132,17 +169,7 @@ def _roll(file: ReadingsFile) -> RollOnRig | None:
     )  # fmt: skip
 
 
-def deviations(errors: Errors) -> Deviations:
-    """The errors of the file in SI."""
-    return Deviations(
-        errors.amplitude_percent / 100, math.radians(errors.phase_deg), errors.speed_percent / 100,
-        errors.support_mass_percent / 100, errors.stiffness_percent / 100, errors.damping_ratio,
-        errors.rotor_mass_percent / 100, errors.inertia_percent / 100, to_si(errors.length_mm, "mm"),
-        errors.placed_mass_percent / 100, math.radians(errors.placed_angle_deg), errors.coefficient_percent / 100,
-    )  # fmt: skip
-
-
-def record_warnings(taken: Taken) -> list[str]:
+def record_warnings(taken: RunReadings) -> list[str]:
     """Warnings about a record."""
     record, file = taken.record, taken.file
     if record is None:

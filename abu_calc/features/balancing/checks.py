@@ -4,13 +4,12 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from abu_calc.features.balancing.case import Taken, record_warnings
+from abu_calc.features.balancing.case import RunReadings, record_warnings
 from abu_calc.features.balancing.corrections import added, removed
 from abu_calc.features.balancing.formulas import bar_bending_speed, influence
 from abu_calc.features.balancing.methods import near_resonance
-from abu_calc.features.balancing.records import PlaneCorrection
 from abu_calc.features.balancing.runs import ONE_SPEED
-from abu_calc.features.balancing.solution import BEYOND_ERRORS, Found
+from abu_calc.features.balancing.solution import BEYOND_ERRORS, Found, PlaneCorrection
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.units import from_si
@@ -37,7 +36,7 @@ LIGHTER: Final = "Allow lighter weights or other places: masses that nearly canc
 """Action if the masses of a correction have larger errors than the imbalance."""
 
 
-def balance_checks(balancing: Found, taken: Sequence[Taken]) -> tuple[Check, ...]:
+def balance_checks(balancing: Found, taken: Sequence[RunReadings]) -> tuple[Check, ...]:
     """Checks that there are numbers for."""
     return (
         *_planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), *_sure(balancing),
@@ -257,12 +256,12 @@ def _discrete(balancing: Found) -> Iterator[Check]:
     )  # fmt: skip
 
 
-def _convention(taken: Sequence[Taken]) -> Iterator[Check]:
+def _convention(taken: Sequence[RunReadings]) -> Iterator[Check]:
     """Check that every run with phases names their convention."""
-    read = [run for run in taken if run.record is None and run.run.phases]
+    read = [run for run in taken if run.record is None and run.phase]
     if not read:
         return
-    silent = sum(run.phase is None for run in read)
+    silent = sum(run.convention is None for run in read)
     names = sorted({run.phase or "lag" for run in read})
     if silent:
         message = f"runs that do not name the convention of their phases; lag is assumed, A·cos(ωt − phase): {silent}"
@@ -319,7 +318,7 @@ RIG_DIFFERS: Final = 0.1
 
 
 def balance_warnings(
-    file: ReadingsFile, taken: Sequence[Taken], balancing: Found, planes: Sequence[PlaneCorrection]
+    file: ReadingsFile, taken: Sequence[RunReadings], balancing: Found, planes: Sequence[PlaneCorrection]
 ) -> Iterator[str]:
     """Each a sentence or two."""
     yield from _printed(balancing, planes)
@@ -361,9 +360,9 @@ def _printed(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[st
     )
 
 
-def _units(taken: Sequence[Taken]) -> Iterator[str]:
+def _units(taken: Sequence[RunReadings]) -> Iterator[str]:
     """Warning about runs of one speed in different units: perhaps one unit is wrong."""
-    speeds = {unit: run.run.speed for run in taken if (unit := run.instrument.shown)}
+    speeds = {run.unit: run.speed for run in taken if run.unit}
     for unit, speed in list(speeds.items())[1:]:
         other = next(iter(speeds))
         if abs(speed / speeds[other] - 1) <= ONE_SPEED:

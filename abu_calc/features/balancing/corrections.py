@@ -9,10 +9,11 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import combinations
-from typing import Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 
 Action = Literal["remove", "add"]
 
@@ -28,17 +29,17 @@ PER_WEIGHT: Final = 0.002
 """Part of the heavy spot that one weight less is worth."""
 
 
-@dataclass(frozen=True)
-class MassShare:
-    """A mass [kg] to remove or to add at an angle behind the mark [rad]; the depth of its hole [m], or the weights in
-    stock that make it up [kg].
-    """
+@record
+class Share(Record):
+    """A mass to remove or to add."""
 
-    action: Action
-    mass: float
-    angle: float
-    depth: float | None = None
-    weights: tuple[float, ...] = ()
+    optional: ClassVar[frozenset[str]] = frozenset({"depth_mm", "weights_g"})
+
+    action: Annotated[str, Quantity("to do", "", 4, "remove or add")]
+    mass: Annotated[float, Quantity("mass", "", 4, "at the correction radius", unit="g")]
+    angle: Annotated[float, Quantity("at", "", 5, "by the angle marks of the rotor", unit="deg")]
+    depth: Annotated[float | None, Quantity("depth of the hole", "", 3, "to the tip of the drill", unit="mm")] = None
+    weights: Annotated[tuple[float, ...] | None, Quantity("weights in stock", unit="g")] = None
 
 
 @dataclass(frozen=True)
@@ -119,7 +120,7 @@ def hole_depth(drill: Drill, mass: float, radius: float) -> float | None:
 
 def correction(
     mass: float, angle: float, making: Making, places: Sequence[float] | None, radius: float
-) -> tuple[MassShare, ...]:
+) -> tuple[Share, ...]:
     """The shares that balance a heavy spot of this mass at this angle, as far as limits and stock allow.
 
     Metal is removed where there is enough, else mass is added opposite. At given places the shares remove no more than
@@ -165,27 +166,26 @@ def _pitch(making: Making, radius: float) -> float:
     return USUAL_PITCH if spacing is None else spacing / radius
 
 
-def _drilled(share: MassShare, drill: Drill | None, radius: float) -> MassShare:
+def _drilled(share: Share, drill: Drill | None, radius: float) -> Share:
     if drill is None or share.action == "add":
         return share
     return replace(share, depth=hole_depth(drill, share.mass, radius))
 
 
-def _side_by_side(mass: float, angle: float, action: Action, cap: float | None, pitch: float) -> list[MassShare]:
+def _side_by_side(mass: float, angle: float, action: Action, cap: float | None, pitch: float) -> list[Share]:
     """Equal masses beside each other about an angle, as few as the cap allows; on half of the circle at most."""
     if cap is None or mass <= cap * (1 + NOTHING):
-        return [MassShare(action, mass, turned(angle))]
+        return [Share(action=action, mass=mass, angle=turned(angle))]
     count, sum_of = 1, 1.0
     while mass / sum_of > cap * (1 + NOTHING) and (count + 1) * pitch <= math.pi:
         count += 1
         sum_of = math.sin(count * pitch / 2) / math.sin(pitch / 2)
     each = min(mass / sum_of, cap)
-    return [MassShare(action, each, turned(angle + (k - (count - 1) / 2) * pitch)) for k in range(count)]
+    angles = (turned(angle + (k - (count - 1) / 2) * pitch) for k in range(count))
+    return [Share(action=action, mass=each, angle=at) for at in angles]
 
 
-def _at_places(
-    mass: float, angle: float, making: Making, places: Sequence[float], cap: float | None
-) -> list[MassShare]:
+def _at_places(mass: float, angle: float, making: Making, places: Sequence[float], cap: float | None) -> list[Share]:
     target = cmath.rect(mass, angle)
     if cap is None and making.per_place is None:
         options = [split for pair in combinations(places, 2) if (split := _split(mass, angle, *pair)) is not None]
@@ -197,8 +197,8 @@ def _at_places(
     )  # fmt: skip
 
 
-def _worth(making: Making) -> Callable[[Sequence[MassShare]], tuple[bool, bool, float]]:
-    def worth(shares: Sequence[MassShare]) -> tuple[bool, bool, float]:
+def _worth(making: Making) -> Callable[[Sequence[Share]], tuple[bool, bool, float]]:
+    def worth(shares: Sequence[Share]) -> tuple[bool, bool, float]:
         off, on = removed(shares), added(shares)
         beyond = (making.removable is not None and off > making.removable * (1 + NOTHING)) or (
             making.addable is not None and on > making.addable * (1 + NOTHING)
@@ -210,7 +210,7 @@ def _worth(making: Making) -> Callable[[Sequence[MassShare]], tuple[bool, bool, 
 
 def _limited(
     target: complex, places: Sequence[float], actions: Sequence[Action], off: float | None, on: float | None
-) -> list[MassShare]:
+) -> list[Share]:
     """The least masses in all, none above its cap, that make up the target; empty if there are none.
 
     Of a linear program with two equations at most two masses of the solution lie between zero and their caps. All pairs
@@ -236,7 +236,8 @@ def _limited(
         if all(-room <= value <= caps[k] + room for k, value in own.items()):
             masses = own | {k: caps[k] for k in full}
             return [
-                MassShare(found[k][0], masses[k], turned(found[k][1])) for k in sorted(masses) if masses[k] > room
+                Share(action=found[k][0], mass=masses[k], angle=turned(found[k][1]))
+                for k in sorted(masses) if masses[k] > room
             ]  # fmt: skip
     return []
 
@@ -249,9 +250,7 @@ def _cross(a: complex, b: complex) -> float:
     return (a.conjugate() * b).imag
 
 
-def _as_far_as_possible(
-    target: complex, places: Sequence[float], off: float | None, on: float | None
-) -> list[MassShare]:
+def _as_far_as_possible(target: complex, places: Sequence[float], off: float | None, on: float | None) -> list[Share]:
     """Masses up to their caps that leave the least, by steps along one mass after another."""
     ways = [cmath.rect(1.0, place) for place in places]
     most, least = math.inf if off is None else off, -math.inf if on is None else -on
@@ -264,23 +263,23 @@ def _as_far_as_possible(
         if max(abs(new - old) for new, old in zip(masses, before, strict=True)) <= NOTHING * abs(target):
             break
     return [
-        MassShare("remove" if mass > 0 else "add", abs(mass), turned(place))
+        Share(action="remove" if mass > 0 else "add", mass=abs(mass), angle=turned(place))
         for mass, place in zip(masses, places, strict=True)
         if abs(mass) > NOTHING * abs(target)
     ]
 
 
-def _stock_anywhere(mass: float, angle: float, making: Making) -> list[MassShare]:
+def _stock_anywhere(mass: float, angle: float, making: Making) -> list[Share]:
     """Stock weights at free angles: the largest ones in the middle, two that make up the rest beside them."""
     middle, largest = angle + math.pi, max(making.stock)
     count = max(int(mass / largest * (1 + NOTHING)) - 1, 0)
     rest = mass - count * largest
-    shares = [MassShare("add", count * largest, middle, weights=(largest,) * count)] if count else []
+    shares = [_weights_at((largest,) * count, middle)] if count else []
     alike = next((weight for weight in making.stock if abs(weight - rest) <= NOTHING * mass), None)
     if rest <= NOTHING * mass:
         return shares
     if alike is not None:
-        return [*shares, MassShare("add", alike, middle, weights=(alike,))]
+        return [*shares, _weights_at((alike,), middle)]
     pairs = [
         (first, second)
         for k, first in enumerate(making.stock)
@@ -292,13 +291,15 @@ def _stock_anywhere(mass: float, angle: float, making: Making) -> list[MassShare
     first, second = min(pairs, key=sum)
     one = math.acos(min(1.0, (rest**2 + first**2 - second**2) / (2 * rest * first)))
     other = math.acos(max(-1.0, min(1.0, (rest**2 + second**2 - first**2) / (2 * rest * second))))
-    return [
-        *shares, MassShare("add", first, middle - one, weights=(first,)),
-        MassShare("add", second, middle + other, weights=(second,)),
-    ]  # fmt: skip
+    return [*shares, _weights_at((first,), middle - one), _weights_at((second,), middle + other)]
 
 
-def _stock_at(mass: float, angle: float, making: Making, places: Sequence[float]) -> list[MassShare]:
+def _weights_at(weights: Sequence[float], angle: float) -> Share:
+    """Weights in stock at one place."""
+    return Share(action="add", mass=sum(weights), angle=angle, weights=tuple(sorted(weights, reverse=True)))
+
+
+def _stock_at(mass: float, angle: float, making: Making, places: Sequence[float]) -> list[Share]:
     """Stock weights at places: large ones first, then the three or fewer that leave least."""
     import numpy as np
 
@@ -337,11 +338,7 @@ def _stock_at(mass: float, angle: float, making: Making, places: Sequence[float]
                     break
     for index in chosen:
         held[own[index][0]].append(own[index][1])
-    return [
-        MassShare("add", sum(weights), place, weights=tuple(sorted(weights, reverse=True)))
-        for place, weights in zip(places, held, strict=True)
-        if weights
-    ]
+    return [_weights_at(weights, place) for place, weights in zip(places, held, strict=True) if weights]
 
 
 def _within(
@@ -366,30 +363,30 @@ def turned(angle: float) -> float:
     return 0.0 if remainder == math.tau else remainder
 
 
-def removed(shares: Sequence[MassShare]) -> float:
+def removed(shares: Sequence[Share]) -> float:
     """Mass that is removed in all [kg]."""
     return sum(share.mass for share in shares if share.action == "remove")
 
 
-def added(shares: Sequence[MassShare]) -> float:
+def added(shares: Sequence[Share]) -> float:
     """Mass that is added in all [kg]."""
     return sum(share.mass for share in shares if share.action == "add")
 
 
-def _split(mass: float, angle: float, first: float, second: float) -> list[MassShare] | None:
+def _split(mass: float, angle: float, first: float, second: float) -> list[Share] | None:
     """m1·e^{iψ1} + m2·e^{iψ2} = m·e^{iφ}; negative masses are added. None for places on one line."""
     across = math.sin(second - first)
     if abs(across) < NOTHING:
         return None
     parts = mass * math.sin(second - angle) / across, mass * math.sin(angle - first) / across
     return [
-        MassShare("remove" if part > 0 else "add", abs(part), turned(place))
+        Share(action="remove" if part > 0 else "add", mass=abs(part), angle=turned(place))
         for part, place in zip(parts, (first, second), strict=True)
         if abs(part) > NOTHING * mass
     ]
 
 
-def total(shares: Sequence[MassShare]) -> complex:
+def total(shares: Sequence[Share]) -> complex:
     """Sum of the masses that the shares remove, as mass·e^{iψ} [kg].
 
     Removed metal counts where it was, added metal opposite.

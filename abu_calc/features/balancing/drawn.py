@@ -7,7 +7,8 @@ import math
 from collections.abc import Iterable
 from typing import Final
 
-from abu_calc.features.balancing.records import PlaneCorrection, RunReadings
+from abu_calc.features.balancing.case import RunReadings
+from abu_calc.features.balancing.solution import PlaneCorrection
 from abu_calc.features.balancing.study import BalanceResult
 
 WIDTH: Final = 36
@@ -28,6 +29,11 @@ def drawing(
         plane_picture("RIGHT plane, from the right end", right, -sense, angle_marks),
     ]
     return [f"  {line:<{WIDTH}}  {other}".rstrip() for line, other in zip(*pictures, strict=True)]
+
+
+def called(name: str) -> str:
+    """A plane by its name."""
+    return "plane" if name == "single" else f"{name} plane"
 
 
 def sense_of(turns_from_left: str) -> int:
@@ -105,8 +111,7 @@ def sketch_words(result: BalanceResult) -> list[str]:
         words.append(
             f"The high spot h of the vibration {passes}: the phase of sensor {sensor.name} in run 1, {run.phase}."
         )
-    plane_name = "the plane" if name == "single" else f"the {name} plane"
-    words.append(f"The heavy spot o of {plane_name} is {plane.angle_deg:.1f}° from 0 against rotation.")
+    words.append(f"The heavy spot o of the {called(name)} is {plane.angle_deg:.1f}° from 0 against rotation.")
     return words
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from abu_calc.features.balancing.formulas import Matrix, Vector, reading_factor
 from abu_calc.features.balancing.methods import Array, Method, Solution, motion_of, solved
-from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
+from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig
 from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.frozen import dataclass
 
@@ -71,15 +71,9 @@ def changes(case: Balancing, method: Method, sigma: Deviations) -> list[ErrorCon
 
 
 def _change(cause: str, high: Solution, low: Solution, steps: float) -> ErrorContribution:
-    def half(upper: Vector, other: Vector) -> Vector:
-        return tuple((up - down) / steps for up, down in zip(upper, other, strict=True))
-
-    misfits = tuple(half(misfit, other) for misfit, other in zip(high.misfits, low.misfits, strict=True))
-    influences = tuple(
-        tuple(half(row, other) for row, other in zip(rows, others, strict=True))
-        for rows, others in zip(high.influences, low.influences, strict=True)
-    )
-    return ErrorContribution(cause, half(high.imbalance, low.imbalance), misfits, influences)
+    names = ("imbalance", "misfits", "influences")
+    halves = (np.subtract(getattr(high, name), getattr(low, name)) / steps for name in names)
+    return ErrorContribution(cause, *(half.tolist() for half in halves))
 
 
 Varied = Iterator[tuple[str, Balancing, Balancing | None]]
@@ -118,8 +112,12 @@ def _runs(run: RunOnRig, sigma: Deviations, least: float) -> Iterator[tuple[str,
         yield both("readings", lambda s: replace(run, phases=tuple(phase + s * shift for phase in run.phases)))
     yield both("speed", lambda s: replace(run, speed=run.speed * (1 + s * sigma.speed), read_speed=run.set_speed))
     for index, weight in enumerate(run.weights):
-        for moved in (_heavier(weight, sigma), _turned(weight, sigma)):
-            high, low = (_with_weight(run, index, trial_mass) for trial_mass in moved)
+        heavier = [replace(weight, mass=weight.mass * (1 + s * sigma.placed_mass)) for s in (1, -1)]
+        turned = [replace(weight, angle=weight.angle + s * sigma.placed_angle) for s in (1, -1)]
+        for moved in (heavier, turned):
+            high, low = (
+                replace(run, weights=(*run.weights[:index], each, *run.weights[index + 1 :])) for each in moved
+            )
             yield "trial masses", high, low
 
 
@@ -132,18 +130,6 @@ def _with_reading(run: RunOnRig, sensor: int, change: complex) -> RunOnRig:
     else:
         amplitudes[sensor] += change.real
     return replace(run, amplitudes=tuple(amplitudes), phases=tuple(phases))
-
-
-def _heavier(weight: TrialMass, sigma: Deviations) -> list[TrialMass]:
-    return [replace(weight, mass=weight.mass * (1 + s * sigma.placed_mass)) for s in (1, -1)]
-
-
-def _turned(weight: TrialMass, sigma: Deviations) -> list[TrialMass]:
-    return [replace(weight, angle=weight.angle + s * sigma.placed_angle) for s in (1, -1)]
-
-
-def _with_weight(run: RunOnRig, index: int, weight: TrialMass) -> RunOnRig:
-    return replace(run, weights=(*run.weights[:index], weight, *run.weights[index + 1 :]))
 
 
 def _with_run(case: Balancing, index: int, run: RunOnRig) -> Balancing:

@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Final
 
-from abu_calc.features.balancing.drawn import lag_of, sense_of, sketch_words
-from abu_calc.features.balancing.records import PlaneCorrection
+from abu_calc.features.balancing.drawn import called, lag_of, sense_of, sketch_words
+from abu_calc.features.balancing.solution import PlaneCorrection
 from abu_calc.features.balancing.study import BalanceResult
-from abu_calc.features.balancing.view import misfit, orders_of
+from abu_calc.features.balancing.view import SIGNS, misfit, orders_of
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
@@ -22,7 +22,6 @@ from abu_calc.reporting.drawings.shapes import Arc, Drawing, Line, Point, Shape,
 
 RADIUS, APART = 20.0, 58.0
 LETTERS: Final = 3.0
-SIGNS: Final = {"remove": "−", "add": "+"}
 IN_LINE: Final = 15.0
 """Angle [degrees] below which both sensors share one text."""
 AGAINST: Final = "against rotation"
@@ -197,11 +196,6 @@ def _imbalance(result: BalanceResult) -> Iterator[Figure]:
     yield from _bars("residual", "planes", "Imbalance before and after", "imbalance [g·mm]", rows, caption, limit)
 
 
-def called(name: str) -> str:
-    """A plane by its name."""
-    return "plane" if name == "single" else f"{name} plane"
-
-
 def _vibration(result: BalanceResult) -> Iterator[Figure]:
     """Figures of the vibration for each speed and unit that was read."""
     for index, run in enumerate(result.residual_check.verification, 1):
@@ -245,7 +239,6 @@ def _bars(
 
 
 def _numbers(result: BalanceResult) -> tuple[str, ...]:
-    """Values of the formulas for this result."""
     lines = [
         f"{called(name)}: q = {number(plane.mass_g)} g at {plane.angle_deg:.1f}°, "
         f"q·R = {number(plane.imbalance_g_mm)} g·mm"

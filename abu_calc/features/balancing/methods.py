@@ -26,7 +26,7 @@ from abu_calc.features.balancing.formulas import (
     natural_frequencies,
     reading_factor,
 )
-from abu_calc.features.balancing.runs import ONE_SPEED, Balancing
+from abu_calc.features.balancing.runs import ONE_SPEED, Balancing, Coefficients
 from abu_calc.features.balancing.without_phase import amplitude_sets, solved_without_phase, tells_without_phase
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.formula import formula
@@ -69,7 +69,7 @@ def method_of(case: Balancing) -> Method:
     Raises InputError with what is missing if nothing suffices.
     """
     if case.coefficients is not None:
-        _refuse_other_coefficients(case)
+        _refuse_other_coefficients(case, case.coefficients)
         return "stored coefficients"
     if not case.runs[0].phases:
         tells_without_phase(case)
@@ -117,10 +117,7 @@ def lacking_at(case: Balancing, group: Sequence[int]) -> InputError | None:
     )  # fmt: skip
 
 
-def _refuse_other_coefficients(case: Balancing) -> None:
-    stored = case.coefficients
-    if stored is None:
-        return
+def _refuse_other_coefficients(case: Balancing, stored: Coefficients) -> None:
     for index, run in enumerate(case.runs):
         if stored.at(run.speed) is None:
             raise InputError(

@@ -6,7 +6,7 @@ changes an amplitude by 30 % or a phase by 30°.
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Final
+from typing import Annotated, Final
 
 from abu_calc.features.balancing.case import balancing, taken_runs
 from abu_calc.features.balancing.formulas import Matrix, influence
@@ -18,6 +18,7 @@ from abu_calc.features.balancing.tolerance import bearing_levers
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import GRAVITY, from_si, to_si
 
 SAFE_SHARE: Final = 0.1
@@ -30,22 +31,15 @@ PLACES: Final = (0.0, 120.0, 240.0)
 """Angles of the trial mass without phase [degrees]."""
 
 
-@dataclass(frozen=True)
-class TrialProposal:
-    """Trial mass for a plane [kg]: the one proposed, the largest safe one, and the least visible one if the influence
-    of the plane is known; `share`: centrifugal force over the bearing load.
-    """
+@record
+class TrialMassResult(Record):
+    """Trial mass proposed for a plane, for the next time."""
 
-    plane: int
-    mass: float
-    safe: float
-    visible: float | None
-    share: float
-
-    @property
-    def both(self) -> bool | None:
-        """Tell whether the mass is safe and visible; None if its effect is not known."""
-        return None if self.visible is None else self.visible <= self.safe
+    plane: Annotated[str, Quantity("plane")]
+    mass: Annotated[float, Quantity("trial mass", "", 3, unit="g")]
+    safe: Annotated[float, Quantity("largest safe one", "", 3, "a tenth of the bearing load", unit="g")]
+    visible: Annotated[float | None, Quantity("least visible one", "", 3, "changes a reading by 30 %", unit="g")]
+    force: Annotated[float, Quantity("centrifugal force", "", 2, "of the bearing load", unit="percent")]
 
 
 @formula(
@@ -87,7 +81,7 @@ def bearing_loads(file: ReadingsFile) -> tuple[float, ...] | None:
     )
 
 
-def proposals(file: ReadingsFile, runs: Sequence[RunOnRig], matrix: Matrix | None) -> tuple[TrialProposal, ...]:
+def proposals(file: ReadingsFile, runs: Sequence[RunOnRig], matrix: Matrix | None) -> tuple[TrialMassResult, ...]:
     """A trial mass for each plane at the highest speed of the runs; `matrix`: influence of the planes, if known."""
     loads = bearing_loads(file)
     if loads is None or not runs:
@@ -96,13 +90,14 @@ def proposals(file: ReadingsFile, runs: Sequence[RunOnRig], matrix: Matrix | Non
     first = next((run for run in runs if not run.weights), runs[0])
     largest = max(abs(phasor) for phasor in first.motion)
     made = []
-    for plane, (load, radius_mm) in enumerate(zip(loads, file.radii_mm, strict=True)):
+    for plane, (name, load, radius_mm) in enumerate(zip(file.planes, loads, file.radii_mm, strict=True)):
         radius = to_si(radius_mm, "mm")
         safe = safe_trial_mass(load, radius, speed)
         gain = None if matrix is None else max(abs(row[plane]) for row in matrix)
         visible = VISIBLE_CHANGE * largest / (gain * radius) if gain else None
         mass = _rounded(safe if visible is None else min(safe, MARGIN * visible))
-        made.append(TrialProposal(plane, mass, safe, visible, mass * radius * speed**2 / load))
+        force = mass * radius * speed**2 / load
+        made.append(TrialMassResult(plane=name, mass=mass, safe=safe, visible=visible, force=force))
     return tuple(made)
 
 
@@ -116,11 +111,6 @@ def _rounded(mass: float) -> float:
         return 0.0
     step = 10.0 ** (math.floor(math.log10(mass) + 1e-12) - 1)
     return round(math.floor(mass / step + 1e-9) * step, 15)
-
-
-def known_influence(case: Balancing) -> Matrix | None:
-    """Influence of the planes by the rig's data at the speed of the first run; None without them."""
-    return None if case.roll is None else influence(case.roll, case.runs[0].speed)
 
 
 @dataclass(frozen=True)
@@ -189,26 +179,27 @@ def _wanted_without_phase(case: Balancing) -> Iterator[WantedRun]:
 
 
 def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[str]:
-    """Sentences on a run with its trial mass."""
     rpm = f"{from_si(wanted.speed, 'rpm'):.0f} rpm"
     if wanted.plane is None:
         yield f"Next run: {rpm}, without a trial mass."
         return
-    name = "" if file.single_plane is not None else f"{file.planes[wanted.plane]} plane, "
+    plane = file.planes[wanted.plane]
+    name = "" if file.single_plane is not None else f"{plane} plane, "
     angle = wanted.angle if file.rotor.angle_marks == "against" else -wanted.angle % 360
     at = f"at {angle:.0f}°"
     if wanted.before is not None:
         yield f"Next run: {rpm}, {name}the trial mass of {from_si(wanted.before.mass, 'g'):.3g} g {at}."
         return
     own = [run for run in case.runs if run.speed == wanted.speed]
-    proposed = next((each for each in proposals(file, own, known_influence(case)) if each.plane == wanted.plane), None)
+    matrix = influence(case.roll, case.runs[0].speed) if case.roll else None
+    proposed = next((each for each in proposals(file, own, matrix) if each.plane == plane), None)
     if proposed is None:
         yield f"Next run: {rpm}, {name}a trial mass {at}."
         yield "Give rotor.mass_kg to have a safe trial mass proposed."
         return
     yield (
-        f"Next run: {rpm}, {name}trial mass {from_si(proposed.mass, 'g'):.3g} g {at}, radius "
-        f"{file.radii_mm[wanted.plane]:g} mm. Its centrifugal force is {100 * proposed.share:.2g} % of the bearing "
+        f"Next run: {rpm}, {name}trial mass {proposed.mass_g:.3g} g {at}, radius "
+        f"{file.radii_mm[wanted.plane]:g} mm. Its centrifugal force is {proposed.force_percent:.2g} % of the bearing "
         f"load (limit {100 * SAFE_SHARE:.0f} %)."
     )
     yield (

@@ -4,21 +4,23 @@ import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
-from abu_calc.features.balancing.case import Taken, balancing, behind_the_mark, deviations, making_of, mass_of
-from abu_calc.features.balancing.corrections import Making, MassShare, correction, total
+from abu_calc.features.balancing.case import RunReadings, balancing, behind_the_mark, making_of, mass_of
+from abu_calc.features.balancing.corrections import Making, Share, correction, total, turned
 from abu_calc.features.balancing.errors import (
     ROUNDING,
     Deviations,
     ErrorContribution,
     Remainder,
+    angular,
     changes,
     in_deviations,
     of_planes,
     placing,
+    radial,
     remainders,
     size,
 )
@@ -26,10 +28,11 @@ from abu_calc.features.balancing.formulas import Signed, Vector, influence, natu
 from abu_calc.features.balancing.methods import Array, Method, Solution, method_of, motion_of, said_of_resonance, solved
 from abu_calc.features.balancing.runs import SEEN, Balancing, Coefficients, TrialMass, imbalance_of
 from abu_calc.features.balancing.tables import ReadingsFile
-from abu_calc.features.balancing.tolerance import TolerancePlanes, tolerance_of
+from abu_calc.features.balancing.tolerance import TolerancePlanes, ToleranceResult, tolerance_of
 from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import to_si
 
 FARTHER: Final = 1.6
@@ -48,6 +51,44 @@ Spread = Sequence[Vector]
 """Changes of the imbalances by one standard deviation of each number, those of the correction itself among them."""
 
 
+@record
+class PlaneCorrection(Record):
+    """One plane: its heavy spot and its correction. Angles count from the zero mark, 0 … 360."""
+
+    mass: Annotated[float, Quantity("mass of the heavy spot", "m_j", 4, "at the correction radius", unit="g")]
+    angle: Annotated[float, Quantity("heavy spot at", "φ_j", 5, "from the zero mark, against rotation", unit="deg")]
+    mass_uncertainty: Annotated[float, Quantity("uncertainty of the mass", "", 2, "one standard deviation", unit="g")]
+    angle_uncertainty: Annotated[
+        float, Quantity("uncertainty of the angle", "", 2, "one standard deviation; 180: not known", unit="deg")
+    ]
+    remove_at: Annotated[
+        float, Quantity("remove at", "", 5, "the heavy spot by the angle marks of the rotor", unit="deg")
+    ]
+    add_at: Annotated[float, Quantity("or add at", "", 5, "opposite, by the angle marks of the rotor", unit="deg")]
+    corrections: tuple[Share, ...]
+    """Corrections to make, by the metal and the places there are."""
+    imbalance: Annotated[float, Quantity("imbalance", "|Q|", 4, "that the correction takes away", unit="g_mm")]
+    permitted: Annotated[
+        float | None,
+        Quantity("permitted imbalance", "U_per", 4, "of the tolerance plane on this side", unit="g_mm"),
+    ]
+    rest: Annotated[float, Quantity("imbalance to be expected after it", "", 2, "rms over the errors", unit="g_mm")]
+    rest_at_most: Annotated[
+        float,
+        Quantity("imbalance after it, at most", "", 2, "twice that: exceeded less than once in twenty", unit="g_mm"),
+    ]
+    leftover: Annotated[
+        float,
+        Quantity(
+            "imbalance that limits or stock leave", "", 2, "without any errors; part of the expected one", unit="g_mm"
+        ),
+    ]
+    printed_mass: Annotated[
+        float | None, Quantity("mass by the published formula", "", 4, "readings not converted", unit="g")
+    ]
+    printed_angle: Annotated[float | None, Quantity("angle by the published formula", "", 5, unit="deg")]
+
+
 @dataclass(frozen=True)
 class Found:
     """An answer; `target`: imbalance of each plane that the correction takes away, `leftover`: the part that discrete
@@ -55,7 +96,6 @@ class Found:
     """
 
     case: Balancing
-    sigma: Deviations
     solution: Solution
     by: Sequence[ErrorContribution]
     below: bool
@@ -80,7 +120,7 @@ class Found:
     planes: tuple[str, ...]
     radii: tuple[float, ...]
     making: Making
-    shares: Sequence[Sequence[MassShare]]
+    shares: Sequence[Sequence[Share]]
     farther: tuple[float, float] | None
     """A speed farther from the natural frequencies that was tried [rad/s], and what would be left there."""
     printed: tuple[Signed, Signed] | None
@@ -96,16 +136,46 @@ class Found:
         """Likewise in each tolerance plane; in the correction planes without a tolerance."""
         return self.rest if self.tolerance is None else self.tolerance.sizes(self.spread)
 
+    @property
+    def tolerance_result(self) -> ToleranceResult | None:
+        """Permitted imbalance, that now and that expected in the tolerance planes."""
+        if self.tolerance is None:
+            return None
+        return self.tolerance.result(self.planes, self.solution.imbalance, self.rest_in_tolerance_planes)
 
-def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients | None = None) -> Found:
+    def correction(self, plane: int, *, with_rotation: bool) -> PlaneCorrection:
+        """Correction in a plane; `with_rotation`: the angle marks of the rotor count so."""
+        Q, radius, rest = self.target[plane], self.radii[plane], self.rest[plane]
+        deltas, sense = [change.imbalance[plane] for change in self.by], -1 if with_rotation else 1
+        heavy_spot = -cmath.phase(Q)
+        printed_mass, printed_angle = self.printed[plane] if self.printed else (None, None)
+        return PlaneCorrection(
+            mass=abs(Q) / radius,
+            angle=turned(heavy_spot),
+            mass_uncertainty=radial(Q, deltas) / radius,
+            angle_uncertainty=angular(Q, deltas),
+            remove_at=turned(sense * heavy_spot),
+            add_at=turned(sense * heavy_spot + math.pi),
+            corrections=tuple(replace(share, angle=turned(sense * share.angle)) for share in self.shares[plane]),
+            imbalance=abs(Q),
+            permitted=self.tolerance.permitted[plane] if self.tolerance else None,
+            rest=rest,
+            rest_at_most=2 * rest,
+            leftover=abs(self.leftover[plane]),
+            printed_mass=printed_mass,
+            printed_angle=printed_angle,
+        )
+
+
+def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coefficients | None = None) -> Found:
     """The answer of a file. Raises InputError, and NotTrustworthyError where errors would be larger than it."""
-    case, sigma = balancing(file, tuple(taken), coefficients), deviations(file.errors)
+    case, sigma = balancing(file, tuple(taken), coefficients), Deviations(**file.errors.in_si())
     fitted = tuple(mass_of(file, mass) for mass in file.correction.fitted)
     replaced = fitted if file.correction.answer == "total" else ()
     answer = _answer(case, method_of(case), sigma, replaced)
-    service, making = _service_speed(file, case), making_of(file)
+    service, making = file.tolerance.in_si()["service_speed"] or max(run.speed for run in case.runs), making_of(file)
     radii = tuple(to_si(radius, "mm") for radius in file.radii_mm)
-    shares: list[tuple[MassShare, ...]] = [
+    shares: list[tuple[Share, ...]] = [
         () if answer.below else _shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)
     ]
     leftover = tuple(_leftover(*each) for each in zip(answer.target, shares, radii, strict=True))
@@ -115,7 +185,6 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
     planes_share, disagreement = _misfits(case, answer, left)
     return Found(
         case=case,
-        sigma=sigma,
         solution=answer.solution,
         by=answer.by,
         placed=placed,
@@ -130,7 +199,7 @@ def find(file: ReadingsFile, taken: Sequence[Taken], coefficients: Coefficients 
         disagreement=disagreement,
         tolerance=tolerance_of(file, service),
         service_speed=service,
-        bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
+        bending_speed=file.rotor.in_si()["first_bending_speed"],
         planes=file.planes,
         radii=radii,
         making=making,
@@ -196,10 +265,6 @@ def _of_fitted(case: Balancing, fitted: Sequence[TrialMass], sigma: Deviations) 
     ]  # fmt: skip
 
 
-def _or_none(value: float | None, unit: str) -> float | None:
-    return None if value is None else to_si(value, unit)
-
-
 def _hopeless(case: Balancing, method: Method, share: float) -> str:
     masses = {"runs without phase": [], "trial masses": ["heavier trial masses"]}.get(method, ["trial masses"])
     *ways, last = ["Another speed", "smaller errors", *masses, *["planes farther apart"] * (case.planes == 2)]
@@ -261,23 +326,18 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
     return speed, _error_share(left)
 
 
-def _service_speed(file: ReadingsFile, case: Balancing) -> float:
-    given = file.tolerance.service_speed_rpm
-    return max(run.speed for run in case.runs) if given is None else to_si(given, "rpm")
-
-
-def _shares(file: ReadingsFile, making: Making, plane: int, Q: complex, radius: float) -> tuple[MassShare, ...]:
+def _shares(file: ReadingsFile, making: Making, plane: int, Q: complex, radius: float) -> tuple[Share, ...]:
     places = file.places_deg[plane]
     marked = None if places is None else [behind_the_mark(file, place) for place in places]
     return correction(abs(Q) / radius, -cmath.phase(Q), making, marked, radius)
 
 
-def _pieces(shares: Sequence[MassShare], radius: float) -> Vector:
+def _pieces(shares: Sequence[Share], radius: float) -> Vector:
     """Imbalance of each mass of a plane [kg m]."""
     return tuple(cmath.rect(share.mass * radius, -share.angle) for share in shares)
 
 
-def _leftover(Q: complex, shares: Sequence[MassShare], radius: float) -> complex:
+def _leftover(Q: complex, shares: Sequence[Share], radius: float) -> complex:
     """Imbalance that shares do not take away [kg m]."""
     left = Q - total(shares).conjugate() * radius
     return left if abs(left) > ROUNDING * abs(Q) else 0j

@@ -3,14 +3,15 @@
 The tolerance planes are the bearing planes. If the lengths of the rotor are not known, the correction planes serve.
 """
 
-from collections.abc import Iterable
-from typing import Final, Literal
+from collections.abc import Iterable, Sequence
+from typing import Annotated, ClassVar, Final, Literal
 
 from abu_calc.features.balancing.errors import size
 from abu_calc.features.balancing.formulas import Vector
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.vibration import permissible_imbalance
 
@@ -50,6 +51,29 @@ def tolerance_shares(permitted: float, left: float, right: float) -> tuple[float
     return first, second
 
 
+@record
+class ToleranceResult(Record):
+    """Permitted residual imbalance and the imbalance of each tolerance plane; null for the planes there are not."""
+
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"left_g_mm", "right_g_mm", "left_now_g_mm", "right_now_g_mm", "left_rest_g_mm", "right_rest_g_mm",
+         "single_plane_g_mm", "single_plane_now_g_mm", "single_plane_rest_g_mm"}
+    )  # fmt: skip
+
+    planes: Annotated[str, Quantity("tolerance planes", "", 4, "bearing planes, or correction planes")]
+    rule: Annotated[str, Quantity("rule")]
+    whole: Annotated[float, Quantity("permitted imbalance of the rotor", "U_per", unit="g_mm")]
+    left: Annotated[float | None, Quantity("left, permitted", "U_A", unit="g_mm")] = None
+    right: Annotated[float | None, Quantity("right, permitted", "U_B", unit="g_mm")] = None
+    left_now: Annotated[float | None, Quantity("left, now", unit="g_mm")] = None
+    right_now: Annotated[float | None, Quantity("right, now", unit="g_mm")] = None
+    left_rest: Annotated[float | None, Quantity("left, expected", "", 2, "rms over the errors", unit="g_mm")] = None
+    right_rest: Annotated[float | None, Quantity("right, expected", "", 2, "rms over the errors", unit="g_mm")] = None
+    single_plane: Annotated[float | None, Quantity("permitted", "U_per", unit="g_mm")] = None
+    single_plane_now: Annotated[float | None, Quantity("now", unit="g_mm")] = None
+    single_plane_rest: Annotated[float | None, Quantity("expected", "", 2, "rms over the errors", unit="g_mm")] = None
+
+
 @dataclass(frozen=True)
 class TolerancePlanes:
     """Permitted imbalance in all and of each tolerance plane [kg m]; `levers`: rows by which imbalances of the
@@ -65,6 +89,23 @@ class TolerancePlanes:
     def transformed(self, imbalance: Vector) -> Vector:
         """Imbalances of the correction planes as those of the tolerance planes [kg m]."""
         return tuple(sum((lever * q for lever, q in zip(row, imbalance, strict=True)), 0j) for row in self.levers)
+
+    def result(self, names: Sequence[str], imbalance: Vector, rest: Sequence[float]) -> ToleranceResult:
+        """Permitted imbalance, that now and that expected in the tolerance planes, by the names of the planes."""
+        parts = {"": self.permitted, "_now": map(abs, self.transformed(imbalance)), "_rest": rest}
+        values = {
+            f"{'single_plane' if name == 'single' else name}{what}": value
+            for what, planes in parts.items()
+            for name, value in zip(names, planes, strict=True)
+        }
+        if self.planes == "correction planes":
+            single = len(names) == 1
+            rule = "all in the single plane" if single else "half in each plane, since the lengths are not known"
+        elif self.overhung:
+            rule = "lever rule, centre of mass outside the bearings, each share within 0.3 … 1.3 (unverified)"
+        else:
+            rule = "lever rule, each share within 0.3 … 0.7"
+        return ToleranceResult(planes=self.planes, rule=rule, whole=self.whole, **values)
 
     def sizes(self, deltas: Iterable[Vector]) -> tuple[float, ...]:
         """Imbalances of the tolerance planes, rms over independent changes [kg m]."""

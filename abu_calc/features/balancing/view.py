@@ -6,22 +6,18 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
-from abu_calc.features.balancing.drawn import LEGEND, drawing, plane_picture, sense_of, sketch
-from abu_calc.features.balancing.records import (
-    PlaneCorrection,
-    ResidualCheck,
-    RunReadings,
-    SensorReading,
-    Share,
-    Verification,
-)
-from abu_calc.features.balancing.study import BalanceResult
+from abu_calc.features.balancing.case import RunReadings, SensorReading
+from abu_calc.features.balancing.corrections import Share
+from abu_calc.features.balancing.drawn import LEGEND, called, drawing, plane_picture, sense_of, sketch
+from abu_calc.features.balancing.solution import PlaneCorrection
+from abu_calc.features.balancing.study import BalanceResult, ResidualCheck, Verification
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import one_screen, verdict_line
 
 MOST_ORDERS: Final = 6
 """Most masses of a plane that are orders of their own."""
+SIGNS: Final = {"remove": "−", "add": "+"}
 MARKS: Final = {
     "against rotation": "Angles of planes count from the zero mark AGAINST rotation.",
     "with rotation": "Angles of planes count from the zero mark WITH rotation, as rotor.angle_marks says.",
@@ -97,9 +93,8 @@ def _orders(result: BalanceResult) -> list[str]:
     """Instructions for the correction, one sentence per plane."""
     sentences = []
     for name, plane in result.planes:
-        called = "plane" if name == "single" else f"{name} plane"
         if not plane.mass_g or not plane.corrections:
-            sentences.append(f"Leave the {called} as it is.")
+            sentences.append(f"Leave the {called(name)} as it is.")
             continue
         parts = " and ".join(orders_of(plane))
         head = "PLANE" if name == "single" else f"{name.upper()} plane"
@@ -114,7 +109,7 @@ def order_of(share: Share, short: bool = False) -> str:
 
     `short`: with a sign in place of a word.
     """
-    sign = {"remove": "−", "add": "+"}[share.action] if short else share.action
+    sign = SIGNS[share.action] if short else share.action
     at = f"{round(share.angle_deg, 1) % 360:.1f}°"
     if share.weights_g is not None:
         weights = weights_text(share.weights_g)
@@ -334,7 +329,7 @@ def _rig(result: BalanceResult) -> list[Block]:
         for name, row in zip(names, result.influence_coefficients, strict=True)
     )
     title = "Influence of the planes on the sensors, µm of displacement per g·mm"
-    columns = ("plane" if name == "single" else f"{name} plane" for name, _ in result.planes)
+    columns = (called(name) for name, _ in result.planes)
     head: list[Block] = [Heading("Rig"), *paragraphs] if paragraphs else []
     return [*head, Heading(title), Grid(("", *columns), rows)]
 

@@ -6,23 +6,28 @@ from pathlib import Path
 from statistics import fmean, stdev
 from typing import Annotated, ClassVar, Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from abu_calc.features.declare.measured_checks import Calibrated, Series, measured_checks
 from abu_calc.features.declare.read import Recordings, Run, loaded, of_files, remark_in_list, runs_of
 from abu_calc.features.levels.octaves import AxisSignal, Filter, acceleration_filter, band_rms, hand_arm_filter, why_not
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, Stage, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.inputs.recording import MOST_AXES, Recording
 from abu_calc.inputs.recording_columns import QUANTITIES
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
-from abu_calc.standards.type_test import balancing_factor, declared_uncertainty, reproducibility, uncertainty_source
+from abu_calc.standards.type_test import (
+    balancing_factor,
+    declared_uncertainty,
+    reproducibility,
+    series_rules,
+    uncertainty_source,
+)
 
 MOST_NAMED: Final = 3
+CALIBRATED: Final = 0.05
+"""Share by which a channel may differ from the calibrator."""
+AXES: Final = 3
 
 
 @record
@@ -38,8 +43,11 @@ class MeasuredAxis(Record):
 class MeasuredRun(Record):
     """One run at one handle."""
 
+    left_out: ClassVar[frozenset[str]] = frozenset({"parts"})
     optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
 
+    parts: tuple[Run, ...]
+    """Axes from one file or several."""
     operator: Annotated[str, Quantity("operator")]
     run: Annotated[int, Quantity("run")]
     handle: Annotated[str, Quantity("handle")]
@@ -49,6 +57,11 @@ class MeasuredRun(Record):
     overload: Annotated[bool, Quantity("stays at its largest value")]
     why_not: Annotated[str | None, Quantity("why it is not known")]
 
+    @property
+    def name(self) -> str:
+        """Operator, number and handle in words."""
+        return f"operator {self.operator}, run {self.run}, {self.handle}"
+
 
 @record
 class MeasuredSeries(Record):
@@ -57,8 +70,8 @@ class MeasuredSeries(Record):
     operator: Annotated[str, Quantity("operator")]
     handle: Annotated[str, Quantity("handle")]
     runs: Annotated[int, Quantity("runs")]
-    mean_m_per_s2: Annotated[float | None, Quantity("mean", "a_hv", 4)]
-    standard_deviation_m_per_s2: Annotated[float | None, Quantity("standard deviation", "", 3)]
+    mean: Annotated[float | None, Quantity("mean", "a_hv", unit="m_per_s2")]
+    standard_deviation: Annotated[float | None, Quantity("standard deviation", "", 3, unit="m_per_s2")]
     coefficient_of_variation: Annotated[float | None, Quantity("coefficient of variation", "", 3)]
 
 
@@ -106,17 +119,6 @@ class MeasuredDeclareResult(Result):
     calibration: tuple[MeasuredChannel, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class _Measured:
-    """Axes of one handle in one run, from one file or several."""
-
-    operator: str
-    number: int
-    handle: str
-    parts: tuple[Run, ...]
-    record: MeasuredRun
-
-
 @checked
 def declare_recordings(
     recordings: Recordings | Sequence[str], *, sensitivity: Sequence[str] = (), automatic_balancing: bool = False,
@@ -130,9 +132,8 @@ def declare_recordings(
     """
     source = recordings if isinstance(recordings, Recordings) else of_files(recordings, sensitivity)
     with source.located():
-        measured = _measured(source, progress)
+        runs = tuple(_measured(source, progress))
         channels = tuple(_calibration(source))
-    runs = tuple(each.record for each in measured)
     series = tuple(_series(runs))
     handles = tuple(_handles(series))
     highest = max(handles, key=lambda each: each.a_hv_m_per_s2 or 0.0)
@@ -144,17 +145,12 @@ def declare_recordings(
         spread = reproducibility(declared, factor * (highest.standard_deviation_m_per_s2 or 0.0))
     variation = [each.coefficient_of_variation for each in series if each.handle == highest.name]
     known = [each for each in variation if each is not None]
-    provenance = Provenance.of(source) if source.file else Provenance.today(runs_file(measured), None)
+    provenance = Provenance.of(source) if source.file else Provenance.today(_only_file(runs), None)
     return MeasuredDeclareResult(
         title=source.title,
-        checks=measured_checks(
-            [Series(each.operator, each.handle, each.runs, each.mean_m_per_s2, each.standard_deviation_m_per_s2)
-             for each in series],
-            [(_name(run), len(run.axes), run.why_not) for run in runs],
-            _overloads(runs, channels), tuple(_doubles(measured)),
-            [Calibrated(channel.name, channel.file, channel.ratio) for channel in channels],
-        ),
-        warnings=(*source.warnings, *_remarks(measured, factor)),
+        checks=(*_spread(series), _whole(series, runs), *_calibrated(channels), _overload(runs, channels),
+                _weighted(runs)),
+        warnings=(*source.warnings, *_remarks(runs, factor)),
         provenance=provenance,
         a_hd_m_per_s2=value,
         handle=None if value is None else highest.name,
@@ -170,53 +166,47 @@ def declare_recordings(
     )  # fmt: skip
 
 
-def runs_file(measured: "Sequence[_Measured]") -> str | None:
+def _only_file(runs: Iterable[MeasuredRun]) -> str | None:
     """The recorded file, if there is a single one."""
-    files = {part.recording.file for each in measured for part in each.parts}
+    files = {part.recording.file for run in runs for part in run.parts}
     return files.pop() if len(files) == 1 else None
 
 
-def _measured(source: Recordings, progress: Progress) -> tuple[_Measured, ...]:
+def _measured(source: Recordings, progress: Progress) -> Iterator[MeasuredRun]:
     """Runs in the order of the file, axes of one run together."""
     parts: dict[tuple[str, int, str], list[Run]] = {}
     total = len(source.tables.recording)
     for count, run in enumerate(runs_of(source)):
         progress(Stage("reading runs", min(count / total, 1.0)))
         parts.setdefault((run.operator, run.number, run.handle), []).append(run)
-    measured = []
     for count, (key, group) in enumerate(parts.items()):
         progress(Stage("weighting runs", count / len(parts)))
-        measured.append(_Measured(*key, tuple(group), _record(key, group)))
-    return tuple(measured)
+        yield _run(key, group)
 
 
-def _record(key: tuple[str, int, str], group: Sequence[Run]) -> MeasuredRun:
+def _run(key: tuple[str, int, str], group: Sequence[Run]) -> MeasuredRun:
     """Weighted acceleration of each axis, and their vector total; refused if an axis is there twice."""
     operator, number, handle = key
     names = [name for run in group for name in _axis_names(run)]
     _refuse_doubles(key, group, names)
     weighting = hand_arm_filter()
-    values, reasons, overload = list[float | None](), list[str](), list[bool]()
+    axes, reasons = list[MeasuredAxis](), list[str]()
     for run in group:
         for index in run.indices:
-            samples = run.recording.samples[index]
-            signal = _signal(run.recording, samples)
-            reason = why_not(signal, weighting)
-            values.append(None if reason else _rms(signal, weighting))
+            value, reason = _rms(run.recording, index, weighting)
             reasons += [reason] if reason else []
-            overload.append(run.recording.names[index] in run.recording.clipped)
-    known = [value for value in values if value is not None]
+            overload = run.recording.names[index] in run.recording.clipped
+            axes.append(MeasuredAxis(name=names[len(axes)], a_hw_m_per_s2=value, overload=overload))
+    known = [axis.a_hw_m_per_s2 for axis in axes if axis.a_hw_m_per_s2 is not None]
     return MeasuredRun(
+        parts=tuple(group),
         operator=operator,
         run=number,
         handle=handle,
-        a_hv_m_per_s2=math.hypot(*known) if len(known) == len(values) else None,
-        axes=tuple(
-            MeasuredAxis(name=name, a_hw_m_per_s2=value, overload=over)
-            for name, value, over in zip(names, values, overload, strict=True)
-        ),
+        a_hv_m_per_s2=math.hypot(*known) if len(known) == len(axes) else None,
+        axes=tuple(axes),
         duration_s=min(run.recording.duration for run in group),
-        overload=any(overload),
+        overload=any(axis.overload for axis in axes),
         why_not=reasons[0] if reasons else None,
     )
 
@@ -237,22 +227,19 @@ def _refuse_doubles(key: tuple[str, int, str], group: Sequence[Run], names: Sequ
     )  # fmt: skip
 
 
-def _signal(recording: Recording, samples: NDArray[np.float64]) -> AxisSignal:
-    return AxisSignal(samples, recording.rate, 1 - QUANTITIES.index(recording.quantity), 0.0, True)
-
-
-def _rms(signal: AxisSignal, weighting: Filter) -> float:
-    return band_rms(signal, weighting)
+def _rms(recording: Recording, index: int, band: Filter) -> tuple[float | None, str | None]:
+    """Rms of an axis by a filter, or why it is not known."""
+    signal = AxisSignal(recording.samples[index], recording.rate, 1 - QUANTITIES.index(recording.quantity), 0.0, True)
+    reason = why_not(signal, band)
+    return (None if reason else band_rms(signal, band)), reason
 
 
 def _calibration(source: Recordings) -> Iterator[MeasuredChannel]:
     """Rms acceleration of every channel of the calibrator runs."""
     for index, entry in enumerate(source.tables.calibration):
         recording = loaded(source, entry, Place(source.file or None, key=f"calibration[{index}]"))
-        for name, samples in zip(recording.names, recording.samples, strict=True):
-            signal, band = _signal(recording, samples), acceleration_filter()
-            value = None if why_not(signal, band) else band_rms(signal, band)
-            true = entry.acceleration_m_per_s2
+        for number, name in enumerate(recording.names):
+            value, true = _rms(recording, number, acceleration_filter())[0], entry.acceleration_m_per_s2
             yield MeasuredChannel(
                 file=Path(recording.file).name,
                 name=name,
@@ -276,15 +263,15 @@ def _series(runs: Iterable[MeasuredRun]) -> Iterator[MeasuredSeries]:
             operator=operator,
             handle=handle,
             runs=len(given),
-            mean_m_per_s2=mean,
-            standard_deviation_m_per_s2=deviation,
+            mean=mean,
+            standard_deviation=deviation,
             coefficient_of_variation=deviation / mean if deviation is not None and mean else None,
         )
 
 
 def _handles(series: Sequence[MeasuredSeries]) -> Iterator[MeasuredHandle]:
     for name in dict.fromkeys(each.handle for each in series):
-        means = [each.mean_m_per_s2 for each in series if each.handle == name]
+        means = [each.mean for each in series if each.handle == name]
         known = [mean for mean in means if mean is not None]
         whole = len(known) == len(means)
         yield MeasuredHandle(
@@ -294,31 +281,11 @@ def _handles(series: Sequence[MeasuredSeries]) -> Iterator[MeasuredHandle]:
         )
 
 
-def _name(run: MeasuredRun) -> str:
-    return f"operator {run.operator}, run {run.run}, {run.handle}"
-
-
-def _doubles(measured: Sequence[_Measured]) -> Iterator[str]:
-    """Runs that hold the same samples as one before them: they count as runs, but were measured once."""
-    known: dict[tuple[tuple[str, tuple[int, ...]], ...], MeasuredRun] = {}
-    for each in measured:
-        samples = tuple((part.recording.sha256, part.indices) for part in each.parts)
-        first = known.setdefault(samples, each.record)
-        if first is not each.record:
-            yield f"{_name(each.record)}: the same recording as {_name(first)}"
-
-
-def _overloads(runs: Iterable[MeasuredRun], calibration: Iterable[MeasuredChannel]) -> list[str]:
-    """Names of the channels that stay at their largest value, of runs and calibrator runs."""
-    names = [f"{_name(run)}, {axis.name}" for run in runs for axis in run.axes if axis.overload]
-    return names + [f"calibrator run {channel.file}, {channel.name}" for channel in calibration if channel.overload]
-
-
-def _remarks(measured: Sequence[_Measured], factor: float) -> Iterator[str]:
+def _remarks(runs: Iterable[MeasuredRun], factor: float) -> Iterator[str]:
     """Remarks of the reader once each with the number of files, and where K is from."""
     told: dict[str, dict[str, None]] = {}
-    for each in measured:
-        for part in each.parts:
+    for run in runs:
+        for part in run.parts:
             for remark in part.recording.remarks:
                 told.setdefault(remark_in_list(remark), {})[Path(part.recording.file).name] = None
     for remark, files in told.items():
@@ -332,3 +299,105 @@ def _remarks(measured: Sequence[_Measured], factor: float) -> Iterator[str]:
         )
     source, status = uncertainty_source()
     yield f"K is by {source}: {status}. The measured part of s_R is the standard deviation of the operators' means."
+
+
+def _spread(series: Sequence[MeasuredSeries]) -> Iterator[Check]:
+    """ABU441, one for each handle: the series that scatters most."""
+    rules = series_rules()
+    for handle in dict.fromkeys(each.handle for each in series):
+        known = [each for each in series if each.handle == handle and each.coefficient_of_variation is not None]
+        if len(known) < sum(each.handle == handle for each in series):
+            reason = "A series has a single run, or a value is not known"
+            yield coded("ABU441", "not-done", reason, None, rules.variation, "", of=handle)
+            continue
+        failing = [each for each in known if not _scatters_little(each)]
+        worst = max(failing or known, key=_variation)
+        message = (
+            f"Operator {worst.operator}: standard deviation {worst.standard_deviation:.3g} m/s² of {worst.runs} runs, "
+            f"mean {worst.mean:.3g} m/s²"
+        )
+        if not failing and _variation(worst) >= rules.variation:
+            message += f". The standard deviation is below {rules.deviation:g} m/s², which suffices"
+        yield coded("ABU441", verdict(not failing), message, _variation(worst), rules.variation, "", of=handle)
+
+
+def _variation(series: MeasuredSeries) -> float:
+    return series.coefficient_of_variation or 0.0
+
+
+def _scatters_little(series: MeasuredSeries) -> bool:
+    rules = series_rules()
+    return _variation(series) < rules.variation or (series.standard_deviation or 0.0) < rules.deviation
+
+
+def _whole(series: Sequence[MeasuredSeries], runs: Sequence[MeasuredRun]) -> Check:
+    """ABU442."""
+    rules, faults = series_rules(), list[str]()
+    for handle in dict.fromkeys(each.handle for each in series):
+        operators = [each for each in series if each.handle == handle]
+        if len(operators) < rules.operators:
+            faults.append(f"{handle}: {len(operators)} of {rules.operators} operators")
+        short = [each for each in operators if each.runs < rules.runs]
+        faults += [f"{handle}, operator {each.operator}: {each.runs} of {rules.runs} runs" for each in short]
+    fewer = [f"{run.name}: {len(run.axes)} of {AXES} axes" for run in runs if len(run.axes) < AXES]
+    faults += fewer[:MOST_NAMED] + (
+        [f"{len(fewer) - MOST_NAMED} more runs with fewer axes"] if len(fewer) > MOST_NAMED else []
+    )
+    doubles = list(_doubles(runs))
+    faults += [_listed(doubles)] if doubles else []
+    message = f"Each handle has {rules.operators} operators or more with {rules.runs} runs or more, three axes each"
+    remedy = "Measure what is missing, so that the value is that of a whole type test." if faults else None
+    return coded("ABU442", verdict(True, not faults), ". ".join(faults) or message, remedy=remedy)
+
+
+def _calibrated(channels: Sequence[MeasuredChannel]) -> Iterator[Check]:
+    """ABU443: the channel that is off most; nothing to check without a calibrator run."""
+    if not channels:
+        message = "No calibrator run is given, so the sensitivities are taken as they are"
+        advice = "Record a calibrator with each channel, and list it as [[calibration]]."
+        yield coded("ABU443", "warn", message, remedy=advice)
+        return
+    unknown = [channel for channel in channels if channel.ratio is None]
+    if unknown:
+        message = f"{unknown[0].file}, {unknown[0].name}: too short, or sampled too slowly"
+        yield coded("ABU443", "not-done", message, None, 100 * CALIBRATED, "%")
+        return
+    off = max(channels, key=lambda channel: abs((channel.ratio or 1.0) - 1))
+    error = abs((off.ratio or 1.0) - 1)
+    message = f"{off.file}, {off.name}: {off.ratio:.4g} times the calibrator's acceleration"
+    remedy = None
+    if error > CALIBRATED:
+        remedy = f"Multiply the sensitivity of this channel by {off.ratio:.4g}, or mend sensor and cable."
+    yield coded("ABU443", verdict(error <= CALIBRATED), message, 100 * error, 100 * CALIBRATED, "%", remedy)
+
+
+def _overload(runs: Iterable[MeasuredRun], calibration: Iterable[MeasuredChannel]) -> Check:
+    """ABU444, of runs and calibrator runs."""
+    channels = [f"{run.name}, {axis.name}" for run in runs for axis in run.axes if axis.overload]
+    channels += [f"calibrator run {channel.file}, {channel.name}" for channel in calibration if channel.overload]
+    message = "No recording stays at its largest value"
+    if channels:
+        message = f"Cut off at the largest value: {_listed(channels)}"
+    return coded("ABU444", verdict(not channels), message)
+
+
+def _weighted(runs: Iterable[MeasuredRun]) -> Check:
+    """ABU445."""
+    unknown = [run for run in runs if run.why_not]
+    if not unknown:
+        return coded("ABU445", "pass", "W_h can be applied to every run")
+    return coded("ABU445", "not-done", f"{_listed([run.name for run in unknown])}: {unknown[0].why_not}")
+
+
+def _doubles(runs: Iterable[MeasuredRun]) -> Iterator[str]:
+    """Runs that hold the same samples as one before them: they count as runs, but were measured once."""
+    known: dict[tuple[tuple[str, tuple[int, ...]], ...], MeasuredRun] = {}
+    for run in runs:
+        first = known.setdefault(tuple((part.recording.sha256, part.indices) for part in run.parts), run)
+        if first is not run:
+            yield f"{run.name}: the same recording as {first.name}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+    return "; ".join(names[:MOST_NAMED]) + more

@@ -5,7 +5,7 @@ from typing import Final
 
 from abu_calc.features.declare.measured import MeasuredDeclareResult, MeasuredHandle, MeasuredSeries
 from abu_calc.features.explain.steps import STEPS, step_blocks
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, or_dash
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
@@ -71,26 +71,22 @@ def _series(result: MeasuredDeclareResult) -> list[Block]:
 def _row(series: MeasuredSeries) -> tuple[str, ...]:
     variation = series.coefficient_of_variation
     return (
-        series.handle, series.operator, str(series.runs), _short(series.mean_m_per_s2),
-        _short(series.standard_deviation_m_per_s2), "–" if variation is None else f"{variation:.3f}",
+        series.handle, series.operator, str(series.runs), or_dash(series.mean_m_per_s2),
+        or_dash(series.standard_deviation_m_per_s2), "–" if variation is None else f"{variation:.3f}",
     )  # fmt: skip
 
 
 def _mean(handle: MeasuredHandle) -> tuple[str, ...]:
-    return (handle.name, "mean of operators", "", _short(handle.a_hv_m_per_s2),
-            _short(handle.standard_deviation_m_per_s2), "")  # fmt: skip
-
-
-def _short(value: float | None) -> str:
-    return "–" if value is None else number(value, 3)
+    return (handle.name, "mean of operators", "", or_dash(handle.a_hv_m_per_s2),
+            or_dash(handle.standard_deviation_m_per_s2), "")  # fmt: skip
 
 
 def _runs(result: MeasuredDeclareResult) -> list[Block]:
     axes = max(len(run.axes) for run in result.runs)
     header = ("handle", "operator", "run", *NTH[:axes], "a_hv, m/s²", "s")
     rows = tuple(
-        (run.handle, run.operator, str(run.run), *(_short(axis.a_hw_m_per_s2) for axis in run.axes),
-         *([""] * (axes - len(run.axes))), _short(run.a_hv_m_per_s2), number(run.duration_s, 3))
+        (run.handle, run.operator, str(run.run), *(or_dash(axis.a_hw_m_per_s2) for axis in run.axes),
+         *([""] * (axes - len(run.axes))), or_dash(run.a_hv_m_per_s2), number(run.duration_s, 3))
         for run in result.runs
     )  # fmt: skip
     return [Heading("Runs, weighted acceleration of each axis in m/s²", "runs"),
@@ -101,7 +97,7 @@ def _channels(result: MeasuredDeclareResult) -> list[Block]:
     if not result.calibration:
         return []
     rows = tuple(
-        (channel.file, channel.name, _short(channel.acceleration_m_per_s2), _short(channel.true_m_per_s2),
+        (channel.file, channel.name, or_dash(channel.acceleration_m_per_s2), or_dash(channel.true_m_per_s2),
          "–" if channel.ratio is None else f"{channel.ratio:.3f}")
         for channel in result.calibration
     )  # fmt: skip

@@ -6,19 +6,6 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 
 
 @record
-class TestWheelRecord(Record):
-    """The test wheel; no diameter and no feed force if the file gives an imbalance alone."""
-
-    __test__ = False
-
-    diameter_mm: Annotated[float | None, Quantity("diameter", "", 4)]
-    imbalance_g_mm: Annotated[float, Quantity("imbalance", "U")]
-    feed_force_N: Annotated[float | None, Quantity("feed force of the standard", "", 3)]
-    source: Annotated[str, Quantity("source")]
-    status: Annotated[str, Quantity("status of the source", "", 4, "secondary, or given")]
-
-
-@record
 class WithoutAutobalancer(Record):
     """The type test without the autobalancer, at its highest handle."""
 
@@ -91,7 +78,7 @@ class Cause(Record):
 class WheelInUse(Record):
     """The wheel in use instead of the test wheel, at the highest handle, the factor not included."""
 
-    imbalance_g_mm: Annotated[float, Quantity("imbalance", "U")]
+    imbalance: Annotated[float, Quantity("imbalance", "U", unit="g_mm")]
     without_m_per_s2: Annotated[float, Quantity("without autobalancer", "a_hv", 4)]
     with_m_per_s2: Annotated[float | None, Quantity("with autobalancer", "a_hv", 4)]
 
@@ -102,7 +89,7 @@ class Plan(Record):
 
     schema_title = "TypeTestPlan"
 
-    orientations_deg: Annotated[tuple[float, ...], Quantity("orientations of the test wheel")]
+    orientations: Annotated[tuple[float, ...], Quantity("orientations of the test wheel", unit="deg")]
     runs: Annotated[int, Quantity("starts at each orientation by each operator")]
     operators: Annotated[int, Quantity("operators")]
     starts: Annotated[int, Quantity("starts simulated")]
@@ -114,5 +101,5 @@ class Plan(Record):
 class DeclaredAt(Record):
     """Declared value with the autobalancer at one race eccentricity."""
 
-    race_eccentricity_mm: Annotated[float, Quantity("race eccentricity", "Δ", 3)]
+    race_eccentricity: Annotated[float, Quantity("race eccentricity", "Δ", 3, unit="mm")]
     declared_m_per_s2: Annotated[float, Quantity("declared", "a_hd", 3)]

@@ -1,6 +1,5 @@
 """Remarks on a simulated type test: what the declared value leaves out, and where its facts are from."""
 
-import math
 from collections.abc import Iterator
 from typing import Final
 
@@ -10,8 +9,8 @@ from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import body_advice
-from abu_calc.sizing.type_test import ChosenWheel, required
-from abu_calc.standards.type_test import uncertainty_source
+from abu_calc.sizing.type_test import required
+from abu_calc.standards.type_test import TestWheel, uncertainty_source
 
 DOUBTFUL: Final = 0.01
 """Share of starts without an end that calls for a remark."""
@@ -19,10 +18,10 @@ STRAIGHT: Final = "straight"
 
 
 def remarks(
-    design: Design, wheel: ChosenWheel, spindle: Spindle, imbalance_alone: float, test: SimulatedTest | None,
+    design: Design, wheel: TestWheel, spindle: Spindle, limit: float, test: SimulatedTest | None,
     with_: WithAutobalancer | None,
 ) -> Iterator[str]:  # fmt: skip
-    """Remarks, those that move the value most first. `imbalance_alone`: a_hv without background [m/s²]."""
+    """Remarks, those that move the value most first. `limit`: background that no autobalancer makes up for [m/s²]."""
     case = design.case
     if not case.body.is_rigid:
         yield (
@@ -42,7 +41,7 @@ def remarks(
             f"friction leaves {left}. With the spindle vertical friction holds them: {upright:.3g} m/s², declared "
             f"{with_.factor * upright:.3g} m/s²."
         )
-    yield from _background(spindle, imbalance_alone)
+    yield from _background(spindle, limit)
     yield from _sources(design, wheel)
     if test is not None and test.ends.moving > DOUBTFUL * len(test.turns):
         yield f"In {test.ends.moving} of {len(test.turns)} starts the balls had not come to rest."
@@ -53,7 +52,7 @@ def remarks(
         )
 
 
-def beyond_capacity(design: Design, wheel: ChosenWheel, even: float | None) -> Iterator[str]:
+def beyond_capacity(design: Design, wheel: TestWheel, even: float | None) -> Iterator[str]:
     """Remark on a break-even eccentricity [m] at which the balls no longer carry the test wheel at every angle."""
     if even is None:
         return
@@ -66,8 +65,7 @@ def beyond_capacity(design: Design, wheel: ChosenWheel, even: float | None) -> I
         )
 
 
-def _background(spindle: Spindle, imbalance_alone: float) -> Iterator[str]:
-    limit = imbalance_alone / math.sqrt(spindle.factor**2 - 1)
+def _background(spindle: Spindle, limit: float) -> Iterator[str]:
     if spindle.background > limit:
         yield (
             f"The background of {spindle.background:.3g} m/s² exceeds {limit:.3g} m/s²: no autobalancer, however "
@@ -80,7 +78,7 @@ def _background(spindle: Spindle, imbalance_alone: float) -> Iterator[str]:
         )
 
 
-def _sources(design: Design, wheel: ChosenWheel) -> Iterator[str]:
+def _sources(design: Design, wheel: TestWheel) -> Iterator[str]:
     layout = design.case.table.machine.layout
     if layout != STRAIGHT and wheel.status == "secondary":
         yield (

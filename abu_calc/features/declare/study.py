@@ -12,7 +12,6 @@ from abu_calc.features.declare.records import (
     DeclaredAt,
     HandleValue,
     Plan,
-    TestWheelRecord,
     WheelInUse,
     WithAutobalancer,
     WithoutAutobalancer,
@@ -23,7 +22,6 @@ from abu_calc.features.declare.type_test_simulation import (
     BreakEven,
     SimulatedTest,
     Spindle,
-    causes,
     search_break_even,
     simulated_test,
 )
@@ -40,6 +38,7 @@ from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.type_test import TypeTest
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.sizing import size as size_design
@@ -48,7 +47,6 @@ from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.proposals import easier
 from abu_calc.sizing.type_test import (
-    ChosenWheel,
     carried,
     chosen_wheel,
     declared_bands,
@@ -56,7 +54,7 @@ from abu_calc.sizing.type_test import (
     required,
     weighted_speed,
 )
-from abu_calc.standards.type_test import declared_uncertainty, reproducibility, test_wheels
+from abu_calc.standards.type_test import TestWheel, declared_uncertainty, reproducibility, test_wheels
 
 NUMBER: Final = Range("number of starts", 100, 1_000_000, key="starts")
 NORMAL_95: Final = 1.6449
@@ -88,18 +86,19 @@ class DeclareResult(Result):
     command: ClassVar[str] = "declare"
 
     model: DeclareModel
-    test_wheel: TestWheelRecord
+    test_wheel: TestWheel
     handle: Annotated[str, Quantity("highest handle", "", 4, "with the autobalancer, if that is known")]
     body: Annotated[str, Quantity("machine", "", 4, "point mass, rigid body, or rigid body of estimated inertia")]
     without: WithoutAutobalancer
     with_: WithAutobalancer | None
     handles: tuple[HandleValue, ...]
-    break_even_eccentricity_mm: Annotated[
-        float | None, Quantity("break-even race eccentricity", "Δ*", 3, "null: the declared value is lower at none")
+    break_even_eccentricity: Annotated[
+        float | None,
+        Quantity("break-even race eccentricity", "Δ*", 3, "null: the declared value is lower at none", unit="mm"),
     ]
-    break_even_frictionless_mm: Annotated[float | None, Quantity("the same without friction", "Δ₀", 4)]
+    break_even_frictionless: Annotated[float | None, Quantity("the same without friction", "Δ₀", unit="mm")]
     break_even_reason: Annotated[str | None, Quantity("why there is no break-even eccentricity")]
-    friction_rms_mm: Annotated[float | None, Quantity("displacement that friction leaves, rms", "c_f", 3)]
+    friction_rms: Annotated[float | None, Quantity("displacement that friction leaves, rms", "c_f", 3, unit="mm")]
     lowers: Annotated[bool, Quantity("the autobalancer lowers the declared value")]
     causes: tuple[Cause, ...]
     background_a_hv_m_per_s2: Annotated[float, Quantity("background", "a_hv", 3)]
@@ -156,23 +155,22 @@ def declare(machine: Machine, starts: int = STARTS, progress: Progress = silent)
     return _result(machine, design, spindle, wheel, balancing, tested)
 
 
-def _wheel(tables: MachineFile) -> ChosenWheel:
+def _wheel(tables: MachineFile) -> TestWheel:
     """The test wheel; refused for a diameter that has none."""
     wheel = chosen_wheel(tables)
     if wheel is not None:
         return wheel
-    test = tables.type_test
-    given = None if test is None else test.test_wheel_diameter_mm
+    given = tables.type_test and tables.type_test.test_wheel_diameter_mm
     raise InputError(
         "there is no built-in test wheel of this diameter",
         place=Place(key="wheel.diameter_mm" if given is None else "type_test.test_wheel_diameter_mm"),
         found=f"{tables.wheel.diameter_mm if given is None else given:g} mm",
-        allowed=", ".join(f"{from_si(each.diameter, 'mm'):g}" for each in test_wheels()),
+        allowed=", ".join(f"{each.diameter_mm:g}" for each in test_wheels()),
         remedy="Set type_test.test_wheel_imbalance_g_mm, or type_test.test_wheel_diameter_mm to one of these.",
     )
 
 
-def _balancing(design: Design, wheel: ChosenWheel) -> Check:
+def _balancing(design: Design, wheel: TestWheel) -> Check:
     """ABU433: the region of the speed, and the capacity."""
     case, candidate = design.case, design.autobalancer
     need = from_si(required(case, candidate, wheel.imbalance), "g_mm")
@@ -190,7 +188,7 @@ def _balancing(design: Design, wheel: ChosenWheel) -> Check:
     return coded("ABU433", verdict(enough), message, capacity, need, "g·mm", remedy, "least")
 
 
-def _tested(design: Design, spindle: Spindle, wheel: ChosenWheel, starts: int, progress: Progress) -> _Tested:
+def _tested(design: Design, spindle: Spindle, wheel: TestWheel, starts: int, progress: Progress) -> _Tested:
     eccentricity = design.case.race_eccentricity
     progress("type test")
     test = simulated_test(spindle, wheel.imbalance, eccentricity, starts)
@@ -206,7 +204,7 @@ def _tested(design: Design, spindle: Spindle, wheel: ChosenWheel, starts: int, p
 
 
 def _result(
-    machine: Machine, design: Design, spindle: Spindle, wheel: ChosenWheel, balancing: Check, tested: _Tested | None
+    machine: Machine, design: Design, spindle: Spindle, wheel: TestWheel, balancing: Check, tested: _Tested | None
 ) -> DeclareResult:
     case, table = design.case, design.case.table
     bare, in_use = spindle.without(wheel.imbalance), spindle.without(design.imbalance.value)
@@ -214,72 +212,78 @@ def _result(
     uncertainty = declared_uncertainty(reproducibility(bare[highest]))
     test = None if tested is None else tested.test
     means = {} if test is None else test.means
-    lowers = test is not None and test.declared < bare[highest]
-    factor, gains = spindle.factor, spindle.body.gains
+    even = BreakEven(None, None, ()) if tested is None else tested.even
     used = None if tested is None or tested.in_use is None else max(tested.in_use.means.values())
     imbalance_alone = math.sqrt(max(bare[highest] ** 2 - spindle.background**2, 0.0))
-    bands = declared_bands(case, design.autobalancer, wheel.imbalance)
-    with_ = None if tested is None else _with(design, tested, None if bands is None else bands[1])
+    bare_band, band = declared_bands(case, design.autobalancer, wheel.imbalance) or (None, None)
+    asked, limit = table.type_test or TypeTest(), imbalance_alone / math.sqrt(spindle.factor**2 - 1)
+    plan = Plan(
+        orientations=spindle.orientations,
+        runs=asked.runs,
+        operators=asked.operators,
+        starts=0 if test is None else len(test.turns),
+        seed=SEED,
+        moving=0 if test is None else test.ends.moving,
+    )
+    with_ = None if tested is None else _with(tested, plan, band)
     return DeclareResult(
         title=table.machine.name,
         checks=(balancing, *_comparison(machine, design, wheel, bare[highest], uncertainty, tested, with_)),
         warnings=(
             *machine.warnings,
-            *remarks(design, wheel, spindle, imbalance_alone, test, with_),
-            *(() if tested is None else beyond_capacity(design, wheel, tested.even.simulated)),
+            *remarks(design, wheel, spindle, limit, test, with_),
+            *beyond_capacity(design, wheel, even.simulated),
         ),
         provenance=Provenance.of(machine),
-        model=DeclareModel(
-            speed_rad_per_s=case.speed,
-            weighting=spindle.gain / case.speed**2,
-            mass_without_autobalancer_kg=case.body.mass,
-            mass_kg=design.system_mass,
-            effective_mass_kg=spindle.body.effective_mass,
-            friction_band_m=spindle.balls.band,
-            race_eccentricity_m=case.race_eccentricity,
-            handles=tuple(gain.name for gain in gains),
-            transmission=tuple(math.sqrt(gain.race) for gain in gains),
-            rest=tuple(math.sqrt(gain.imbalance) for gain in gains),
-        ),
-        test_wheel=TestWheelRecord.read(wheel),
+        model=_model(design, spindle),
+        test_wheel=wheel,
         handle=highest if test is None else test.highest,
         body=_body(case),
         without=WithoutAutobalancer(
             handle=highest,
             a_hv_m_per_s2=bare[highest],
             K_m_per_s2=uncertainty,
-            band_m_per_s2=None if bands is None else _band(bands[0], bare[highest]),
+            band_m_per_s2=bare_band and (bare_band[0] * bare[highest], bare_band[1] * bare[highest]),
         ),
         with_=with_,
         handles=tuple(
             HandleValue(name=name, without_m_per_s2=value, with_m_per_s2=means.get(name))
             for name, value in bare.items()
         ),
-        break_even_eccentricity_mm=None if tested is None else _mm(tested.even.simulated),
-        break_even_frictionless_mm=None if tested is None else _mm(tested.even.frictionless),
+        break_even_eccentricity=even.simulated,
+        break_even_frictionless=even.frictionless,
         break_even_reason=_no_break_even(tested),
-        friction_rms_mm=None if test is None else from_si(test.friction_rms, "mm"),
-        lowers=lowers,
+        friction_rms=None if test is None else test.friction_rms,
+        lowers=test is not None and test.declared < bare[highest],
         causes=() if test is None else _causes(test),
         background_a_hv_m_per_s2=spindle.background,
-        background_limit_m_per_s2=imbalance_alone / math.sqrt(factor**2 - 1),
+        background_limit_m_per_s2=limit,
         wheel_in_use=WheelInUse(
-            imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
+            imbalance=design.imbalance.value,
             without_m_per_s2=max(in_use.values()),
             with_m_per_s2=used,
         ),
-        plan=Plan(
-            orientations_deg=tuple(from_si(angle, "deg") for angle in spindle.orientations),
-            runs=1 if table.type_test is None else table.type_test.runs,
-            operators=3 if table.type_test is None else table.type_test.operators,
-            starts=0 if test is None else len(test.turns),
-            seed=SEED,
-            moving=0 if test is None else test.ends.moving,
-        ),
+        plan=plan,
         by_eccentricity=() if tested is None else _by_eccentricity(tested),
         distribution_m_per_s2=()
         if test is None
         else tuple(float(x) for x in np.quantile(test.values[test.highest], np.linspace(0, 1, 51))),
+    )
+
+
+def _model(design: Design, spindle: Spindle) -> DeclareModel:
+    case = design.case
+    return DeclareModel(
+        speed_rad_per_s=case.speed,
+        weighting=spindle.gain / case.speed**2,
+        mass_without_autobalancer_kg=case.body.mass,
+        mass_kg=design.system_mass,
+        effective_mass_kg=spindle.body.effective_mass,
+        friction_band_m=spindle.balls.band,
+        race_eccentricity_m=case.race_eccentricity,
+        handles=tuple(gain.name for gain in spindle.body.gains),
+        transmission=tuple(math.sqrt(gain.race) for gain in spindle.body.gains),
+        rest=tuple(math.sqrt(gain.imbalance) for gain in spindle.body.gains),
     )
 
 
@@ -289,22 +293,13 @@ def _body(case: Case) -> str:
     return "rigid body" if case.body.is_rigid else "point mass"
 
 
-def _mm(length: float | None) -> float | None:
-    return None if length is None else from_si(length, "mm")
-
-
-def _band(shares: tuple[float, float], value: float) -> tuple[float, float]:
-    return shares[0] * value, shares[1] * value
-
-
-def _with(design: Design, tested: _Tested, band: tuple[float, float] | None) -> WithAutobalancer:
+def _with(tested: _Tested, plan: Plan, band: tuple[float, float] | None) -> WithAutobalancer:
     """The type test at its highest handle; `band`: that of an estimated inertia, over the declared value."""
-    test, plan, upright = tested.test, design.case.table.type_test, tested.upright
+    test, upright = tested.test, tested.upright
     spindle, name = test.spindle, test.highest
     factor, series = spindle.factor, test.deviation_of_series(name)
-    runs, operators = (1, 3) if plan is None else (plan.runs, plan.operators)
     low, middle, high = (float(value) for value in np.quantile(test.values[name], (0.05, 0.5, 0.95)))
-    away = NORMAL_95 * factor * series / math.sqrt(runs * operators)
+    away = NORMAL_95 * factor * series / math.sqrt(plan.runs * plan.operators)
     ideal = max(
         mean_over_orientations(gain, test.imbalance, test.eccentricity, evenly(MANY), spindle.background / spindle.gain)
         for gain in spindle.body.gains
@@ -318,22 +313,30 @@ def _with(design: Design, tested: _Tested, band: tuple[float, float] | None) -> 
         p95=high,
         factor=factor,
         declared_m_per_s2=test.declared,
-        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series / math.sqrt(runs))),
+        K_m_per_s2=declared_uncertainty(reproducibility(test.declared, factor * series / math.sqrt(plan.runs))),
         declared_low_m_per_s2=max(test.declared - away, 0.0),
         declared_high_m_per_s2=test.declared + away,
         no_friction_m_per_s2=spindle.gain * ideal,
         shaken_free=upright is not None and not spindle.balls.band,
         upright_m_per_s2=None if upright is None else upright.means[upright.highest],
-        declared_band_m_per_s2=None if band is None else _band(band, test.declared),
+        declared_band_m_per_s2=band and (band[0] * test.declared, band[1] * test.declared),
     )
 
 
 def _causes(test: SimulatedTest) -> tuple[Cause, ...]:
-    parts = causes(test, test.highest)
-    total = sum(value**2 for _, value in parts)
+    """Race eccentricity, friction, imbalance in another plane, background: each alone, the largest first."""
+    gain = next(each for each in test.spindle.body.gains if each.name == test.highest)
+    race, scale = math.sqrt(gain.race), test.spindle.gain
+    parts = {
+        "race eccentricity": scale * race * test.eccentricity,
+        "rolling friction": scale * race * test.friction_rms,
+        "test wheel": scale * math.sqrt(gain.imbalance) * test.imbalance,
+        "background": test.spindle.background,
+    }
+    total = sum(value**2 for value in parts.values())
     return tuple(
-        Cause(name=name, a_hv_m_per_s2=value, share=value**2 / total if total else 0.0)
-        for name, value in parts
+        Cause(name=name, a_hv_m_per_s2=value, share=value**2 / total)
+        for name, value in sorted(parts.items(), key=lambda part: -part[1])
         if value > 0
     )
 
@@ -342,7 +345,7 @@ def _by_eccentricity(tested: _Tested) -> tuple[DeclaredAt, ...]:
     test = tested.test
     points = {**dict(tested.even.tried), test.eccentricity: test.declared}
     return tuple(
-        DeclaredAt(race_eccentricity_mm=from_si(eccentricity, "mm"), declared_m_per_s2=value)
+        DeclaredAt(race_eccentricity=eccentricity, declared_m_per_s2=value)
         for eccentricity, value in sorted(points.items())
     )
 
@@ -358,7 +361,7 @@ def _no_break_even(tested: _Tested | None) -> str | None:
 
 
 def _comparison(
-    machine: Machine, design: Design, wheel: ChosenWheel, without: float, uncertainty: float, tested: _Tested | None,
+    machine: Machine, design: Design, wheel: TestWheel, without: float, uncertainty: float, tested: _Tested | None,
     with_: WithAutobalancer | None,
 ) -> Iterator[Check]:  # fmt: skip
     """ABU431 and ABU432."""
@@ -376,7 +379,7 @@ def _comparison(
     yield coded("ABU432", verdict(True, change > K), message, change, K, "m/s²", bound="least")
 
 
-def _lower(machine: Machine, design: Design, wheel: ChosenWheel, present: float, starts: int) -> Action | str:
+def _lower(machine: Machine, design: Design, wheel: TestWheel, present: float, starts: int) -> Action | str:
     """The first change of race and friction with which the declared value [m/s²] falls, sized anew and simulated.
 
     No check of `abu size` gets worse with it.

@@ -5,7 +5,6 @@ another displacement at each start, and both move the handles: a_hv = W_h Ω²·
 """
 
 import math
-from collections.abc import Sequence
 from functools import cached_property
 from typing import Final
 
@@ -18,7 +17,6 @@ from abu_calc.formulas.type_test import (
     HandleGain,
     TypeTestBody,
     acceleration_per_displacement,
-    break_even,
     evenly,
     frictionless_break_even,
 )
@@ -166,18 +164,16 @@ def simulated_test(
 class BreakEven:
     """Race eccentricities [m] at which the declared value is that without autobalancer, or None: at none is it lower.
 
-    `frictionless`: closed form; `estimated`: closed form with friction; `simulated`; `tried`: eccentricities [m] of the
-    search with the declared value [m/s²].
+    `frictionless`: closed form; `simulated`; `tried`: eccentricities [m] of the search with the declared value [m/s²].
     """
 
     frictionless: float | None
-    estimated: float | None
     simulated: float | None
     tried: tuple[tuple[float, float], ...]
 
 
 def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> BreakEven:
-    """Search by simulation, with the same random starts at each eccentricity; closed forms beside it."""
+    """Search by simulation, with the same random starts at each eccentricity; the closed form beside it."""
     spindle, imbalance = test.spindle, test.imbalance
     limit = max(spindle.without(imbalance).values())
     noise = spindle.background / spindle.gain
@@ -185,13 +181,11 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
         spindle.body.gains, imbalance, limit / (spindle.factor * spindle.gain), evenly(MANY), noise
     )
     if ideal is None:
-        return BreakEven(None, None, None, ())
+        return BreakEven(None, None, ())
     if not spindle.balls.band:
         points = (share * ideal for share in FRICTIONLESS)
-        return BreakEven(
-            ideal, ideal, ideal,
-            tuple((point, simulated_test(spindle, imbalance, point, starts).declared) for point in points),
-        )  # fmt: skip
+        tested = ((point, simulated_test(spindle, imbalance, point, starts).declared) for point in points)
+        return BreakEven(ideal, ideal, tuple(tested))
     tried: dict[float, float] = {}
 
     def excess(eccentricity: float) -> float:
@@ -199,7 +193,7 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
         tried[eccentricity] = simulated_test(spindle, imbalance, eccentricity, starts).declared
         return tried[eccentricity] - limit
 
-    estimated, found = break_even(ideal, test.friction_rms), None
+    found = None
     if excess(0.0) < 0:
         high = ideal
         for _ in range(MOST_FURTHER):
@@ -207,17 +201,4 @@ def search_break_even(test: SimulatedTest, starts: int, progress: Progress) -> B
                 found = root(lambda e: tried[e] - limit if e in tried else excess(e), 0.0, high, EXACT * ideal)
                 break
             high *= FURTHER
-    return BreakEven(ideal, estimated, found, tuple(sorted(tried.items())))
-
-
-def causes(test: SimulatedTest, name: str) -> Sequence[tuple[str, float]]:
-    """Each cause at a handle alone [m/s² rms]: race eccentricity, friction, imbalance in another plane, background."""
-    gain = next(each for each in test.spindle.body.gains if each.name == name)
-    race, scale = math.sqrt(gain.race), test.spindle.gain
-    parts = {
-        "race eccentricity": scale * race * test.eccentricity,
-        "rolling friction": scale * race * test.friction_rms,
-        "test wheel": scale * math.sqrt(gain.imbalance) * test.imbalance,
-        "background": test.spindle.background,
-    }
-    return sorted(parts.items(), key=lambda part: -part[1])
+    return BreakEven(ideal, found, tuple(sorted(tried.items())))

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from typing import Final
 
+from abu_calc.features.declare.measured import MeasuredDeclareResult
+from abu_calc.features.declare.measured_view import measured_extras
 from abu_calc.features.declare.study import DeclareResult
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
@@ -163,8 +165,10 @@ def _conventions(result: DeclareResult) -> list[Block]:
     ]
 
 
-def simulated_extras(result: DeclareResult) -> Extras:
-    """Figures and formulas of the page."""
+def declare_extras(result: DeclareResult | MeasuredDeclareResult) -> Extras:
+    """Figures and formulas of a page, simulated or measured."""
+    if isinstance(result, MeasuredDeclareResult):
+        return measured_extras(result)
     note = step_blocks(STEPS["declare"])
     return Extras((*_bars(result), *_distribution(result), *_over_eccentricity(result)), tuple(note))
 
@@ -222,7 +226,6 @@ def _share_below(values: tuple[float, ...], value: float) -> float:
 
 
 def _over_eccentricity(result: DeclareResult) -> Iterator[Figure]:
-    """Declared value against race eccentricity."""
     points = [(1e3 * at.race_eccentricity_mm, at.declared_m_per_s2) for at in result.by_eccentricity]
     if len(points) < 3:
         return

@@ -116,8 +116,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "identify": Step.of(
         "Drag, friction and eccentricity from recorded starts (`abu identify`)",
-        "formulas.shaken_friction: friction_number",
-        "features.identification.formulas: equivalent_drag",
+        "formulas.shaken_friction: friction_number equivalent_drag",
     ),
     "grinding": Step.of(
         "Machine at its workpiece",

@@ -2,26 +2,27 @@
 
 from collections.abc import Iterator, Sequence
 from statistics import fmean
-from typing import Annotated, ClassVar, Final
+from typing import Annotated, Any, ClassVar, Final
 
 from abu_calc.features.design.study import SizeResult, size
 from abu_calc.features.factory.at_handles import AtHandles, at_handles
 from abu_calc.features.factory.measurements import (
     MeasuredMachine,
-    SoftRace,
     Span,
+    ValueSource,
+    degrees_of_freedom,
     factory_machines,
     factory_source,
     machines_of,
     soft_race,
+    value_sources,
 )
-from abu_calc.features.factory.value_sources import ValueSource, degrees_of_freedom, value_sources
 from abu_calc.features.levels.study import levels
 from abu_calc.foundation.checks import Status
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, level_from_velocity, to_si, velocity_from_level
+from abu_calc.foundation.units import level_from_velocity, to_si, velocity_from_level
 from abu_calc.inputs.measured import MeasuredOctave
 from abu_calc.inputs.read_machine import Machine, read
 from abu_calc.simulation.arguments import checked
@@ -213,22 +214,22 @@ def _fitted(machine: MeasuredMachine, origins: Sequence[ValueSource]) -> FittedV
     )  # fmt: skip
 
 
-def _soft_races(soft: SoftRace, progress: Progress) -> tuple[SoftRaceLevel, ...]:
+def _soft_races(soft: dict[str, Any], progress: Progress) -> tuple[SoftRaceLevel, ...]:
     """The assumed machine with its design kept and its race softer: the smallest and the largest friction arm."""
-    progress(soft.short)
-    machine = read(soft.machine)
-    made = size(machine, progress=within(progress, soft.short)).autobalancer
+    progress(soft["short"])
+    machine = read(soft["machine"])
+    made = size(machine, progress=within(progress, soft["short"])).autobalancer
     kept = {f"autobalancer.{key}": getattr(made, key) for key in ("ball_count", "ball_diameter_mm", "race_radius_mm")}
     rows = []
-    for friction in (from_si(arm, "mm") for arm in soft.friction):
+    for friction in soft["friction_mm"]:
         softer = machine.changed({**kept, "autobalancer.rolling_friction_mm": friction})
-        design = size(softer, progress=within(progress, soft.short))
+        design = size(softer, progress=within(progress, soft["short"]))
         many = design.ensemble
         rows.append(
             SoftRaceLevel(
-                short=soft.short,
-                assumed_machine=soft.machine,
-                published=soft.published,
+                short=soft["short"],
+                assumed_machine=soft["machine"],
+                published=soft["published"],
                 rolling_friction_mm=friction,
                 level_without_db=design.vibration.level_before_db,
                 with_median_db=None if many is None else many.predicted_level_db,

@@ -95,6 +95,8 @@ def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
 def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
     """The schema of a type."""
     origin, arguments = get_origin(hint), get_args(hint)
+    if isinstance(hint, type) and issubclass(hint, tuple):  # a tuple whose items have names
+        origin, arguments = tuple, tuple(get_type_hints(hint).values())
     if hint is Any:
         return {}
     if origin is Annotated:

@@ -160,7 +160,6 @@ def _read(content: bytes | None) -> tuple[Points, NDArray[np.complex128]] | None
 
 
 def _written(points: Points, tracks: NDArray[np.complex128]) -> bytes:
-    """A bank as it is kept."""
     stream = BytesIO()
     np.savez(stream, points=points, tracks=tracks)
     return stream.getvalue()

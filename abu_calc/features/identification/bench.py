@@ -10,10 +10,10 @@ from typing import Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
+from abu_calc.features.identification.results import BenchRecord, IdentifiedValue
 from abu_calc.features.identification.tracks import Array
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import GRAVITY, from_si, to_si
+from abu_calc.foundation.units import GRAVITY, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.recording_files import content_of
 from abu_calc.inputs.recording_table import decoded, table_of
@@ -27,17 +27,6 @@ STEPS: Final = 1500
 FEWEST: Final = 20
 LONGEST: Final = 1e4
 """Duration [s] of a film at most: a ball comes to rest within minutes."""
-
-
-@dataclass(frozen=True)
-class BenchValues:
-    """Drag rate at low slip [1/s] and lever arm [m] with standard errors, and the rms difference [rad]."""
-
-    drag: float
-    drag_error: float
-    lever: float
-    lever_error: float
-    difference: float
 
 
 def read_decay(file: str) -> tuple[Array, Array]:
@@ -97,8 +86,8 @@ def decay(times: Array, begin: float, drag: float, friction: float, pitch_radius
     return np.asarray(np.interp(times, np.arange(STEPS + 1) * step, grid))
 
 
-def bench_values(file: str, scene: Scene) -> BenchValues:
-    """Drag rate and lever arm by least squares from several beginnings."""
+def bench_values(file: str, scene: Scene) -> BenchRecord:
+    """Drag rate and lever arm by least squares from several beginnings, two standard errors to both sides."""
     from scipy.optimize import least_squares
 
     times, angles = read_decay(file)
@@ -117,15 +106,20 @@ def bench_values(file: str, scene: Scene) -> BenchValues:
     rms = math.sqrt(2 * float(best.cost) / len(times))
     slopes = np.asarray(best.jac)
     spread = np.sqrt(np.diag(np.linalg.pinv(slopes.T @ slopes))) * rms
-    drag, lever = math.exp(best.x[0]), math.exp(best.x[1]) * 1e-6
-    return BenchValues(drag, drag * float(spread[0]), lever, lever * float(spread[1]), rms)
+    values = (math.exp(best.x[0]), math.exp(best.x[1]) * 1e-3)
+    drag, lever = (
+        IdentifiedValue(value=value, low=value * max(0.0, 1 - 2 * error), high=value * (1 + 2 * error))
+        for value, error in zip(values, map(float, spread[:2]), strict=True)
+    )
+    return BenchRecord(rolling_drag_per_s=drag, rolling_friction_mm=lever)
 
 
-def bench_text(values: BenchValues) -> str:
+def bench_text(values: BenchRecord) -> str:
     """The result in a sentence, and what it is not."""
-    lost = " The oil hides the friction from 20 1/s on." if values.drag >= LOST_DRAG else ""
+    drag, lever = values.rolling_drag_per_s, values.rolling_friction_mm
+    lost = " The oil hides the friction from 20 1/s on." if drag.value >= LOST_DRAG else ""
     return (
-        f"Bench test: lever arm {from_si(values.lever, 'um'):.2f} ± {from_si(2 * values.lever_error, 'um'):.2f} µm, "
-        f"drag rate {values.drag:.3g} ± {2 * values.drag_error:.2g} 1/s at low slip. At speed the oil lies outward, "
-        f"and the drag rate is another.{lost}"
+        f"Bench test: lever arm {1e3 * lever.value:.2f} ± {1e3 * (lever.high - lever.value):.2f} µm, drag rate "
+        f"{drag.value:.3g} ± {drag.high - drag.value:.2g} 1/s at low slip. At speed the oil lies outward, and the drag "
+        f"rate is another.{lost}"
     )

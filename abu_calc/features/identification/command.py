@@ -49,7 +49,7 @@ def identify(
     outcome = outcome_of(result)
     if write is None:
         return outcome
-    from abu_calc.features.identification.written import identified_text
+    from abu_calc.features.identification.results import identified_text
 
     return replace(outcome, further=(Target(write, identified_text(file, result)),))
 

@@ -18,7 +18,7 @@ from abu_calc.features.identification.estimate import (
     inside,
     narrowed,
 )
-from abu_calc.features.identification.results import IdentifiedValue
+from abu_calc.features.identification.results import ExpectedValues, IdentifiedValue
 from abu_calc.features.identification.tracks import (
     RecordedStart,
     Track,
@@ -269,11 +269,7 @@ def _drop(regression: Regression, features: Features, fit: Best, truth: Points, 
     return [fit.value - regression.best(features, (part, float(truth[part])), fit.point).value for part in parts]
 
 
-Values = tuple[IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None, IdentifiedValue | None]
-"""Drag rate [1/s], lever arm [mm], eccentricity [mm] and its angle [deg]."""
-
-
-def identified_values(measured: Measured, estimate: Estimate, mark_angle: float) -> Values:
+def identified_values(measured: Measured, estimate: Estimate, mark_angle: float) -> ExpectedValues:
     """The values that are known."""
     marked = measured.reading.marked
     edge = estimate.at_the_edge(marked=marked)
@@ -285,7 +281,12 @@ def identified_values(measured: Measured, estimate: Estimate, mark_angle: float)
     )
     known = marked and NAMES[2] not in edge and estimate.offset_error <= estimate.offset_allowed
     eccentricity, angle = _offset(estimate, measured.reading.phase_error, mark_angle) if known else (None, None)
-    return None if NAMES[0] in unknown else drag, None if NAMES[1] in unknown else friction, eccentricity, angle
+    return ExpectedValues(
+        rolling_drag_per_s=None if NAMES[0] in unknown else drag,
+        rolling_friction_mm=None if NAMES[1] in unknown else friction,
+        race_eccentricity_mm=eccentricity,
+        race_eccentricity_angle_deg=angle,
+    )
 
 
 def _offset(estimate: Estimate, phase_error: float, mark_angle: float) -> tuple[IdentifiedValue, IdentifiedValue]:

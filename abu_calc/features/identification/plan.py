@@ -13,13 +13,13 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.bank import WIDE, simulated_track
 from abu_calc.features.identification.estimate import TrackReading
 from abu_calc.features.identification.fit import Measured, estimated, identified_values, without_balls
-from abu_calc.features.identification.results import IdentifiedValue
+from abu_calc.features.identification.results import ExpectedValues
 from abu_calc.features.identification.study import known_scene, machine_subject
 from abu_calc.features.identification.tracks import RecordedStart, window_centres
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
-from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.quantity import Quantity, record
+from abu_calc.foundation.units import to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.records import SceneModel
@@ -35,16 +35,6 @@ RUN_COUNT: Final = Range("starts", 8, 100, "", key="runs")
 
 
 @record
-class ExpectedValues(Record):
-    """Values of the file, each with the interval that the starts will give; null where they will give none."""
-
-    rolling_drag_per_s: Annotated[IdentifiedValue | None, Quantity("viscous drag rate", "h₀", 4, "1/s")]
-    rolling_friction_mm: Annotated[IdentifiedValue | None, Quantity("lever arm of rolling friction", "k_r", 4, "mm")]
-    race_eccentricity_mm: Annotated[IdentifiedValue | None, Quantity("race eccentricity", "Δ", 4, "mm")]
-    race_eccentricity_angle_deg: Annotated[IdentifiedValue | None, Quantity("its angle from the mark", "φ", 4, "deg")]
-
-
-@record
 class MeasurePlanResult(Result):
     """What to record, and what it will tell."""
 
@@ -53,11 +43,11 @@ class MeasurePlanResult(Result):
 
     model: SceneModel
     runs: Annotated[int, Quantity("starts to record")]
-    rate_hz: Annotated[float, Quantity("sampling rate, at least", "", 4)]
+    rate_hz: Annotated[float, Quantity("sampling rate, at least")]
     length_s: Annotated[float, Quantity("length of a recording", "", 3)]
     noise_um: Annotated[float, Quantity("noise assumed", "σ", 3)]
-    largest_velocity_mm_per_s: Annotated[float, Quantity("largest velocity without balls", "v", 3)]
-    trial_mass_g_mm: Annotated[float, Quantity("imbalance of the trial mass", "", 3)]
+    largest_velocity: Annotated[float, Quantity("largest velocity without balls", "v", 3, unit="mm_per_s")]
+    trial_mass: Annotated[float, Quantity("imbalance of the trial mass", "", 3, unit="g_mm")]
     expected: ExpectedValues
     run_up_s: Annotated[float | None, Quantity("run-up time in place of the file's")] = None
 
@@ -92,23 +82,18 @@ def measure_plan(
     noisy = reading.noisy(np.array(tracks), 1)
     starts = tuple(RecordedStart("", track, scene.speed, scene.full_speed, 0.0) for track in noisy)
     measured = Measured(starts, tuple(noisy), reading, None)
-    drag, friction, eccentricity, angle = identified_values(measured, estimated(scene, measured, progress), 0.0)
     return MeasurePlanResult.read(
         subject,
-        warnings=subject.warnings,
         model=SceneModel.of(scene),
         runs=runs,
         rate_hz=float(f"{math.ceil(PER_REVOLUTION * scene.speed / 2 / math.pi / 100) * 100:g}"),
         length_s=scene.duration,
         noise_um=noise_um,
         run_up_s=run_up_s,
-        largest_velocity_mm_per_s=reading.amplitude * scene.speed * 1e3,
-        trial_mass_g_mm=from_si(scene.imbalance / 2, "g_mm"),
-        expected=ExpectedValues(
-            rolling_drag_per_s=drag, rolling_friction_mm=friction, race_eccentricity_mm=eccentricity,
-            race_eccentricity_angle_deg=angle,
-        ),
-    )  # fmt: skip
+        largest_velocity=reading.amplitude * scene.speed,
+        trial_mass=scene.imbalance / 2,
+        expected=identified_values(measured, estimated(scene, measured, progress), 0.0),
+    )
 
 
 def point_of(scene: Scene) -> np.ndarray:

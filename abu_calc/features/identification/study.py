@@ -9,7 +9,7 @@ import numpy as np
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.bank import simulated_track
-from abu_calc.features.identification.bench import BenchValues, bench_text, bench_values
+from abu_calc.features.identification.bench import bench_text, bench_values
 from abu_calc.features.identification.estimate import (
     Best,
     TrackReading,
@@ -28,7 +28,7 @@ from abu_calc.features.identification.judgement import FEWEST, checks_of
 from abu_calc.features.identification.results import (
     KEYS,
     BenchRecord,
-    IdentifiedValue,
+    ExpectedValues,
     IdentifyResult,
     StartCourse,
     interval_lines,
@@ -219,7 +219,7 @@ def _result(
     measured: Measured,
     estimate: Estimate | None,
     mark_angle: float,
-    film: BenchValues | None,
+    film: BenchRecord | None,
 ) -> IdentifyResult:
     checks = tuple(
         check if check.status == "pass" or check.remedy else check.with_action(CHECK_CODES[check.code].action)
@@ -227,28 +227,22 @@ def _result(
     )
     marked = measured.reading.marked
     edge = () if estimate is None else estimate.at_the_edge(marked=marked)
-    drag, friction, eccentricity, angle = (
-        (None,) * 4 if estimate is None else identified_values(measured, estimate, mark_angle)
-    )
-    ends_um = [end_of(start.track) * 1e6 for start in measured.starts]
+    values = ExpectedValues() if estimate is None else identified_values(measured, estimate, mark_angle)
+    ends = [end_of(start.track) for start in measured.starts]
     run_ups = [start.run_up for start in measured.starts if start.run_up is not None]
     predicted = None if estimate is None or edge else _predicted(scene, measured, estimate.best)
     return IdentifyResult.read(
         subject,
+        values,
         checks=checks,
-        warnings=subject.warnings,
         model=SceneModel.of(scene),
-        rolling_drag_per_s=drag,
-        rolling_friction_mm=friction,
-        race_eccentricity_mm=eccentricity,
-        race_eccentricity_angle_deg=angle,
         starts=len(measured.starts),
         mark=marked,
-        noise_um=measured.reading.noise * 1e6,
+        noise=measured.reading.noise,
         friction_number=None
-        if estimate is None or friction is None
+        if estimate is None or values.rolling_friction_mm is None
         else friction_number_at(scene, estimate.best.point) or None,
-        residual_um=float(np.mean(np.abs(ends_um))),
+        residual=float(np.mean(np.abs(ends))),
         fits_worse_share=None if estimate is None else estimate.fits_worse,
         run_up_s=scene.full_speed,
         measured_run_up_s=float(np.median(run_ups)) if run_ups else None,
@@ -257,28 +251,28 @@ def _result(
         courses=tuple(
             StartCourse(
                 file=start.file,
-                end_um=(float(end.real), float(end.imag)),
-                distance_um=tuple(float(d) * 1e6 for d in np.abs(track - end_of(track))),
-                predicted_um=predicted,
+                end=(end.real, end.imag),
+                distance=tuple(map(float, np.abs(track - end_of(track)))),
+                predicted=predicted,
             )
-            for start, track, end in zip(measured.starts, measured.tracks, ends_um, strict=True)
+            for start, track, end in zip(measured.starts, measured.tracks, ends, strict=True)
         ),
-        toml=_toml(len(measured.starts), drag, friction, eccentricity, angle),
-        bench=None if film is None else BenchRecord.of(film),
+        toml=_toml(len(measured.starts), values),
+        bench=film,
         assumed=(*_assumed(scene, measured), *(() if film is None else (bench_text(film),))),
     )
 
 
 def _predicted(scene: Scene, measured: Measured, best: Best) -> tuple[float, ...] | None:
-    """Median distance from the end [µm] of starts simulated with the identified values."""
+    """Median distance from the end [m] of starts simulated with the identified values."""
     tracks = [simulated_track(scene, best.point, measured.reading.centres, 5_000 + k) for k in range(15)]
     kept = [np.abs(track - end_of(track)) for track in tracks if track is not None]
-    return tuple(float(d) * 1e6 for d in np.median(kept, axis=0)) if kept else None
+    return tuple(map(float, np.median(kept, axis=0))) if kept else None
 
 
-def _toml(starts: int, *values: IdentifiedValue | None) -> str | None:
+def _toml(starts: int, values: ExpectedValues) -> str | None:
     """Lines to paste into a machine file: values of [autobalancer], and their intervals."""
-    known = {key: value for key, value in zip(KEYS, values, strict=False) if value is not None}
+    known = {key: value for key in KEYS if (value := getattr(values, key)) is not None}
     if not known:
         return None
     lines = [f"{key} = {value.value:.4g}" for key, value in known.items()]

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.scene import Scene
+from abu_calc.features.balancing.formulas import ORDERS
 from abu_calc.features.balancing.recording.tachometer import passages
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
@@ -29,8 +30,6 @@ WINDOWS: Final = 60
 """Windows of a start, from the end of the run-up to the end of the record, the closer the earlier."""
 CLOSER: Final = 1.7
 """Power by which windows get closer to the end of the run-up: fast decays need a tenth of a second, slow ones all."""
-ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
-"""Derivatives of the place, by quantity."""
 FULL: Final = 0.9
 """Share of the last speed above which the rotor counts as run up."""
 OFF_SPEED: Final = 0.03

@@ -4,20 +4,14 @@ from collections.abc import Iterator
 from typing import Final
 
 from abu_calc.features.explain.steps import STEPS, step_blocks
-from abu_calc.features.identification.plan import ExpectedValues, MeasurePlanResult
-from abu_calc.features.identification.results import IdentifiedValue, IdentifyResult
+from abu_calc.features.identification.plan import MeasurePlanResult
+from abu_calc.features.identification.results import ExpectedValues, IdentifiedValue, IdentifyResult
+from abu_calc.foundation.quantity import quantities
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import check_blocks, facts, next_command, notices, provenance_blocks
 from abu_calc.reporting.screen import one_screen, shortened, verdict_line
-
-NAMES: Final = {
-    "rolling_drag_per_s": ("viscous drag rate", "1/s"),
-    "rolling_friction_mm": ("lever arm of rolling friction", "mm"),
-    "race_eccentricity_mm": ("race eccentricity", "mm"),
-    "race_eccentricity_angle_deg": ("its angle from the mark", "°"),
-}
 
 
 def identify_blocks(result: IdentifyResult) -> tuple[Block, ...]:
@@ -54,17 +48,17 @@ def _answer(result: IdentifyResult) -> list[Block]:
 
 def _values(result: IdentifyResult | ExpectedValues, column: str = "identified") -> Grid:
     rows = tuple(
-        (label, *_cells(getattr(result, name), 0 if unit == "°" else 4), unit) for name, (label, unit) in NAMES.items()
+        (quantity.label, *_cells(getattr(result, name), quantity.meaning), quantity.meaning.replace("deg", "°"))
+        for name, quantity in quantities(ExpectedValues).items()
     )
     return Grid(("value", column, "95 % from", "to", "unit"), rows, frozenset({1, 2, 3}))
 
 
-def _cells(value: IdentifiedValue | None, digits: int) -> tuple[str, str, str]:
+def _cells(value: IdentifiedValue | None, unit: str) -> tuple[str, str, str]:
     if value is None:
         return "not evaluated", "–", "–"
-    numbers = value.value, value.low, value.high
-    if not digits:
-        return tuple(f"{each:.0f}" for each in numbers)  # type: ignore[return-value]
+    if unit == "deg":
+        return f"{value.value:.0f}", f"{value.low:.0f}", f"{value.high:.0f}"
     return number(value.value, 4), number(value.low, 3), number(value.high, 3)
 
 

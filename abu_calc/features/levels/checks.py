@@ -9,10 +9,10 @@ from typing import Final
 
 from abu_calc.features.levels.levels import Band, PlaceLevels, largest, level
 from abu_calc.foundation.checks import Check, coded, verdict
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import GRAVITY
 from abu_calc.sizing.design import Design
 from abu_calc.standards.vibration import (
+    Octave,
     corrected_limit,
     daily_exposure,
     exposure_action_value,
@@ -28,13 +28,12 @@ def level_checks(places: Sequence[PlaceLevels], minutes: float | None) -> tuple[
 
     The daily exposure is checked if its minutes are given.
     """
-    count = len(places[0].axes[0].bands)
-    octaves = tuple(_octave(places, index) for index in range(count))
+    octaves = (_octave(places, index) for index in range(len(places[0].loudest)))
     return (*octaves, _corrected(places), *([] if minutes is None else [_exposure(places, minutes)]))
 
 
 def _octave(places: Sequence[PlaceLevels], index: int) -> Check:
-    place, band = max(((point, point.loudest(index)) for point in places), key=lambda pair: pair[1].velocity or -1.0)
+    place, band = max(((point, point.loudest[index]) for point in places), key=lambda pair: pair[1].velocity or -1.0)
     name, limit = f"{band.octave.nominal:g} Hz", band.octave.limit.level
     if band.velocity is None:
         return coded("ABU411", "not-done", band.reason or "not known", None, limit, "dB", LONGER, of=name)
@@ -43,7 +42,7 @@ def _octave(places: Sequence[PlaceLevels], index: int) -> Check:
     return coded("ABU411", verdict(kept), f"rms velocity, {_axis_of(place, band, index)}", actual, limit, "dB", of=name)
 
 
-def _axis_of(place: PlaceLevels, band: Band, index: int) -> str:
+def _axis_of(place: PlaceLevels, band: Band[Octave], index: int) -> str:
     axis = next(candidate for candidate in place.axes if candidate.bands[index] is band)
     return axis.name if place.name == axis.name or len(place.axes) == 1 else f"{place.name}, {axis.name}"
 
@@ -64,7 +63,7 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     totals = [place.total for place in places]
     largest_total = largest(totals)
     if largest_total is None or None in totals:
-        reason = next(axis.reason for place in places for axis in place.axes if axis.weighted is None)
+        reason = next(axis.reason for place in places for axis in place.axes if axis.weighted_acceleration is None)
         return coded("ABU413", "not-done", reason or "not known", None, limit, "m/s²", LONGER)
     exposure = daily_exposure(largest_total, 60 * minutes)
     highest = daily_exposure(max(map(_highest_total, places)), 60 * minutes)
@@ -82,23 +81,15 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
 
 def _highest_total(place: PlaceLevels) -> float:
     """The most that three axes can come to where fewer were measured, none of the others above these."""
-    parts = [axis.weighted or 0.0 for axis in place.axes]
+    parts = [axis.weighted_acceleration or 0.0 for axis in place.axes]
     if len(parts) == 1:
         return largest_total_of_one_axis() * parts[0]
     return math.hypot(*parts, max(parts)) if len(parts) == 2 else math.hypot(*parts)
 
 
-@dataclass(frozen=True)
-class HeldLoad:
-    """Static load [N] of a hand, without and with the autobalancer, upward; negative: it must press down."""
-
-    name: str
-    without: float
-    fitted: float
-
-
-def held_loads(design: Design) -> tuple[HeldLoad, ...] | None:
-    """Load on each handle by the lever of two handles; None if statics does not give it.
+def held_loads(design: Design) -> dict[str, tuple[float, float]]:
+    """Static load [N] of the hand at each handle, without and with the autobalancer, upward; negative: it must press
+    down. Empty if the lever of two handles does not give it.
 
     The machine's centre of mass may lie between or outside the handles. Equilibrium of a horizontal
     spindle: F₁ + F₂ = (M + m)g, F₁p₁ + F₂p₂ = m·g·a_r, places from the centre of mass of machine and wheel,
@@ -107,10 +98,10 @@ def held_loads(design: Design) -> tuple[HeldLoad, ...] | None:
     case, added = design.case, design.autobalancer.mass
     handles = case.handles
     if len(handles) == 1:
-        return (HeldLoad(handles[0].name, case.body.mass * GRAVITY, (case.body.mass + added) * GRAVITY),)
+        return {handles[0].name: (case.body.mass * GRAVITY, (case.body.mass + added) * GRAVITY)}
     known = case.table.machine.spindle_axis == "horizontal" and case.body.is_rigid and not case.body.in_space
     if len(handles) != 2 or not known or handles[0].place[2] == handles[1].place[2]:
-        return None
+        return {}
     first, second = handles
     at, other = first.place[2], second.place[2]
     span = at - other
@@ -120,7 +111,5 @@ def held_loads(design: Design) -> tuple[HeldLoad, ...] | None:
         at_first = (moment - weight * other) / span
         return at_first, weight - at_first
 
-    bare, fitted = share(0.0), share(added)
-    return tuple(
-        HeldLoad(handle.name, before, after) for handle, before, after in zip(handles, bare, fitted, strict=True)
-    )
+    loads = zip(share(0.0), share(added), strict=True)
+    return {handle.name: load for handle, load in zip(handles, loads, strict=True)}

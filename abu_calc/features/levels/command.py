@@ -69,44 +69,30 @@ def levels(
     """
     from abu_calc.features.levels.study import levels as study
     from abu_calc.foundation.errors import InputError, Place
-    from abu_calc.inputs.recording_files import is_recording, read_recording
+    from abu_calc.inputs.recording_files import is_recording
     from abu_calc.inputs.scene import read_any
 
-    picked, handles = _channels(channels), _handles(handle)
-    if is_recording(source):
-        if set_:
-            raise InputError("for machines and scenes only", place=Place(key="--set"), remedy="Leave it out.")
-        given = read_recording(
-            source, quantity, scale, picked, sensitivity=sensitivity, handles=handles, full_scale_mV=full_scale_mv
-        )
+    recorded, handles = is_recording(source), _handles(handle)
+    if recorded and set_:
+        raise InputError("for machines and scenes only", place=Place(key="--set"), remedy="Leave it out.")
+    with progress(how) as tell:
         result = study(
-            given,
+            source if recorded else read_any(source, set_ or ()),
             scene,
-            start=start,
+            quantity=quantity,
+            scale=scale,
+            channels=_channels(channels),
+            sensitivity=sensitivity,
+            handles=handles,
+            full_scale_mV=full_scale_mv,
+            third_octaves=third_octaves,
             minutes=minutes,
             from_s=from_s,
+            start=start,
+            accuracy=accuracy,
             duration_s=duration_s,
-            third_octaves=third_octaves,
+            progress=tell,
         )
-    else:
-        with progress(how) as tell:
-            result = study(
-                read_any(source, set_ or ()),
-                scene,
-                quantity=quantity,
-                scale=scale,
-                channels=picked,
-                sensitivity=sensitivity,
-                handles=handles,
-                full_scale_mV=full_scale_mv,
-                third_octaves=third_octaves,
-                minutes=minutes,
-                from_s=from_s,
-                start=start,
-                accuracy=accuracy,
-                duration_s=duration_s,
-                progress=tell,
-            )
     return outcome_of(result)
 
 

@@ -6,7 +6,7 @@ The motion is a recording, or a simulated one: at the axis of a scene, or where 
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Annotated, ClassVar, Final, Generic, TypeVar
 
 import numpy as np
 
@@ -22,12 +22,12 @@ from abu_calc.features.levels.octaves import (
     hand_arm_filter,
     octave_filter,
     place_filter,
-    third_octave_filter,
     weighted_rms,
     why_not,
 )
 from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import level_from_velocity
 from abu_calc.simulation.simulate import Simulation
 from abu_calc.sizing.design import Design
@@ -37,39 +37,39 @@ ENDS: Final = 0.1
 """Share of a record at either end over which its mean rises and falls: parts of periods count for less."""
 
 
-@dataclass(frozen=True)
-class Band:
-    """Rms velocity [m/s] in an octave; None with the reason why it is not known."""
+Width = TypeVar("Width", Octave, ThirdOctave)
 
-    octave: Octave
+
+@dataclass(frozen=True)
+class Band(Generic[Width]):
+    """Rms velocity [m/s] in an octave or a third octave; None with the reason why it is not known."""
+
+    octave: Width
     velocity: float | None
     reason: str | None = None
 
 
-@dataclass(frozen=True)
-class ThirdBand:
-    """Rms velocity [m/s] in a third octave; None with the reason why it is not known."""
+@record
+class AxisLevel(Record):
+    """One axis of a place."""
 
-    third: ThirdOctave
-    velocity: float | None
-    reason: str | None = None
+    left_out: ClassVar[frozenset[str]] = frozenset({"bands", "thirds", "reason"})
+    optional: ClassVar[frozenset[str]] = frozenset({"third_octave_levels_db"})
 
-
-@dataclass(frozen=True)
-class AxisLevels:
-    """One axis of a place, rms: velocity of the whole motion [m/s], by octaves; displacement [m], acceleration [m/s²]
-    and weighted acceleration a_h [m/s²] within 6 to 1260 Hz, as instruments take them; None with the reason.
-    `thirds`: velocity by third octaves, if they are asked for.
-    """
-
-    name: str
-    velocity: float | None
-    bands: tuple[Band, ...]
-    displacement: float | None
-    acceleration: float | None
-    weighted: float | None
-    reason: str | None = None
-    thirds: tuple[ThirdBand, ...] = ()
+    bands: tuple[Band[Octave], ...]
+    thirds: tuple[Band[ThirdOctave], ...]
+    reason: str | None
+    """Reason why displacement and accelerations are not known."""
+    name: Annotated[str, Quantity("axis")]
+    level_db: Annotated[float | None, Quantity("level", "L")]
+    velocity_rms: Annotated[float | None, Quantity("velocity rms", "v", unit="mm_per_s")]
+    octave_levels_db: Annotated[tuple[float | None, ...], Quantity("octaves 8 … 1000 Hz", "L")]
+    third_octave_levels_db: Annotated[
+        tuple[float | None, ...] | None, Quantity("third octaves 6.3 … 1250 Hz", "L", 4, "with --third-octaves")
+    ]
+    displacement_rms: Annotated[float | None, Quantity("displacement rms", "s_v", 3, unit="um")]
+    acceleration: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted", unit="m_per_s2")]
+    weighted_acceleration: Annotated[float | None, Quantity("weighted acceleration", "a_h", 3, unit="m_per_s2")]
 
     @property
     def corrected(self) -> float | None:
@@ -78,17 +78,34 @@ class AxisLevels:
         return math.hypot(*parts) if parts else None
 
 
+def axis_level(
+    name: str, velocity: float | None, bands: tuple[Band[Octave], ...], displacement: float | None,
+    acceleration: float | None, weighted: float | None, reason: str | None = None,
+    thirds: tuple[Band[ThirdOctave], ...] = (),
+) -> AxisLevel:  # fmt: skip
+    """One axis, rms: velocity of the whole motion [m/s], by octaves; displacement [m], acceleration [m/s²] and weighted
+    acceleration a_h [m/s²] within 6 to 1260 Hz, as instruments take them; None with the reason. `thirds`: velocity by
+    third octaves, if they are asked for.
+    """
+    return AxisLevel(
+        bands=bands, thirds=thirds, reason=reason, name=name, level_db=level(velocity), velocity_rms=velocity,
+        octave_levels_db=tuple(level(band.velocity) for band in bands),
+        third_octave_levels_db=tuple(level(band.velocity) for band in thirds) or None,
+        displacement_rms=displacement, acceleration=acceleration, weighted_acceleration=weighted,
+    )  # fmt: skip
+
+
 @dataclass(frozen=True)
 class PlaceLevels:
     """The axes of one place."""
 
     name: str
-    axes: tuple[AxisLevels, ...]
+    axes: tuple[AxisLevel, ...]
 
     @property
     def velocity(self) -> float | None:
         """Rms of the louder axis [m/s]."""
-        return largest(axis.velocity for axis in self.axes)
+        return largest(axis.velocity_rms for axis in self.axes)
 
     @property
     def corrected(self) -> float | None:
@@ -98,11 +115,11 @@ class PlaceLevels:
     @property
     def total(self) -> float | None:
         """a_hv [m/s²]: vector sum of the weighted accelerations of the axes that there are."""
-        parts = [axis.weighted for axis in self.axes if axis.weighted is not None]
+        parts = [axis.weighted_acceleration for axis in self.axes if axis.weighted_acceleration is not None]
         return math.hypot(*parts) if len(parts) == len(self.axes) else None
 
     def louder(self, part: str) -> float | None:
-        """The largest of the axes: velocity, displacement, acceleration or weighted."""
+        """The largest of the axes: displacement_rms, acceleration or weighted_acceleration."""
         return largest(getattr(axis, part) for axis in self.axes)
 
     @property
@@ -110,13 +127,19 @@ class PlaceLevels:
         """True if every octave is known."""
         return all(band.velocity is not None for axis in self.axes for band in axis.bands)
 
-    def loudest(self, index: int) -> Band:
-        """An octave on the axis where it is loudest."""
-        return max((axis.bands[index] for axis in self.axes), key=lambda band: band.velocity or -1.0)
+    @property
+    def loudest(self) -> tuple[Band[Octave], ...]:
+        """Each octave on the axis where it is loudest."""
+        return _loudest([axis.bands for axis in self.axes])
 
-    def loudest_third(self, index: int) -> ThirdBand:
-        """A third octave on the axis where it is loudest."""
-        return max((axis.thirds[index] for axis in self.axes), key=lambda band: band.velocity or -1.0)
+    @property
+    def loudest_thirds(self) -> tuple[Band[ThirdOctave], ...]:
+        """Each third octave on the axis where it is loudest."""
+        return _loudest([axis.thirds for axis in self.axes])
+
+
+def _loudest(axes: Sequence[tuple[Band[Width], ...]]) -> tuple[Band[Width], ...]:
+    return tuple(max(bands, key=lambda band: band.velocity or -1.0) for bands in zip(*axes, strict=True))
 
 
 def largest(values: Iterable[float | None]) -> float | None:
@@ -129,7 +152,7 @@ def level(velocity: float | None) -> float | None:
     return level_from_velocity(velocity) if velocity else None
 
 
-def axis_levels(name: str, signal: AxisSignal, *, thirds: bool = False) -> AxisLevels:
+def axis_levels(name: str, signal: AxisSignal, *, thirds: bool = False) -> AxisLevel:
     """Levels of a signal along one axis, and by third octaves if they are asked for.
 
     The whole velocity is the rms about the mean from the signal's start on; for accelerations it is that of
@@ -139,23 +162,17 @@ def axis_levels(name: str, signal: AxisSignal, *, thirds: bool = False) -> AxisL
     wide = place_filter(), acceleration_filter(), hand_arm_filter()
     reason = why_not(signal, wide[0])
     place, acceleration, weighted = (band_rms(signal, weighting) if reason is None else None for weighting in wide)
-    narrow = tuple(_third(signal, third) for third in third_octaves()) if thirds else ()
-    return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason, narrow)
+    narrow = tuple(_band(signal, third) for third in third_octaves()) if thirds else ()
+    return axis_level(name, _whole(signal, bands), bands, place, acceleration, weighted, reason, narrow)
 
 
-def _third(signal: AxisSignal, third: ThirdOctave) -> ThirdBand:
-    band = third_octave_filter(third)
-    reason = why_not(signal, band)
-    return ThirdBand(third, band_rms(signal, band) if reason is None else None, reason)
-
-
-def _band(signal: AxisSignal, octave: Octave) -> Band:
+def _band(signal: AxisSignal, octave: Width) -> Band[Width]:
     band = octave_filter(octave)
     reason = why_not(signal, band)
     return Band(octave, band_rms(signal, band) if reason is None else None, reason)
 
 
-def _whole(signal: AxisSignal, bands: Sequence[Band]) -> float | None:
+def _whole(signal: AxisSignal, bands: Sequence[Band[Octave]]) -> float | None:
     """Rms velocity [m/s]; of places by a spline of the fifth degree, its slope within 0.1 % at 8 samples a turn."""
     first = min(math.ceil(signal.start * signal.rate), len(signal.samples) - 2)
     if signal.derivative == 1:
@@ -203,23 +220,19 @@ def with_tone(place: PlaceLevels, velocity: float, weight: float, frequency: flo
     return PlaceLevels(place.name, tuple(_each(axis, added) for axis in place.axes))
 
 
-def _each(axis: AxisLevels, change: Callable[[float, str | Octave | ThirdOctave], float]) -> AxisLevels:
+def _each(axis: AxisLevel, change: Callable[[float, str | Octave | ThirdOctave], float]) -> AxisLevel:
     """An axis with all that is known of it changed."""
 
     def changed(value: float | None, part: str | Octave | ThirdOctave) -> float | None:
         return None if value is None else change(value, part)
 
     bands = tuple(replace(band, velocity=changed(band.velocity, band.octave)) for band in axis.bands)
-    thirds = tuple(replace(band, velocity=changed(band.velocity, band.third)) for band in axis.thirds)
-    return replace(
-        axis,
-        bands=bands,
-        thirds=thirds,
-        velocity=changed(axis.velocity, "velocity"),
-        displacement=changed(axis.displacement, "displacement"),
-        acceleration=changed(axis.acceleration, "acceleration"),
-        weighted=changed(axis.weighted, "weighted"),
-    )
+    thirds = tuple(replace(band, velocity=changed(band.velocity, band.octave)) for band in axis.thirds)
+    return axis_level(
+        axis.name, changed(axis.velocity_rms, "velocity"), bands, changed(axis.displacement_rms, "displacement"),
+        changed(axis.acceleration, "acceleration"), changed(axis.weighted_acceleration, "weighted"), axis.reason,
+        thirds,
+    )  # fmt: skip
 
 
 SLOWEST: Final = 4096.0
@@ -277,7 +290,7 @@ def moved_at(design: Design, at_race: PlaceLevels, name: str, place: Vector) -> 
     by_race = body.body.acceleration(place, race, added=added)
     by_wheel = body.body.acceleration(place, body.wheel, added=added)
     sources = (*at_race.axes, at_race.axes[0])
-    axes = list[AxisLevels]()
+    axes = list[AxisLevel]()
     for axis, source, at, wheel in zip("xyz", sources, by_race, by_wheel, strict=True):
         share, rest = abs(at) / body.inertance(race, race, added), abs(imbalance * wheel - balls * at)
         if axis == "z" and not share:

@@ -82,19 +82,11 @@ class AxisSignal:
         return len(self.samples) / self.rate
 
 
-def octave_filter(band: Octave) -> Filter:
+def octave_filter(band: Octave | ThirdOctave) -> Filter:
     """Butterworth, −3 dB at the edges of the band. Class 1 of IEC 61260-1:2014 with room to spare."""
-    return _band_pass(band, ORDER, SETTLED)
-
-
-def third_octave_filter(band: ThirdOctave) -> Filter:
-    """Butterworth, −3 dB at the edges of the band. Class 1 of IEC 61260-1:2014 with room to spare."""
-    return _band_pass(band, THIRD_ORDER, THIRD_SETTLED)
-
-
-def _band_pass(band: Octave | ThirdOctave, order: int, settled: float) -> Filter:
     from scipy.signal import butter, freqs_zpk
 
+    order, settled = (ORDER, SETTLED) if isinstance(band, Octave) else (THIRD_ORDER, THIRD_SETTLED)
     zeros, poles, gain = butter(order, [band.low, band.high], "bandpass", analog=True, output="zpk")
 
     def response(s: NDArray[np.complex128]) -> NDArray[np.complex128]:

@@ -4,16 +4,15 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Final, Self
+from typing import Annotated, Any, ClassVar, Final
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.levels.checks import held_loads, level_checks
 from abu_calc.features.levels.levels import (
     LAST,
-    AxisLevels,
+    AxisLevel,
     Band,
     PlaceLevels,
-    ThirdBand,
     axis_levels,
     axis_place_levels,
     duration_for,
@@ -29,7 +28,6 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.rows import Rows
-from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.recording import Recording
@@ -44,7 +42,7 @@ from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.subject import Subject, subject_of
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
 from abu_calc.sizing.design import Design
-from abu_calc.standards.vibration import daily_exposure, octaves
+from abu_calc.standards.vibration import Octave, ThirdOctave, daily_exposure, octaves
 
 
 @record
@@ -53,27 +51,13 @@ class OctaveLevel(Record):
 
     optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
 
-    nominal_hz: Annotated[float, Quantity("octave", "", 4)]
-    low_hz: Annotated[float, Quantity("from", "", 5)]
-    high_hz: Annotated[float, Quantity("to", "", 5)]
-    limit_db: Annotated[float, Quantity("limit", "", 4)]
+    nominal_hz: Annotated[float, Quantity("octave")]
+    low: Annotated[float, Quantity("from", "", 5, unit="hz")]
+    high: Annotated[float, Quantity("to", "", 5, unit="hz")]
+    limit_db: Annotated[float, Quantity("limit")]
     level_db: Annotated[float | None, Quantity("level", "L")]
-    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    velocity_rms: Annotated[float | None, Quantity("velocity rms", "v", unit="mm_per_s")]
     why_not: Annotated[str | None, Quantity("why it is not known")]
-
-    @classmethod
-    def of(cls, band: Band) -> Self:
-        """Record in user units."""
-        octave, velocity = band.octave, band.velocity
-        return cls(
-            nominal_hz=float(octave.nominal),
-            low_hz=from_si(octave.low, "hz"),
-            high_hz=from_si(octave.high, "hz"),
-            limit_db=float(octave.limit.level),
-            level_db=level(velocity),
-            velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
-            why_not=band.reason,
-        )
 
 
 @record
@@ -82,57 +66,12 @@ class ThirdOctaveLevel(Record):
 
     optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
 
-    nominal_hz: Annotated[float, Quantity("third octave", "", 4)]
-    low_hz: Annotated[float, Quantity("from", "", 5)]
-    high_hz: Annotated[float, Quantity("to", "", 5)]
+    nominal_hz: Annotated[float, Quantity("third octave")]
+    low: Annotated[float, Quantity("from", "", 5, unit="hz")]
+    high: Annotated[float, Quantity("to", "", 5, unit="hz")]
     level_db: Annotated[float | None, Quantity("level", "L")]
-    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    velocity_rms: Annotated[float | None, Quantity("velocity rms", "v", unit="mm_per_s")]
     why_not: Annotated[str | None, Quantity("why it is not known")]
-
-    @classmethod
-    def of(cls, band: ThirdBand) -> Self:
-        """Record in user units."""
-        third, velocity = band.third, band.velocity
-        return cls(
-            nominal_hz=float(third.nominal),
-            low_hz=from_si(third.low, "hz"),
-            high_hz=from_si(third.high, "hz"),
-            level_db=level(velocity),
-            velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
-            why_not=band.reason,
-        )
-
-
-@record
-class AxisLevel(Record):
-    """One axis of a place."""
-
-    optional: ClassVar[frozenset[str]] = frozenset({"third_octave_levels_db"})
-
-    name: Annotated[str, Quantity("axis")]
-    level_db: Annotated[float | None, Quantity("level", "L")]
-    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
-    octave_levels_db: Annotated[tuple[float | None, ...], Quantity("octaves 8 … 1000 Hz", "L")]
-    third_octave_levels_db: Annotated[
-        tuple[float | None, ...] | None, Quantity("third octaves 6.3 … 1250 Hz", "L", 4, "with --third-octaves")
-    ]
-    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3)]
-    acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted")]
-    weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_h", 3)]
-
-    @classmethod
-    def of(cls, axis: AxisLevels) -> Self:
-        """Record in user units."""
-        return cls(
-            name=axis.name,
-            level_db=level(axis.velocity),
-            velocity_rms_mm_per_s=None if axis.velocity is None else from_si(axis.velocity, "mm_per_s"),
-            octave_levels_db=tuple(level(band.velocity) for band in axis.bands),
-            third_octave_levels_db=tuple(level(band.velocity) for band in axis.thirds) if axis.thirds else None,
-            displacement_rms_um=None if axis.displacement is None else from_si(axis.displacement, "um"),
-            acceleration_m_per_s2=axis.acceleration,
-            weighted_acceleration_m_per_s2=axis.weighted,
-        )
 
 
 @record
@@ -145,13 +84,13 @@ class PlaceLevel(Record):
 
     name: Annotated[str, Quantity("place")]
     level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
-    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    velocity_rms: Annotated[float | None, Quantity("velocity rms", "v", unit="mm_per_s")]
     octaves: tuple[OctaveLevel, ...]
     third_octaves: tuple[ThirdOctaveLevel, ...] | None
     corrected_level_db: Annotated[
         float | None, Quantity("weighted overall level", "L", 4, "of the octaves that are known")
     ]
-    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3, "of the louder axis")]
+    displacement_rms: Annotated[float | None, Quantity("displacement rms", "s_v", 3, "of the louder axis", unit="um")]
     acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted, louder axis")]
     weighted_axis_m_per_s2: Annotated[float | None, Quantity("weighted acceleration of one axis", "a_h", 3)]
     weighted_acceleration_m_per_s2: Annotated[
@@ -162,35 +101,6 @@ class PlaceLevel(Record):
     level_before_db: Annotated[float | None, Quantity("level without autobalancer", "L")]
     static_load_without_N: Annotated[float | None, Quantity("static load of the hand without autobalancer", "", 3)]
     static_load_N: Annotated[float | None, Quantity("static load of the hand", "", 3)]
-
-    @classmethod
-    def of(
-        cls, place: PlaceLevels, minutes: float | None, before: float | None = None,
-        loads: tuple[float, float] | None = None,
-    ) -> Self:  # fmt: skip
-        """Record in user units; `minutes` of a day, level `before` [dB].
-
-        `loads` [N]: without and with the autobalancer.
-        """
-        velocity, moved, total = place.velocity, place.louder("displacement"), place.total
-        count, thirds = len(place.axes[0].bands), len(place.axes[0].thirds)
-        return cls(
-            name=place.name,
-            level_db=level(velocity),
-            velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
-            octaves=tuple(OctaveLevel.of(place.loudest(index)) for index in range(count)),
-            third_octaves=tuple(ThirdOctaveLevel.of(place.loudest_third(index)) for index in range(thirds)) or None,
-            corrected_level_db=level(place.corrected),
-            displacement_rms_um=None if moved is None else from_si(moved, "um"),
-            acceleration_m_per_s2=place.louder("acceleration"),
-            weighted_axis_m_per_s2=place.louder("weighted"),
-            weighted_acceleration_m_per_s2=total,
-            daily_exposure_m_per_s2=None if minutes is None or total is None else daily_exposure(total, 60 * minutes),
-            axes=tuple(map(AxisLevel.of, place.axes)),
-            level_before_db=before,
-            static_load_without_N=None if loads is None else loads[0],
-            static_load_N=None if loads is None else loads[1],
-        )
 
 
 SCENES: Final = ("idle", "grinding")
@@ -220,7 +130,7 @@ class LevelsResult(Result):
     minutes: Annotated[float | None, Quantity("minutes a day")]
     loudest_place: Annotated[str, Quantity("loudest place")]
     level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
-    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    velocity_rms: Annotated[float | None, Quantity("velocity rms", "v", unit="mm_per_s")]
     octaves: tuple[OctaveLevel, ...]
     corrected_level_db: Annotated[float | None, Quantity("weighted overall level", "L")]
     weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_hv", 3)]
@@ -310,7 +220,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
     loudest = level(largest(place.velocity for place in places))
     return _result(
         Path(recorded.file).name,
-        tuple(PlaceLevel.of(place, minutes) for place in places),
+        tuple(_place_level(place, minutes) for place in places),
         checks=level_checks(places, minutes),
         warnings=(*recorded.remarks, *_remarks(recorded, signals), *_unusual(loudest)),
         provenance=Provenance.today(recorded.file, recorded.sha256),
@@ -332,7 +242,6 @@ def _start(recorded: Recording, from_s: float | None) -> float:
 
 
 def _remarks(recorded: Recording, signals: Sequence[AxisSignal]) -> Iterator[str]:
-    """Remarks on a record that a reader must know."""
     if recorded.simulated and signals[0].whole:
         yield "The file is a trajectory of a simulation: means are taken over its last twentieth."
     folded = max(map(folded_share, signals))
@@ -374,14 +283,10 @@ def _of_motion(
     _, run = simulate_chosen(subject.ledger(accuracy), accuracy, times, progress=progress)
     at_axis = axis_place_levels(run, times, "axis", thirds=thirds)
     places = (at_axis,) if design is None else held_levels(design, at_axis)
-    records = tuple(PlaceLevel.of(place, minutes) for place in places)
-    measured = None
-    if design is not None:
-        records = _with_design(design, places, minutes, idle=subject.scene.name == "idle")
-        measured = _measured(design, at_axis, progress, idle=subject.scene.name == "idle")
+    idle = subject.scene.name == "idle"
     return _result(
         subject.title,
-        records,
+        _with_design(design, places, minutes, idle=idle),
         checks=level_checks(places, minutes),
         warnings=(*subject.warnings, *run.warnings, *_held_remarks(design, subject.start)),
         provenance=subject.provenance,
@@ -392,17 +297,50 @@ def _of_motion(
         duration_s=subject.scene.duration,
         averaged_from_s=LAST * subject.scene.duration,
         minutes=minutes,
-        measured_after=measured,
+        measured_after=design and _measured(design, at_axis, progress, idle=idle),
     )
 
 
 def _with_design(
-    design: Design, places: Sequence[PlaceLevels], minutes: float | None, *, idle: bool
+    design: Design | None, places: Sequence[PlaceLevels], minutes: float | None, *, idle: bool
 ) -> tuple[PlaceLevel, ...]:
     """Levels, with those without autobalancer, idle, and the loads of the hands beside them."""
-    before = {place.name: place.levels.before for place in design.idle.places} if idle else {}
-    loads = {load.name: (load.without, load.fitted) for load in held_loads(design) or ()}
-    return tuple(PlaceLevel.of(place, minutes, before.get(place.name), loads.get(place.name)) for place in places)
+    before = {place.name: place.levels.before for place in design.idle.places} if design and idle else {}
+    loads = held_loads(design) if design else {}
+    return tuple(_place_level(place, minutes, before.get(place.name), loads.get(place.name)) for place in places)
+
+
+def _place_level(
+    place: PlaceLevels, minutes: float | None, before: float | None = None,
+    loads: tuple[float | None, float | None] | None = None,
+) -> PlaceLevel:  # fmt: skip
+    """`minutes` of a day, level `before` [dB]; `loads` [N]: without and with the autobalancer."""
+    total, (bare, fitted) = place.total, loads or (None, None)
+    return PlaceLevel(
+        name=place.name,
+        level_db=level(place.velocity),
+        velocity_rms=place.velocity,
+        octaves=tuple(OctaveLevel(limit_db=float(band.octave.limit.level), **_entries(band)) for band in place.loudest),
+        third_octaves=tuple(ThirdOctaveLevel(**_entries(band)) for band in place.loudest_thirds) or None,
+        corrected_level_db=level(place.corrected),
+        displacement_rms=place.louder("displacement_rms"),
+        acceleration_m_per_s2=place.louder("acceleration"),
+        weighted_axis_m_per_s2=place.louder("weighted_acceleration"),
+        weighted_acceleration_m_per_s2=total,
+        daily_exposure_m_per_s2=None if minutes is None or total is None else daily_exposure(total, 60 * minutes),
+        axes=place.axes,
+        level_before_db=before,
+        static_load_without_N=bare,
+        static_load_N=fitted,
+    )
+
+
+def _entries(band: Band[Octave] | Band[ThirdOctave]) -> dict[str, Any]:
+    """Entries that an octave and a third octave have."""
+    return {
+        "nominal_hz": float(band.octave.nominal), "low": band.octave.low, "high": band.octave.high,
+        "level_db": level(band.velocity), "velocity_rms": band.velocity, "why_not": band.reason,
+    }  # fmt: skip
 
 
 def _measured(design: Design, at_axis: PlaceLevels, progress: Progress, *, idle: bool) -> MeasuredAfterRecord | None:
@@ -426,7 +364,7 @@ def _held_remarks(design: Design | None, start: str) -> Iterator[str]:
         yield (
             f"These levels leave out the background of {design.case.background_level:g} dB: its octaves are not known."
         )
-    if design.case.handles and held_loads(design) is None:
+    if design.case.handles and not held_loads(design):
         yield (
             "The load on each hand is not known. It requires two handles on a horizontal spindle and the rigid body "
             "(machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm)."
@@ -438,7 +376,7 @@ def _result(title: str, places: tuple[PlaceLevel, ...], **others: Any) -> Levels
     loudest = max(places, key=lambda place: place.level_db or -math.inf)
     others = {"scene": None, "measured_after": None} | others
     same = (
-        *("level_db", "velocity_rms_mm_per_s", "octaves", "corrected_level_db", "weighted_acceleration_m_per_s2"),
+        *("level_db", "velocity_rms", "octaves", "corrected_level_db", "weighted_acceleration_m_per_s2"),
         "daily_exposure_m_per_s2",
     )
     shared = {name: getattr(loudest, name) for name in same}

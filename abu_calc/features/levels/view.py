@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from abu_calc.features.levels.study import LevelsResult, PlaceLevel
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, or_dash
 from abu_calc.reporting.parts import (
     check_blocks,
     default_blocks,
@@ -119,18 +119,18 @@ def _totals(result: LevelsResult) -> list[Block]:
     columns: list[tuple[str, Callable[[PlaceLevel], str]]] = [
         ("without, dB", lambda place: _tenths(place.level_before_db)),
         ("level, dB", lambda place: _tenths(place.level_db)),
-        ("mm/s", lambda place: _short(place.velocity_rms_mm_per_s)),
-        ("µm", lambda place: _short(place.displacement_rms_um)),
-        ("m/s²", lambda place: _short(place.acceleration_m_per_s2)),
-        ("a_h", lambda place: _short(place.weighted_axis_m_per_s2)),
-        ("a_hv", lambda place: _short(place.weighted_acceleration_m_per_s2)),
-        ("A(8)", lambda place: _short(place.daily_exposure_m_per_s2)),
+        ("mm/s", lambda place: or_dash(place.velocity_rms_mm_per_s)),
+        ("µm", lambda place: or_dash(place.displacement_rms_um)),
+        ("m/s²", lambda place: or_dash(place.acceleration_m_per_s2)),
+        ("a_h", lambda place: or_dash(place.weighted_axis_m_per_s2)),
+        ("a_hv", lambda place: or_dash(place.weighted_acceleration_m_per_s2)),
+        ("A(8)", lambda place: or_dash(place.daily_exposure_m_per_s2)),
     ]
     filled = [(name, cell) for name, cell in columns if any(cell(place) != "–" for place in result.places)]
     rows = tuple((place.name, *(cell(place) for _, cell in filled)) for place in result.places)
     blocks: list[Block] = [Grid(("", *(name for name, _ in filled)), rows, frozenset(range(1, len(filled) + 1)))]
     loads = [
-        f"{place.name} {_short(place.static_load_N)} N ({_short(place.static_load_without_N)} N without autobalancer)"
+        f"{place.name} {or_dash(place.static_load_N)} N ({or_dash(place.static_load_without_N)} N without autobalancer)"
         for place in result.places
         if place.static_load_N is not None
     ]
@@ -145,16 +145,11 @@ def _totals(result: LevelsResult) -> list[Block]:
     return blocks
 
 
-def _short(value: float | None) -> str:
-    return "–" if value is None else number(value, 3)
-
-
 def _axes(places: Sequence[PlaceLevel]) -> list[Block]:
-    """Every axis of every place, octave by octave."""
     header = ("place", "axis", *(f"{octave.nominal_hz:g}" for octave in places[0].octaves), "all", "a_h")
     rows = tuple(
         (place.name, axis.name, *map(_tenths, axis.octave_levels_db), _tenths(axis.level_db),
-         _short(axis.weighted_acceleration_m_per_s2))
+         or_dash(axis.weighted_acceleration_m_per_s2))
         for place in places
         for axis in place.axes
     )  # fmt: skip

@@ -17,6 +17,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, PydanticKnownError
 
 from abu_calc.foundation.escaping import LINE_BREAKS
+from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit
 from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.reading.text import Part, shown, shown_short
 
@@ -191,6 +192,18 @@ class Table(BaseModel):
         """
         return iter(())
 
+    def in_si(self) -> dict[str, Any]:
+        """Values in SI by the names of their quantities: that of `race_radius_mm` as `race_radius` [m].
+
+        >>> class Wheel(Table):
+        ...     radius_mm: float = 50.0
+        ...     count: int = 2
+        >>> Wheel().in_si()
+        {'radius': 0.05, 'count': 2}
+        """
+        named = {key: quantity_and_unit(key) for key in type(self).model_fields}
+        return {name: _times(getattr(self, key), SI_PER_UNIT.get(unit, 1.0)) for key, (name, unit) in named.items()}
+
     def own_defaults(self) -> dict[str, object]:
         """The defaults in force in this table, in the order of its keys."""
         silent = self.model_fields_set | self.unused()
@@ -223,6 +236,13 @@ class Table(BaseModel):
                 for index, item in enumerate(value):
                     if isinstance(item, Table):
                         yield from item.tables((*path, key, index))
+
+
+def _times(value: Any, factor: float) -> Any:
+    """A number, or those of a list, times a factor; anything else as it is."""
+    if factor == 1 or not isinstance(value, (int, float, tuple)):
+        return value
+    return tuple(_times(inner, factor) for inner in value) if isinstance(value, tuple) else value * factor
 
 
 def _numbers(value: object) -> Iterator[float]:

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
+from abu_calc.features.balancing.corrections import Share
 from abu_calc.features.balancing.drawn import (
     ACROSS,
     HEIGHT,
@@ -17,7 +18,7 @@ from abu_calc.features.balancing.drawn import (
     sketch_words,
 )
 from abu_calc.features.balancing.figures import balance_extras
-from abu_calc.features.balancing.records import PlaneCorrection, Share
+from abu_calc.features.balancing.solution import PlaneCorrection
 from tests.features.balancing.field import Fan
 from tests.features.balancing.rig import RIG, ROTOR, Workshop, written
 
@@ -66,9 +67,9 @@ def test_without_phase_the_sketch_has_no_high_spot(tmp_path: Path) -> None:
 def plane(mass_g: float, *corrections: Share) -> PlaneCorrection:
     """A plane whose heavy spot is at 90°."""
     return PlaneCorrection(
-        mass_g=mass_g, angle_deg=90.0, mass_uncertainty_g=0.1, angle_uncertainty_deg=1.0, remove_at_deg=90.0,
-        add_at_deg=270.0, corrections=corrections, imbalance_g_mm=100 * mass_g, permitted_g_mm=None, rest_g_mm=1.0,
-        rest_at_most_g_mm=2.0, leftover_g_mm=0.0, printed_mass_g=None, printed_angle_deg=None,
+        mass=mass_g / 1e3, angle=math.pi / 2, mass_uncertainty=1e-4, angle_uncertainty=0.02, remove_at=math.pi / 2,
+        add_at=1.5 * math.pi, corrections=corrections, imbalance=mass_g / 1e4, permitted=None, rest=1e-6,
+        rest_at_most=2e-6, leftover=0.0, printed_mass=None, printed_angle=None,
     )  # fmt: skip
 
 
@@ -76,7 +77,7 @@ def plane(mass_g: float, *corrections: Share) -> PlaneCorrection:
 def test_a_heavy_spot_is_marked_only_where_there_is_mass(sense: int, right: bool) -> None:
     """Against rotation, 90° is at the right of one who sees the rotor turn counterclockwise; the mark is on top."""
     _, *rows = plane_picture(
-        "plane", plane(12.0, Share(action="remove", mass_g=12.0, angle_deg=45.0)), sense, "against rotation"
+        "plane", plane(12.0, Share(action="remove", mass=0.012, angle=math.pi / 4)), sense, "against rotation"
     )
     spots = [(row, line.index("o")) for row, line in enumerate(rows) if "o" in line]
     assert spots == [(HEIGHT // 2, WIDTH // 2 + (ACROSS if right else -ACROSS))]

@@ -32,7 +32,7 @@ def test_the_heavy_spot_is_drawn_against_the_rotation(result: BalanceResult, tur
 
 
 def test_a_plane_without_imbalance_is_left(result: BalanceResult) -> None:
-    drawing = planes_drawing(replace(result.left, mass_g=0.0), result.right, "clockwise")
+    drawing = planes_drawing(replace(result.left, mass=0.0), result.right, "clockwise")
     assert drawing.description.startswith("left: leave it as it is")
     assert sum(isinstance(shape, Arc) and shape.radius == 1.6 for shape in drawing.shapes) == 1
 

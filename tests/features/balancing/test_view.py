@@ -2,11 +2,13 @@
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.records import PlaneCorrection
+from abu_calc.features.balancing.corrections import Share
+from abu_calc.features.balancing.solution import PlaneCorrection
 from abu_calc.features.balancing.view import balance_blocks, balance_screen, drawing
 from abu_calc.reporting.text import as_text
 
@@ -14,10 +16,8 @@ PRESET = "sapropel-screw-rig"
 
 
 def plane(angle: float) -> PlaneCorrection:
-    seen = abu_calc.balance(PRESET).left
-    values = {name: getattr(seen, name) for name in seen.entries()}
-    shares = (type(seen.corrections[0])(action="remove", mass_g=1.0, angle_deg=angle),)
-    return PlaneCorrection(**(values | {"corrections": shares, "angle_deg": angle}))
+    at = math.radians(angle)
+    return replace(abu_calc.balance(PRESET).left, corrections=(Share(action="remove", mass=1e-3, angle=at),), angle=at)
 
 
 @pytest.mark.parametrize("angle", [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0])

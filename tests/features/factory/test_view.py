@@ -1,7 +1,7 @@
 """The factory's table: cells, spans, degrees of freedom, and the sentence that lists the misses."""
 
+from abu_calc.features.factory.measurements import ValueSource
 from abu_calc.features.factory.study import FactoryLevel, FactoryResult, FittedValues, SoftRaceLevel
-from abu_calc.features.factory.value_sources import ValueSource
 from abu_calc.features.factory.view import factory_blocks, factory_screen
 from abu_calc.reporting.blocks import Grid
 from abu_calc.reporting.text import as_text

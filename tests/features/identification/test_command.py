@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.features.identification.written import identified_text
+from abu_calc.features.identification.results import identified_text
 from tests.cli.runner import abu
 from tests.features.identification.test_study import starts
 

@@ -232,7 +232,8 @@ def test_a_value_whose_interval_says_little_is_not_given(
     estimate = Estimate(best, WIDE, (*ends, (2.5, 3.5), (3.5, 4.5)), 0.1, 0.5, 0.0, 1.0, 1)
     assert estimate.vague == vague
     measured = SimpleNamespace(reading=SimpleNamespace(marked=True, phase_error=0.0))
-    values = dict(zip(("drag rate", "lever arm"), identified_values(measured, estimate, 0.0), strict=False))  # type: ignore[arg-type]
+    given = identified_values(measured, estimate, 0.0)  # type: ignore[arg-type]
+    values = {"drag rate": given.rolling_drag_per_s, "lever arm": given.rolling_friction_mm}
     assert [name for name, value in values.items() if value is None] == list(vague)
 
 

@@ -20,7 +20,6 @@ from abu_calc.features.levels.octaves import (
     folded_share,
     hand_arm_filter,
     octave_filter,
-    third_octave_filter,
     why_not,
 )
 from abu_calc.foundation.units import from_si
@@ -99,7 +98,7 @@ def test_the_filter_of_a_third_octave_is_of_class_1(away: float, side: int) -> N
     """The standard maps its table for octaves to the frequencies 1 + (G^(1/6) − 1)/(G^(1/2) − 1)·(G^away − 1)."""
     ratio, third = 10**0.3, third_octaves()[12]
     off = 1 + (ratio ** (1 / 6) - 1) / (ratio ** (1 / 2) - 1) * (ratio**away - 1)
-    response = third_octave_filter(third).response(np.array([1j * third.centre * off**side]))
+    response = octave_filter(third).response(np.array([1j * third.centre * off**side]))
     lost = -20 * math.log10(abs(response[0]))
     if away in PASSED:
         assert -0.3 <= lost <= PASSED[away]
@@ -117,8 +116,8 @@ def test_a_sine_reads_its_level_in_its_third_octave(index: int) -> None:
     assert edges == pytest.approx([centre * 10**-0.05, centre * 10**0.05], rel=1e-9)
     for off in (-0.6, 0.0, 0.6):
         signal = sine(centre * 10 ** (0.05 * off), 4 * centre, 51.5 / centre)
-        assert abs(20 * math.log10(band_rms(signal, third_octave_filter(third)))) < 0.02
-    assert why_not(sine(centre, 4 * centre, 50 / centre), third_octave_filter(third)) is not None
+        assert abs(20 * math.log10(band_rms(signal, octave_filter(third)))) < 0.02
+    assert why_not(sine(centre, 4 * centre, 50 / centre), octave_filter(third)) is not None
 
 
 @pytest.mark.slow
@@ -132,8 +131,8 @@ def test_third_octaves_of_noise_add_up_to_their_octave_and_to_the_weighted_accel
         third = math.hypot(*velocities[3 * index : 3 * index + 3])  # type: ignore[arg-type]
         # Narrow bands of noise fluctuate by the edges, which the filters cut differently.
         assert third == pytest.approx(octave.velocity, rel=0.06 if index < 2 else 0.02)
-    total = math.hypot(*(band.third.weight * band.third.centre * (band.velocity or 0.0) for band in found.thirds))
-    assert found.weighted == pytest.approx(total, rel=0.03)
+    total = math.hypot(*(band.octave.weight * band.octave.centre * (band.velocity or 0.0) for band in found.thirds))
+    assert found.weighted_acceleration == pytest.approx(total, rel=0.03)
     assert axis_levels("x", AxisSignal(noise[:4096], 4096.0, 0)).thirds == ()
 
 
@@ -169,10 +168,10 @@ def test_place_and_acceleration_beside_the_velocity(derivative: int) -> None:
     w = 2 * math.pi * 96.67
     found = axis_levels("x", sine(96.67, 4096.0, 2.0, derivative))
     # From an acceleration the start of a record of 2 s is still felt.
-    assert found.displacement == pytest.approx(1 / w, rel=5e-3 if derivative == 1 else 1e-3)
+    assert found.displacement_rms == pytest.approx(1 / w, rel=5e-3 if derivative == 1 else 1e-3)
     assert found.acceleration == pytest.approx(w, rel=1e-3)
     # That of an acceleration is the sum of the octaves, which overlap a little at their edges: 0.02 dB near one.
-    assert found.velocity == pytest.approx(1.0, rel=2.5e-3 if derivative == 1 else 1e-3)
+    assert found.velocity_rms == pytest.approx(1.0, rel=2.5e-3 if derivative == 1 else 1e-3)
     assert band_rms(sine(96.67, 4096.0, 2.0, derivative), acceleration_filter()) == found.acceleration
 
 

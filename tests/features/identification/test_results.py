@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.identification.written import identified_text
+from abu_calc.features.identification.results import identified_text
 from abu_calc.inputs.reading.sources import text_of
 
 
