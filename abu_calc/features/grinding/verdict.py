@@ -5,12 +5,12 @@ from collections.abc import Sequence
 
 from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.start_cases import WHEN
-from abu_calc.features.grinding.work import LOUDER, Remedy, Side, Work
+from abu_calc.features.grinding.work import LOUDER, Side, TriedRemedy, Work
 from abu_calc.foundation.units import from_si
 from abu_calc.reporting.blocks import capitalised
 
 
-def in_words(work: Work, tried: Sequence[Remedy], loads: GrindingOutcomes | None = None) -> str:
+def in_words(work: Work, tried: Sequence[TriedRemedy], loads: GrindingOutcomes | None = None) -> str:
     """A sentence or two; the level first, then the start cases that are louder than the usual case."""
     before, after = work.levels.before, work.levels.after
     if work.lowered is None or before is None or after is None:
@@ -61,7 +61,7 @@ def _level(value: float, side: Side) -> str:
 NOTHING = " No smaller runout, softer contact or larger normal force was found that changes this."
 
 
-def changes(tried: Sequence[Remedy]) -> str:
+def changes(tried: Sequence[TriedRemedy]) -> str:
     """Sentence on the changes that help, with the level of each; empty without any."""
     if not tried:
         return ""
@@ -70,21 +70,21 @@ def changes(tried: Sequence[Remedy]) -> str:
     return f" {first} that in all simulated cases. {' '.join(texts)}"
 
 
-def _short(remedy: Remedy) -> str:
+def _short(remedy: TriedRemedy) -> str:
     """Loudest level with the change beside the level without autobalancer."""
-    after, before = remedy.levels.after, remedy.levels.before
+    after, before = remedy.level_after_db, remedy.level_before_db
     known = "not known" if after is None else f"{after:.1f} dB at most"
     return known + ("" if before is None else f", {before:.1f} dB without")
 
 
-def _levels(remedy: Remedy) -> str:
+def _levels(remedy: TriedRemedy) -> str:
     """Loudest level with the change, and the level without autobalancer beside it."""
-    after, before = remedy.levels.after, remedy.levels.before
+    after, before = remedy.level_after_db, remedy.level_before_db
     known = "not known" if after is None else f"{after:.1f} dB"
     return f"loudest case {known}" + ("" if before is None else f", without autobalancer {before:.1f} dB")
 
 
-def shortest(tried: Sequence[Remedy]) -> str | None:
+def shortest(tried: Sequence[TriedRemedy]) -> str | None:
     """The first remedy alone."""
     if not tried:
         return None
@@ -92,12 +92,12 @@ def shortest(tried: Sequence[Remedy]) -> str | None:
     return f"{capitalised(text)}: {_levels(tried[0])} (simulated)."
 
 
-def _remedy(remedy: Remedy) -> str:
-    if remedy.what == "runout":
-        return f"reduce wheel.runout_mm to {from_si(remedy.value, 'mm'):g}"
-    if remedy.what == "stiffness":
-        return f"reduce grinding.contact_stiffness_N_per_m to {_plain(remedy.value)}"
-    return f"raise grinding.press_force_N to {remedy.value:g}"
+def _remedy(remedy: TriedRemedy) -> str:
+    if remedy.runout is not None:
+        return f"reduce wheel.runout_mm to {remedy.runout_mm:g}"
+    if remedy.contact_stiffness is not None:
+        return f"reduce grinding.contact_stiffness_N_per_m to {_plain(remedy.contact_stiffness)}"
+    return f"raise grinding.press_force_N to {remedy.press_force:g}"
 
 
 def _haste(work: Work) -> str:

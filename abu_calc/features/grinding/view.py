@@ -2,8 +2,9 @@
 
 from typing import Final
 
+from abu_calc.features.grinding.curves import FrictionBand
 from abu_calc.features.grinding.outcomes import LoadedOutcomeGroup, LoadedStarts
-from abu_calc.features.grinding.records import AxisMotion, FrictionBand, Simulated
+from abu_calc.features.grinding.records import AxisMotion, Simulated
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse

@@ -18,8 +18,8 @@ def test_a_line_is_broken_where_a_value_is_not_known() -> None:
 
 
 def test_the_larger_amplitude_counts_in_micrometres() -> None:
-    assert _largest(AxisMotion(x_amplitude_mm=0.03, y_amplitude_mm=0.04)) == pytest.approx(40.0)
-    assert _largest(AxisMotion(x_amplitude_mm=None, y_amplitude_mm=None)) is None
+    assert _largest(AxisMotion(x_amplitude=3e-5, y_amplitude=4e-5)) == pytest.approx(40.0)
+    assert _largest(AxisMotion(x_amplitude=None, y_amplitude=None)) is None
 
 
 @pytest.mark.slow
