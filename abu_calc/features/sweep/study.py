@@ -12,7 +12,6 @@ from typing import Any, Final
 from abu_calc.features.design.study import WORKERS
 from abu_calc.features.seats.seats import bearing_checks
 from abu_calc.features.sweep import answers
-from abu_calc.features.sweep import tolerance_costs as worth
 from abu_calc.features.sweep.cluster import software, versions
 from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
 from abu_calc.features.sweep.execution import Take, Workers, compute, described, once_more
@@ -23,7 +22,7 @@ from abu_calc.features.sweep.result import Failed, Kept, MeetsLimits, Members, P
 from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.store import Store, study_of
 from abu_calc.features.sweep.store_faults import checked_path, damaged, fault
-from abu_calc.features.sweep.tolerance_costs import Compute, Trials, loosened
+from abu_calc.features.sweep.tolerance_costs import Compute, Trials, prices
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError
@@ -219,9 +218,7 @@ def _answered(
     first = next(iter(by_name), None)
     ranked = by_name[first] if first else ()
     drawn = sample.scheme if any(not factor.variation.listed for factor in sample.factors) else "listed values"
-    halves = worth.halves(store, sample, study.what, ranked)
-    idle = [split.row.key for split in reversed(halves) if split.idle]
-    tried = loosened(study, store, idle, again)
+    priced = prices(study, store, ranked, again)
     limits = _limits(plan)
     failing = () if study.what != "build" or late else failed_limits(store, sample, met, limits)
     given, many = ((), 0) if not isinstance(source, Machine) else advice(plan, ask, source, failing, store, again)
@@ -246,7 +243,7 @@ def _answered(
         sensitivity=ranked,
         sensitivity_by_quantity=by_name,
         unexplained=unexplained,
-        prices=worth.prices(halves, tried),
+        prices=priced,
         failed_limits=failing,
         advice=given,
         tried=many,
