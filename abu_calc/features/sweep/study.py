@@ -1,6 +1,5 @@
 """Many machines like one: the share that meets the limits, and the values that decide."""
 
-import json
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
@@ -12,9 +11,9 @@ from typing import Any, Final
 from abu_calc.features.design.study import WORKERS
 from abu_calc.features.seats.seats import bearing_checks
 from abu_calc.features.sweep import answers
-from abu_calc.features.sweep.cluster import software, versions
+from abu_calc.features.sweep.cluster import software
 from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
-from abu_calc.features.sweep.execution import Take, Workers, compute, described, once_more
+from abu_calc.features.sweep.execution import Take, Workers, compute, once_more
 from abu_calc.features.sweep.failed_limits import failed_limits
 from abu_calc.features.sweep.limit_advice import advice
 from abu_calc.features.sweep.plan import Plan, SweepRequest, asked, planned
@@ -99,7 +98,8 @@ def sweep(
     )  # fmt: skip
     database.drawn = plan.study.sample.drawn
     try:
-        _computed(plan, database, machine, hands, command, progress)
+        with hands.noted(database, [machine], plan.study.sample.seed, command):
+            compute(plan.study, database, hands, progress)
         members = Members(file, columns, database.runs, kept)
         progress("sweep: reading the answers")
 
@@ -168,32 +168,6 @@ def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
         "file": plan.content,
         "versions": software(),
     }
-
-
-def _computed(
-    plan: Plan,
-    store: Store,
-    source: Machine | SceneDescription,
-    hands: Workers,
-    command: str | None,
-    progress: Progress,
-) -> None:
-    facts = {
-        "file": source.file,
-        "sha256": source.sha256,
-        "versions": json.dumps({**software(), **versions("distributed")}),
-        "seed": plan.study.sample.seed,
-        "command": command,
-        "workers": described(hands.workers, hands.executor),
-    }
-    store.begun(facts)
-    try:
-        compute(plan.study, store, hands, progress)
-    except BaseException:
-        with suppress(AbuError):  # the first fault is the one to tell
-            store.ended()
-        raise
-    store.ended()
 
 
 def _answered(
