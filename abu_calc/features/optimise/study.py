@@ -14,9 +14,8 @@ from abu_calc.features.design.study import WORKERS
 from abu_calc.features.optimise.answers import answered
 from abu_calc.features.optimise.candidates import SearchSpace, search_space
 from abu_calc.features.optimise.choices import Option, options_of, usual_of_family
-from abu_calc.features.optimise.front import front, runners_up
 from abu_calc.features.optimise.members import COLUMNS, MOST, SampleSource, VariantStudy
-from abu_calc.features.optimise.racing import FIRST, CandidateRace, highest, run
+from abu_calc.features.optimise.racing import FIRST, CandidateRace, front, highest, run, runners_up
 from abu_calc.features.optimise.requests import OptimiseRequest, asked_of
 from abu_calc.features.optimise.result import OptimiseResult
 from abu_calc.features.sweep.batches import RenewableExecutor
