@@ -26,7 +26,7 @@ from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.effect_selection import EffectAudit, simulate_chosen
+from abu_calc.simulation.effect_selection import Audit, simulate_chosen
 from abu_calc.simulation.effect_selection import audit as with_all_effects
 from abu_calc.simulation.ensemble import followed_until
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
@@ -323,7 +323,7 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
     return Check("ABU801", "accuracy reached", "fail", message, value, accuracy, None, remedy)
 
 
-def _left_out(audited: EffectAudit, accuracy: float) -> Check:
+def _left_out(audited: Audit, accuracy: float) -> Check:
     message = "with every effect in, amplitude, times and ball angles differ by no more than the accuracy"
     remedy = "Ask for more accuracy, or take effects in: --with EFFECT, Python: with_effects=."
     held = audited.difference <= accuracy

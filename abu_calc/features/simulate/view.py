@@ -28,8 +28,10 @@ from abu_calc.reporting.parts import (
     warning_blocks,
 )
 from abu_calc.reporting.screen import one_screen, verdict_line
-from abu_calc.simulation.records import Audit, Cost, EffectEntry, End
+from abu_calc.simulation.effect_selection import Audit, EffectEntry
+from abu_calc.simulation.records import End
 from abu_calc.simulation.rotor_view import RotorView
+from abu_calc.simulation.simulate import Cost
 from abu_calc.sizing.case import WHEEL_PLANE
 
 CONVENTIONS = (
