@@ -121,14 +121,6 @@ class Envelope(Record):
 
 
 @record
-class SimulatedLevel(Record):
-    """Level at one place where the machine is held, by the simulated motion."""
-
-    name: Annotated[str, Quantity("place")]
-    level_db: Annotated[float, Quantity("level", "L")]
-
-
-@record
 class SimulatedScene(Record):
     """One scene: how it ended, when it was quiet, what was left out, what it cost, how far it may be off."""
 
