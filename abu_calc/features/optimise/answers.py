@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.features.design.judgement import judge
-from abu_calc.features.optimise.bounds import interval
 from abu_calc.features.optimise.candidates import SearchSpace, changes
 from abu_calc.features.optimise.choices import Option
 from abu_calc.features.optimise.costs import cost_entries
@@ -26,6 +25,7 @@ from abu_calc.features.optimise.result import (
 from abu_calc.features.sweep.plan import planned
 from abu_calc.foundation.checks import CHECK_CODES, Check, coded
 from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.shares import interval
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.simulation.result import Provenance
 

@@ -20,7 +20,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.features.optimise.bounds import chance, compared, lower, middle, upper
+from abu_calc.foundation.shares import chance, compared, lower, middle, upper
 
 FIRST: Final = 16
 """Samples of an arm in its first round."""

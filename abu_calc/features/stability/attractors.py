@@ -23,6 +23,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.shares import interval
 from abu_calc.foundation.units import from_si, level_from_velocity
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
@@ -42,8 +43,6 @@ ALWAYS: Final = ("dry_rolling_friction", "ball_contact")
 
 RUNS_UP: Final = ("run_up", "motor")
 """Effects that change the rotor's speed: they are left out."""
-
-CONFIDENCE: Final = 0.95
 
 CRITERION: Final = (
     f"Each start is followed for {', '.join(str(look) for look in LOOKS[:-1])} or {LOOKS[-1]} times the scene's "
@@ -143,14 +142,6 @@ def searched_scene(subject: Subject) -> Scene:
 
 def _always(scene: Scene) -> list[str]:
     return [name for name in ALWAYS if scene.effect(name) is not None]
-
-
-def interval(met: int, count: int) -> tuple[float, float]:
-    """Exact 95 % interval of a share (Clopper-Pearson)."""
-    from scipy.stats import binomtest
-
-    bounds = binomtest(met, count).proportion_ci(CONFIDENCE, method="exact")
-    return float(bounds.low), float(bounds.high)
 
 
 def _record(subject: Subject, scene: Scene, group: EndGroup, drawn: int, lot: tuple[int, int]) -> Attractor:

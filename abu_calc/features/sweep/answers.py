@@ -24,10 +24,10 @@ from abu_calc.features.sweep.result import (
 from abu_calc.features.sweep.sampling import BLOCK, Sample, block
 from abu_calc.features.sweep.sensitivity import Indices, RegressionSums, saltelli
 from abu_calc.features.sweep.store import Store, quoted
+from abu_calc.foundation.shares import interval
 
 REASONS: Final = 20
 """Most reasons that are listed."""
-CONFIDENCE: Final = 0.95
 SHARES: Final = (0.0, 0.01, 0.02, *(k / 20 for k in range(1, 20)), 0.98, 0.99, 1.0)
 """Shares of samples for which a distribution is given."""
 START: Final = "start.kind"
@@ -112,14 +112,7 @@ def meets(store: Store, what: What) -> MeetsLimits:
 def _share(store: Store, name: str) -> LimitShare:
     query = f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE {TRIED} AND member < {store.drawn}"
     met, count = store.ask(query)[0]
-    return LimitShare(share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
-
-
-def _interval(met: int, count: int) -> tuple[float, float]:
-    from scipy.stats import binomtest
-
-    interval = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
-    return float(interval.low), float(interval.high)
+    return LimitShare(share=met / count, confidence_interval=interval(met, count), met=int(met), of=int(count))
 
 
 def basins(store: Store) -> tuple[Basin, ...]:
@@ -132,7 +125,7 @@ def basins(store: Store) -> tuple[Basin, ...]:
         "GROUP BY 1"
     )
     return tuple(
-        Basin(start=name, share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
+        Basin(start=name, share=met / count, confidence_interval=interval(met, count), met=int(met), of=int(count))
         for name, met, count in store.ask(query)
     )
 
