@@ -31,6 +31,11 @@ class AxisMotion(Record):
         x, y = (None, None) if axis is None else map(abs, axis)
         return cls(x_amplitude=x, y_amplitude=y)
 
+    @property
+    def largest(self) -> float | None:
+        """The larger of both."""
+        return max((each for each in (self.x_amplitude, self.y_amplitude) if each is not None), default=None)
+
 
 @dataclass(frozen=True, eq=False)
 class Orbit:

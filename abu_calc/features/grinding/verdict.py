@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.start_cases import WHEN
+from abu_calc.features.grinding.steady_contact import RestingBalls
 from abu_calc.features.grinding.work import LOUDER, Side, TriedRemedy, Work
 from abu_calc.foundation.units import from_si
 from abu_calc.reporting.blocks import capitalised
@@ -115,10 +116,9 @@ def _helps(work: Work) -> str:
     contact, case = work.design.case.contact, work.design.case
     if contact is None or contact.kind == "face":
         return "A face does not press in the plane of the balls, so they settle as at idle."
-    balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
+    balls = work.fitted.steady.balls
     if balls is not None and balls.places == "short":
-        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
-        return f"But the capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires."
+        return f"But the {_capacity(work, balls)}."
     if balls is None or balls.places != "balanced":
         return "But the balls do not stay where they would balance (ABU423)."
     if not case.runout:
@@ -130,9 +130,14 @@ def _helps(work: Work) -> str:
     return f"The balls balance the wheel, and {share}."
 
 
+def _capacity(work: Work, balls: RestingBalls) -> str:
+    carried, needed = (from_si(each, "g_mm") for each in (work.design.autobalancer.capacity, abs(balls.needed)))
+    return f"capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires"
+
+
 def _worse(work: Work) -> str:
     case, steady = work.design.case, work.fitted.steady
-    balls, autobalancer = steady.balls, work.design.autobalancer
+    balls = steady.balls
     moved = work.design.imbalance.value / case.body.effective_mass()
     runout = f"ε = {_um(case.runout)} {'exceeds' if case.runout > moved else 'against'} m₀e/M = {_um(moved)}"
     if balls is not None and balls.places in ("gathered", "turning"):
@@ -140,8 +145,7 @@ def _worse(work: Work) -> str:
     if balls is not None and balls.places == "restless":
         return f"The balls do not stay where they would balance (ABU423); {runout}."
     if balls is not None and balls.places == "short":
-        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
-        return f"The capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires; {runout}."
+        return f"The {_capacity(work, balls)}; {runout}."
     if work.fitted.parts and case.contact is not None:
         force = abs(steady.reaction or 0.0)
         return (f"The machine follows the wheel's runout ({runout}). The normal force, {case.contact.press_force:g} ± "

@@ -20,7 +20,8 @@ def steady(imbalance: complex | None, runout: complex = 3e-5 + 0j) -> SteadyWork
 def test_amplitudes_of_phasors_are_their_sizes() -> None:
     axis = AxisMotion.of((cmath.rect(3e-5, 1.0), cmath.rect(4e-5, -2.0)))
     assert (axis.x_amplitude_mm, axis.y_amplitude_mm) == pytest.approx((0.03, 0.04))
-    assert AxisMotion.of(None) == AxisMotion(x_amplitude=None, y_amplitude=None)
+    assert axis.largest == pytest.approx(4e-5)
+    assert AxisMotion.of(None) == AxisMotion(x_amplitude=None, y_amplitude=None) and AxisMotion.of(None).largest is None
 
 
 def test_an_orbit_goes_round_an_ellipse_once() -> None:
