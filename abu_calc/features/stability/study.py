@@ -161,11 +161,7 @@ def stability(
                          remedy="Add --attractors, Python: attractors=True.")  # fmt: skip
     way = next(name for name in ARRANGEMENTS if name == arrangement)
     subject = _subject(source, scene)
-    rated, band = subject.scene.speed, None
-    if speeds_rpm is not None:
-        band = to_si(speeds_rpm[0], "rpm"), to_si(speeds_rpm[1], "rpm")
-    elif crossings:
-        band = SLOWEST * rated, min(FASTEST * rated, to_si(FASTEST_RPM, "rpm"))
+    band = _band(speeds_rpm, subject.scene.speed if crossings else None)
     pressed = grinds(subject.scene)
     if attractors and pressed:
         raise InputError(
@@ -252,6 +248,13 @@ def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
         return
     speed_range = ":".join(f"{speed:g}" for speed in speeds_rpm)
     raise InputError("not a range of speeds", place=Place(key="speeds_rpm"), found=speed_range, allowed=SPEEDS)
+
+
+def _band(speeds_rpm: tuple[float, float] | None, rated: float | None) -> tuple[float, float] | None:
+    """Range of speeds [rad/s] as asked for, else about the rated one."""
+    if speeds_rpm is not None:
+        return to_si(speeds_rpm[0], "rpm"), to_si(speeds_rpm[1], "rpm")
+    return None if rated is None else (SLOWEST * rated, min(FASTEST * rated, to_si(FASTEST_RPM, "rpm")))
 
 
 def _growth(

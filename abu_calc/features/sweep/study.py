@@ -96,7 +96,6 @@ def sweep(
         file, _identity(plan, accuracy), columns, texts,
         force=force and not resume, time_limit=ask.time_limit,
     )  # fmt: skip
-    database.drawn = plan.study.sample.drawn
     try:
         with hands.noted(database, [machine], plan.study.sample.seed, command):
             compute(plan.study, database, hands, progress)
@@ -180,6 +179,7 @@ def _answered(
     again: Compute,
 ) -> SweepResult:
     study, sample = plan.study, plan.study.sample
+    store.drawn = sample.drawn
     failed, late = answers.failed(store), answers.left_out(store)
     if (
         failed.members >= store.runs
