@@ -143,17 +143,14 @@ def sensitivities(
     unexplained: dict[str, float] = {}
     for name, indices in every.items():
         if indices is not None:
-            pairs = zip(sample.factors, indices.each, strict=True)
-            rows = [Sensitivity(key=param.key, first_order=each.first_order, total=each.total) for param, each in pairs]
-            by_name[name] = tuple(sorted(rows, key=lambda row: -row.total))
+            by_name[name] = tuple(sorted(indices.each, key=lambda row: -row.total))
             unexplained[name] = indices.unexplained
     return by_name, unexplained
 
 
 def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
     """All numbers in one pass, since their products are the same."""
-    levels = tuple(len(factor.variation.values) for factor in sample.factors)
-    fits = {name: RegressionSums(levels, sample.runs) for name in names}
+    fits = {name: RegressionSums(sample.factors, sample.runs) for name in names}
     for members, columns in parts_of(store, names):
         places = np.empty((len(members), len(sample.factors)))
         for first in np.unique(members // BLOCK).tolist():
@@ -176,7 +173,7 @@ def _of_saltelli(store: Store, sample: Sample, names: Sequence[str]) -> dict[str
         parts = column.reshape(len(sample.factors) + 2, -1)
         whole = np.flatnonzero(np.isfinite(parts).all(axis=0))
         rows = whole[np.searchsorted(whole, np.arange(parts.shape[1])) % len(whole)] if len(whole) else whole
-        indices[name] = saltelli(parts[:, rows].ravel(), len(sample.factors)) if len(whole) else None
+        indices[name] = saltelli(parts[:, rows].ravel(), sample.factors) if len(whole) else None
     return indices
 
 
