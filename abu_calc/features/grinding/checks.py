@@ -8,7 +8,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.features.grinding.formulas import flutter_drag, loaded_stiffness
 from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.simulation import WorkSimulation, only_contact, working
-from abu_calc.features.grinding.steady_contact import RestingBalls, SteadyWork, contact_presses, leaving
+from abu_calc.features.grinding.steady_contact import SteadyWork, contact_presses, leaving
 from abu_calc.features.grinding.work import Work
 from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
@@ -266,7 +266,8 @@ def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Compa
         comparison = _compared(work, _lasting(scene, min(slowest, sway)), accuracy, progress)
         if comparison.apart is not None and comparison.apart <= AGREES:
             return comparison
-    there = _compared(work, _lasting(_placed(scene, steady.balls), min(sway, LONG / STAYS)), accuracy, progress)
+    placed = tuple(replace(race, start_angles=steady.balls.angles) for race in scene.races)
+    there = _compared(work, _lasting(replace(scene, races=placed), min(sway, LONG / STAYS)), accuracy, progress)
     return replace(there, from_idle=False)
 
 
@@ -274,11 +275,6 @@ def _lasting(scene: Scene, rate: float) -> Scene:
     """Until what dies out at a rate [1/s] is gone, within bounds."""
     longer = min(LONG / rate if rate > 0 else LONGEST, LONGEST)
     return replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
-
-
-def _placed(scene: Scene, balls: RestingBalls) -> Scene:
-    """Started where the closed form has its balls."""
-    return replace(scene, races=tuple(replace(race, start_angles=balls.angles) for race in scene.races))
 
 
 def _compared(work: Work, scene: Scene, accuracy: float, progress: Progress) -> Comparison:

@@ -24,7 +24,7 @@ from abu_calc.features.grinding.curves import (
 )
 from abu_calc.features.grinding.formulas import published_resultant, stiffness_regions
 from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, loudest_start, with_starts
+from abu_calc.features.grinding.outcomes import LoadedStarts, loudest_start, with_starts
 from abu_calc.features.grinding.records import AxisMotion, Orbit, Printed, ProfilePoint, Simulated
 from abu_calc.features.grinding.start_cases import loaded_ensemble
 from abu_calc.features.grinding.steady_contact import (
@@ -216,7 +216,8 @@ def grinding(
         design = size_design(tables)
         work = at_work(design, accuracy, progress)
         work, loads = with_starts(work, loaded_ensemble(design, accuracy, progress, processors()))
-        tried = () if _always(work, loads) else _remedies(work, accuracy, progress)
+        always = work.always and (loads is None or (loads.lowered("settled") and loads.lowered("at once")))
+        tried = () if always else remedies(work, accuracy, progress, lambda tried: loudest_start(tried, accuracy))
         compared, freed = agreement(work, accuracy, progress), shaken(work, progress)
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
@@ -276,16 +277,6 @@ def grinding(
         agreement=compared,
         orbits=tuple(_orbits(work, still)),
     )  # fmt: skip
-
-
-def _always(work: Work, loads: GrindingOutcomes | None) -> bool:
-    """Sentence that tells if the autobalancer lowers the level in every start case."""
-    return bool(work.always) and (loads is None or bool(loads.lowered("settled") and loads.lowered("at once")))
-
-
-def _remedies(work: Work, accuracy: float, progress: Progress) -> tuple[TriedRemedy, ...]:
-    """Changes that lower the level in every start case."""
-    return remedies(work, accuracy, progress, lambda tried: loudest_start(tried, accuracy))
 
 
 def _orbits(work: Work, still: SteadyWork) -> Iterator[Orbit]:

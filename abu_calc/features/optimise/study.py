@@ -107,7 +107,8 @@ def _raced(
 ) -> OptimiseResult:  # fmt: skip
     race = CandidateRace(space.rows, space.costs, ask.share, source, MOST, max(budget, FIRST * len(space.variants)))
     best = run(race)
-    if not any(flags.any() for flags in race.met) and _none_computed(source):
+    computed = "SELECT COUNT(*) FROM members WHERE reason IS NULL"
+    if not any(flags.any() for flags in race.met) and not source.store.ask(computed)[0][0]:
         raise NotTrustworthyError("no sample gave a number that can be trusted: run `abu sweep FILE`")
     proven = best is not None
     if best is None:
@@ -117,10 +118,6 @@ def _raced(
     others = runners_up(race, best)
     fresh = [source.fresh(arm, runs) for arm in space.rows[best].tolist()]
     return answered(ask, options, space, race, source, best, proven, on_front, others, fresh, path)
-
-
-def _none_computed(source: SampleSource) -> bool:
-    return not source.store.ask("SELECT COUNT(*) FROM members WHERE reason IS NULL")[0][0]
 
 
 def _options(ask: OptimiseRequest) -> list[tuple[Option, ...]]:
