@@ -27,8 +27,7 @@ def run_of(steady: SteadyWork, **changes: Any) -> WorkSimulation:
     values: dict[str, Any] = {
         "axis": steady.axis, "x": 0.0, "y": 0.0, "reaction": steady.reaction, "imbalance": steady.imbalance,
         "force": np.ones(4), "profile": (), "velocity": 0.0, "duration": 1.0, "ball_angles": (),
-        "path": np.zeros((2, 2)),
-        "settled": True, "parts": False, "error": 0.0, "warnings": (),
+        "path": np.zeros((2, 2)), "parts": False, "warnings": (),
     }  # fmt: skip
     return WorkSimulation(**(values | changes))
 
