@@ -226,7 +226,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "compare",
         "compare.command",
         ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
-        "compare.pages:any_extras",
+        "compare.measured_view:any_extras",
     ),
     Feature("verify", "verify.command", ("verify.study:VerifyResult",), group="Files"),
     Feature("validate", "files.validate", computes=False, group="Files"),

@@ -335,12 +335,14 @@ def field_lines(kind: type[Record]) -> Iterator[str]:
 
 
 def hints(kind: type[Record]) -> Mapping[str, Any]:
-    """The type of each field, with its quantity."""
+    """The type of each field, with its quantity, in order; of a field in SI that of its entry."""
     own = get_type_hints(kind, include_extras=True)
     entries = {field.name: _entry(kind, field.name) for field in _fields(kind)}
     in_si = _units(kind)
-    return {name: hint for name, hint in own.items() if name not in in_si} | {
-        entry: own[name] for name, entry in entries.items()
+    return {
+        known: hint
+        for name, hint in own.items()
+        for known in ((entries[name],) if name in in_si else (name, entries.get(name, name)))
     }
 
 

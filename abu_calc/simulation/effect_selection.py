@@ -8,8 +8,8 @@ import math
 import time
 from collections.abc import Sequence, Set
 from contextlib import suppress
-from dataclasses import replace
-from typing import Final
+from dataclasses import field, replace
+from typing import Annotated, Final
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from abu_calc.dynamics.trajectory import Array
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.durations import lasting
 from abu_calc.simulation.nonconvergence import difference
 from abu_calc.simulation.response import Course, Response, evaluate, sampling
@@ -33,14 +34,14 @@ The rest is for the errors of integration.
 """
 
 
-@dataclass(frozen=True)
-class Entry:
-    """One effect: whether it is in, what leaving it out changes, counted as accuracy counts errors, and why so."""
+@record
+class EffectEntry(Record):
+    """One effect: whether it was simulated, what leaving it out would change, and why."""
 
-    name: str
-    included: bool
-    weight: float | None
-    why: str
+    name: Annotated[str, Quantity("effect")]
+    included: Annotated[bool, Quantity("simulated")]
+    weight: Annotated[float | None, Quantity("weight", "", 2, "what leaving it out changes; None: nothing cheap tells")]
+    why: Annotated[str, Quantity("why")]
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Ledger:
     """
 
     scene: Scene
-    entries: tuple[Entry, ...]
+    entries: tuple[EffectEntry, ...]
     whole: Scene
     spared: float = 0.0
 
@@ -80,10 +81,12 @@ def chosen(
     switching = {effect.name for effect in full.effects if effect.switching(full)}.difference(unwanted, idle)
     out = light if switching <= light or not light.isdisjoint(switching) else idle
     entries = tuple(
-        Entry(name, name in wanted or (name not in out and name not in unwanted), weight.value,
-              f"asked for; {weight.why}" if name in wanted
-              else f"left out by request; {weight.why}" if name in unwanted
-              else _why(weight, name in light, name in out))
+        EffectEntry(
+            name=name, included=name in wanted or (name not in out and name not in unwanted), weight=weight.value,
+            why=f"asked for; {weight.why}" if name in wanted
+            else f"left out by request; {weight.why}" if name in unwanted
+            else _why(weight, name in light, name in out),
+        )
         for name, weight in weights.items()
     )  # fmt: skip
     scene = _without(full, {entry.name for entry in entries if not entry.included})
@@ -161,32 +164,31 @@ def _why(weight: EffectInfluence, light: bool, out: bool) -> str:
     return f"{'within' if light else 'beyond'} the accuracy{kept}: {weight.why}"
 
 
-@dataclass(frozen=True)
-class EffectAudit:
-    """The true difference, counted as accuracy counts errors, beside what the weights of what was left out promised."""
+@record
+class Audit(Record):
+    """The same scene once more with every effect in: what that changed beside what was promised."""
 
-    difference: float
-    promise: float
-    effects: tuple[str, ...]
-    """Effects added to the scene for the audit."""
-    evaluations: int
-    wall_s: float
+    difference: Annotated[float, Quantity("difference", "", 2)]
+    promise: Annotated[float, Quantity("weights of what was left out", "", 2)]
+    effects: Annotated[tuple[str, ...], Quantity("taken in for the audit")]
+    evaluations: Annotated[int, Quantity("evaluations of the equations")]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
 
 
 def audit(
     full: Scene, ledger: Ledger, run: Simulation, accuracy: float, most_evaluations: int | None,
     integrator: str = "auto", progress: Progress = silent,
-) -> EffectAudit:  # fmt: skip
+) -> Audit:  # fmt: skip
     """Simulate the scene with all its effects to the same accuracy, by the work that the run has left.
 
     Raises NotTrustworthyError as `simulate` does.
     """
     added = tuple(entry.name for entry in ledger.entries if not entry.included)
     if not added:
-        return EffectAudit(0.0, 0.0, (), 0, 0.0)
+        return Audit(difference=0.0, promise=0.0, effects=(), evaluations=0, wall_s=0.0)
     left = max((most_evaluations or usual_work(full, integrator)) - run.cost.work, 1)
     whole = simulate(full, accuracy, (), left, integrator=integrator, progress=progress)
-    return EffectAudit(
+    return Audit(
         difference=difference(run.scene, run.response, whole.response),
         promise=ledger.promise,
         effects=added,

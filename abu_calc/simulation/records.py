@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from typing import Annotated, Any, ClassVar, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
@@ -10,10 +9,9 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.boundaries import Boundary
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
 from abu_calc.foundation.units import from_si, wrapped_deg
-from abu_calc.simulation.effect_selection import EffectAudit as AuditRun
-from abu_calc.simulation.effect_selection import Ledger
+from abu_calc.simulation.effect_selection import Audit, EffectEntry, Ledger
 from abu_calc.simulation.response import FinalState
-from abu_calc.simulation.simulate import Simulation
+from abu_calc.simulation.simulate import Cost, Simulation
 
 
 @record
@@ -115,53 +113,11 @@ class End(Record):
 
 
 @record
-class EffectEntry(Record):
-    """One effect: whether it was simulated, what leaving it out would change, and why."""
-
-    name: Annotated[str, Quantity("effect")]
-    included: Annotated[bool, Quantity("simulated")]
-    weight: Annotated[float | None, Quantity("weight", "", 2, "what leaving it out changes; None: nothing cheap tells")]
-    why: Annotated[str, Quantity("why")]
-
-
-@record
-class Cost(Record):
-    """Work of all runs of a simulation together; tolerance and steps of the one that is reported."""
-
-    integrator: Annotated[str, Quantity("integrator")]
-    tolerance: Annotated[float, Quantity("tolerance", "", 1)]
-    evaluations: Annotated[int, Quantity("evaluations of the equations")]
-    steps: Annotated[int, Quantity("steps")]
-    events: Annotated[int, Quantity("events", "", 4, "switches of how effects act")]
-    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
-    why: Annotated[str, Quantity("why this integrator")]
-
-
-@record
 class Envelope(Record):
     """Usability of the averaged slow motion: its error estimate, and why it was taken or not."""
 
     error_estimate: Annotated[float | None, Quantity("error estimate of the averages", "", 2)]
     why: Annotated[str, Quantity("why it was taken, or not")]
-
-
-@record
-class Audit(Record):
-    """The same scene once more with every effect in: what that changed beside what was promised."""
-
-    difference: Annotated[float, Quantity("difference", "", 2)]
-    promise: Annotated[float, Quantity("weights of what was left out", "", 2)]
-    effects: Annotated[tuple[str, ...], Quantity("taken in for the audit")]
-    evaluations: Annotated[int, Quantity("evaluations of the equations")]
-    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
-
-
-@record
-class SimulatedLevel(Record):
-    """Level at one place where the machine is held, by the simulated motion."""
-
-    name: Annotated[str, Quantity("place")]
-    level_db: Annotated[float, Quantity("level", "L")]
 
 
 @record
@@ -218,7 +174,7 @@ class SimulatedScene(Record):
         cls,
         simulation: Simulation,
         ledger: Ledger,
-        audit: AuditRun | None = None,
+        audit: Audit | None = None,
     ) -> Self:
         """Record in user units."""
         response = simulation.response
@@ -228,12 +184,12 @@ class SimulatedScene(Record):
             simulation,
             scene=response.scene,
             final=End.of(response.final, bearings),
-            effects=tuple(map(EffectEntry.read, ledger.entries)),
+            effects=ledger.entries,
             error_estimate=simulation.error_estimate + ledger.spared,
             envelope=Envelope(error_estimate=finite(simulation.offered.error), why=simulation.offered.why),
             bearing_amplitudes_mm=bearings or None,
             full_speed_s=response.full_speed or None,
-            audit=None if audit is None else Audit.read(audit),
+            audit=audit,
             quiet_time_range_s=response.quiet.grazed(simulation.scene.revolution),
             rest_time_range_s=response.rest.grazed(simulation.scene.revolution),
         )

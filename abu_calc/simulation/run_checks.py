@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable
-from typing import Final
+from typing import Annotated, Final
 
 from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.checks import Check, coded, overall, verdict
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, level_from_velocity
 from abu_calc.simulation.quiet import LAST
 from abu_calc.simulation.residual_criteria import SLIPPING, allowed_imbalance, balances, slip
@@ -24,15 +24,15 @@ Level = Callable[[float], float]
 TRIES: Final = "`abu size FILE` simulates changes that help."
 
 
-@dataclass(frozen=True)
-class SimulatedPlaceLevel:
-    """Simulated velocity level [dB] at a handle, or in the wheel plane where the file names none."""
+@record
+class SimulatedLevel(Record):
+    """Level at one place where the machine is held, by the simulated motion."""
 
-    name: str
-    level: float
+    name: Annotated[str, Quantity("place")]
+    level: Annotated[float, Quantity("level", "L", unit="db")]
 
 
-def levels_at_places(design: Design, response: Response) -> tuple[SimulatedPlaceLevel, ...]:
+def levels_at_places(design: Design, response: Response) -> tuple[SimulatedLevel, ...]:
     """Levels where the machine is held: what the race plane does, carried there as by a free rigid body.
 
     What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
@@ -40,7 +40,7 @@ def levels_at_places(design: Design, response: Response) -> tuple[SimulatedPlace
     is limited, comes last. No places for a machine on a swing arm.
     """
     held = _held(design, response) if response.scene in HELD else []
-    return tuple(SimulatedPlaceLevel(name, level(response.velocity_rms)) for name, level in held)
+    return tuple(SimulatedLevel(name=name, level=level(response.velocity_rms)) for name, level in held)
 
 
 def _held(design: Design, response: Response) -> list[tuple[str, Level]]:
@@ -156,7 +156,7 @@ def _seconds(time: float | None) -> str:
 
 def _level(design: Design, response: Response, error: float) -> Check:
     """The loudest place against the limit; a warning where the error of the run leaves it open."""
-    judged = [SimulatedPlaceLevel(held.name, level_at(design, response, held.place))
+    judged = [SimulatedLevel(name=held.name, level=level_at(design, response, held.place))
               for held in design.case.judged_places]  # fmt: skip
     loudest, limit = max(judged, key=lambda place: place.level), design.case.level_limit
     passed, safe = loudest.level <= limit, loudest.level + 20 * math.log10(1 + error) <= limit

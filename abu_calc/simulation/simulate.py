@@ -6,8 +6,8 @@ Remarks of the effects on a run are given once each, with those on effects that 
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import replace
-from typing import Final
+from dataclasses import field, replace
+from typing import Annotated, ClassVar, Final
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.errors import ChaoticError, InputError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, share_of, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.durations import lasting
 from abu_calc.simulation.model_level import Offer, offer
 from abu_calc.simulation.nonconvergence import FinestRuns, difference, unreached
@@ -145,17 +146,19 @@ LAST_TOLERANCE = 1e-13
 """Tightest tolerance; below it, rounding decides."""
 
 
-@dataclass(frozen=True)
-class SimulationCost:
-    """Work of all runs of a simulation together; `tolerance`: of the run reported, `why`: the integrator's choice."""
+@record
+class Cost(Record):
+    """Work of all runs of a simulation together; tolerance and steps of the one that is reported."""
 
-    integrator: str
-    tolerance: float
-    evaluations: int
-    steps: int
-    events: int
-    wall_s: float
-    why: str
+    left_out: ClassVar[frozenset[str]] = frozenset({"work"})
+
+    integrator: Annotated[str, Quantity("integrator")]
+    tolerance: Annotated[float, Quantity("tolerance", "", 1)]
+    evaluations: Annotated[int, Quantity("evaluations of the equations")]
+    steps: Annotated[int, Quantity("steps")]
+    events: Annotated[int, Quantity("events", "", 4, "switches of how effects act")]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
+    why: Annotated[str, Quantity("why this integrator")]
     work: int = 0
     """Work, as `most_evaluations` counts it."""
 
@@ -173,7 +176,7 @@ class Simulation:
     scene: Scene
     response: Response
     trajectory: Trajectory
-    cost: SimulationCost
+    cost: Cost
     error_estimate: float
     warnings: tuple[str, ...]
     rung: str
@@ -314,8 +317,11 @@ def usual_work(scene: Scene, integrator: str) -> int:
     return min(work, WORK_PLAIN) if integrator == "plain" else work
 
 
-def _cost(run: Trajectory, evaluations: int, steps: int, spent: float, why: str) -> SimulationCost:
-    return SimulationCost(run.integrator, run.tolerance, evaluations, steps, run.events, spent, why)
+def _cost(run: Trajectory, evaluations: int, steps: int, spent: float, why: str) -> Cost:
+    return Cost(
+        integrator=run.integrator, tolerance=run.tolerance, evaluations=evaluations, steps=steps, events=run.events,
+        wall_s=spent, why=why,
+    )  # fmt: skip
 
 
 def run_difference(scene: Scene, before: Response, response: Response) -> float:

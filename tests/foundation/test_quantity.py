@@ -45,6 +45,8 @@ def test_every_quantity_has_a_label(kind):
     ]
     assert silent == []
     assert all(quantity.label for quantity in quantities(kind).values())
+    entries = {name: None for name in quantities(kind) if name in kind.entries()}
+    assert list(entries) == [name for name in kind.entries() if name in entries]  # in SI or not: in their order
 
 
 def test_the_seats_are_among_them():

@@ -7,7 +7,7 @@ eigenvalue or multiplier crosses the edge of stability.
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations, pairwise
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from abu_calc.dynamics.stability.search import MARGIN, Search, at_speed, decided
 from abu_calc.dynamics.stability.two_modes import LinearMotion, two_modes
 from abu_calc.dynamics.stability.verdict import judged
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.roots import root
 from abu_calc.foundation.validity import Range
 
@@ -126,18 +127,18 @@ NARROW: Final = 1e-9
 """Relative; speeds as near as this are one."""
 
 
-@dataclass(frozen=True)
-class StabilityCrossing:
-    """A speed [rad/s] at which eigenvalues or multipliers cross the edge of stability; how many grow on either side."""
+@record
+class Crossing(Record):
+    """A speed at which eigenvalues or multipliers cross the edge of stability."""
 
-    speed: float
-    growing_below: int
-    growing_above: int
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    growing_below: Annotated[int, Quantity("growing below it")]
+    growing_above: Annotated[int, Quantity("growing above it")]
 
 
 def crossings_of(
     scene: Scene, low: float, high: float, half_angle: float = 0.0, arrangement: Arrangement = "worst"
-) -> tuple[StabilityCrossing, ...]:
+) -> tuple[Crossing, ...]:
     """Every speed between at which the number of growing ones changes, of the arrangement that is worst at the scene's.
 
     Isotropic support: all of them; elsewhere those between neighbours of a grid that differ. None where the axis
@@ -162,14 +163,12 @@ def crossings_of(
     return tuple(crossing for a, b in pairwise(points) for crossing in _halved(growing, a, b))
 
 
-def _halved(
-    growing: Callable[[float], int], low: tuple[float, int], high: tuple[float, int]
-) -> Iterator[StabilityCrossing]:
+def _halved(growing: Callable[[float], int], low: tuple[float, int], high: tuple[float, int]) -> Iterator[Crossing]:
     """Every change of a number between two speeds where it differs."""
     if low[1] == high[1]:
         return
     if high[0] - low[0] <= NARROW * high[0]:
-        yield StabilityCrossing(high[0], low[1], high[1])
+        yield Crossing(speed=high[0], growing_below=low[1], growing_above=high[1])
         return
     speed = (low[0] + high[0]) / 2
     middle = speed, growing(speed)

@@ -1,6 +1,6 @@
 """Closed speeds at which the balls of a race can stay stuck below the rotor's speed (Sommerfeld effect)."""
 
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.stability.stall import driven, lost_by
 from abu_calc.formulas.slow_motion import resonance_drag
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.roots import root
 
 Array = NDArray[np.float64]
@@ -23,19 +23,19 @@ ALIKE: Final = 1e-6
 """Relative difference below which two natural frequencies are one."""
 
 
-@dataclass(frozen=True)
-class StuckSpeed:
-    """A speed ν [rad/s] in space of balls that go round together, in the balance of drag and dissipation.
+@record
+class ClosedStuckSpeed(Record):
+    """A speed at which drag and dissipation balance, of balls of a race that go round together.
 
-    `race`: counted from 0; `holds`: True if a small change of their common speed dies out.
+    It holds if a small change of their common speed dies out. Races count from 1.
     """
 
-    race: int
-    speed: float
-    holds: bool
+    race: Annotated[int, Quantity("race")]
+    speed: Annotated[float, Quantity("balls can turn at", "ν", 5, unit="rpm")]
+    holds: Annotated[bool, Quantity("holds its speed")]
 
 
-def stuck_speeds(scene: Scene, half_angle: float = 0.0) -> tuple[StuckSpeed, ...]:
+def stuck_speeds(scene: Scene, half_angle: float = 0.0) -> tuple[ClosedStuckSpeed, ...]:
     """All speeds ν in 0 < ν < Ω with h₀(Ω − ν) = n·m·σ²·ν⁴·(−Im[h_xx(ν) + h_yy(ν)])/2, ascending in each race.
 
     h: receptance [m/N] at the race with the balls' mass on it; σ: side by side, of touching balls with the half-angle
@@ -63,7 +63,7 @@ def natural_frequencies(scene: Scene) -> tuple[float, ...]:
     return tuple(kept)
 
 
-def _of_race(scene: Scene, index: int, race: Race, half_angle: float) -> tuple[StuckSpeed, ...]:
+def _of_race(scene: Scene, index: int, race: Race, half_angle: float) -> tuple[ClosedStuckSpeed, ...]:
     if not race.ball_masses or not race.drag:
         return ()
     speed = scene.speed
@@ -88,5 +88,8 @@ def _of_race(scene: Scene, index: int, race: Race, half_angle: float) -> tuple[S
     values = pull(grid)
     changes = np.flatnonzero((values[:-1] > 0) != (values[1:] > 0))
     return tuple(
-        StuckSpeed(index, root(pull_at, float(grid[k]), float(grid[k + 1])), bool(values[k] > 0)) for k in changes
+        ClosedStuckSpeed(
+            race=index + 1, speed=root(pull_at, float(grid[k]), float(grid[k + 1])), holds=bool(values[k] > 0)
+        )
+        for k in changes
     )

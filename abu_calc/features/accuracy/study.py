@@ -10,7 +10,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import field, replace
 from functools import partial
-from typing import Annotated, Any, ClassVar, Final
+from typing import Annotated, Any, ClassVar, Final, NamedTuple
 
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice
@@ -67,45 +67,46 @@ class OverBudgetError(TooMuchWorkError):
     """A run was broken off, since its time is over."""
 
 
-@dataclass(frozen=True)
-class PricePoint:
-    """One computation: error against the reference, evaluations, and time of the integration alone.
+@record
+class MeasuredPoint(Record):
+    """One way to compute; without a number of it, `note` says why."""
 
-    `wall_s` is the median of repeats when everything is loaded, `cold_s` the first run with import and compilation.
-    `error` None: the method gave no number, `note` says why.
-    """
-
-    rung: str
-    integrator: str | None
-    tolerance: float | None
-    error: float | None
-    evaluations: int
-    steps: int
-    wall_s: float | None
-    cold_s: float | None
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class ReferenceRun:
-    """The full scene, integrated by two methods; `disagreement` is how far they are apart, and errors are no surer."""
-
-    integrators: tuple[str, str]
-    tolerances: tuple[float, float]
-    disagreement: float
-    response: Response
-    wall_s: float
+    rung: Annotated[str, Quantity("rung", "", 4, "closed-form, envelope, equations, or everything: with all effects")]
+    integrator: Annotated[str | None, Quantity("by")]
+    tolerance: Annotated[float | None, Quantity("tolerance", "", 1)]
+    error: Annotated[float | None, Quantity("error", "", 2, "against the reference")]
+    evaluations: Annotated[int, Quantity("evaluations")]
+    steps: Annotated[int, Quantity("steps")]
+    wall_s: Annotated[float | None, Quantity("warm", "", 3, "median of repeats, everything loaded")] = field(
+        compare=False
+    )
+    cold_s: Annotated[float | None, Quantity("cold", "", 3, "the first run, with import and compilation")] = field(
+        compare=False
+    )
+    note: Annotated[str, Quantity("note")] = ""
 
 
-@dataclass(frozen=True)
-class PriceList:
+@record
+class Reference(Record):
+    """Reference of the errors: two methods and their disagreement; no error is known better than that."""
+
+    left_out: ClassVar[frozenset[str]] = frozenset({"response"})
+
+    integrators: Annotated[tuple[str, ...], Quantity("integrators")]
+    tolerances: Annotated[tuple[float, ...], Quantity("tolerances", "", 1)]
+    disagreement: Annotated[float, Quantity("disagreement", "", 2)]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
+    response: Response = field(compare=False, repr=False)
+
+
+class PriceList(NamedTuple):
     """The price list of a scene; `chosen` is the cheapest point whose error is below the accuracy, if there is one."""
 
     quantity: str
     accuracy: float
-    reference: ReferenceRun
-    points: tuple[PricePoint, ...]
-    chosen: PricePoint | None
+    reference: Reference
+    points: tuple[MeasuredPoint, ...]
+    chosen: MeasuredPoint | None
     skipped: tuple[str, ...]
 
 
@@ -143,7 +144,7 @@ def price_list(
     _load(full, accuracy)
     end = time.perf_counter() + budget
     reference = _reference(full, quantity, accuracy, budget)
-    points: list[PricePoint] = []
+    points: list[MeasuredPoint] = []
     skipped: list[str] = []
     # Of the loop's own reference no error is known.
     by_loop = all(name in choice.LOOP for name in reference.integrators)
@@ -169,13 +170,13 @@ def price_list(
 def _measured(
     full: Scene,
     group: list[Method],
-    reference: ReferenceRun,
+    reference: Reference,
     quantity: str,
     end: float,
     report: Callable[[Method], None],
-) -> tuple[list[PricePoint], list[str]]:
+) -> tuple[list[MeasuredPoint], list[str]]:
     """One kind of method from loose to tight as long as there is time, and the names of those left out."""
-    points: list[PricePoint] = []
+    points: list[MeasuredPoint] = []
     for place, method in enumerate(group):
         # A tighter tolerance takes longer than the one before.
         before = points[-1].cold_s or 0.0 if points else 0.0
@@ -189,16 +190,16 @@ def _measured(
     return points, []
 
 
-def cheapest(points: list[PricePoint], accuracy: float, reference: ReferenceRun) -> PricePoint | None:
+def cheapest(points: list[MeasuredPoint], accuracy: float, reference: Reference) -> MeasuredPoint | None:
     """The quickest point whose error, with what the reference is unsure of, is below the accuracy.
 
     So must be those of the same method at tighter tolerances, or it came near the reference by chance.
     """
 
-    def holds(point: PricePoint) -> bool:
+    def holds(point: MeasuredPoint) -> bool:
         return point.error is not None and point.wall_s is not None and point.error + reference.disagreement <= accuracy
 
-    def tighter(point: PricePoint) -> list[PricePoint]:
+    def tighter(point: MeasuredPoint) -> list[MeasuredPoint]:
         same = [each for each in points if (each.rung, each.integrator) == (point.rung, point.integrator)]
         return [each for each in same if (each.tolerance or 0.0) < (point.tolerance or 0.0)]
 
@@ -251,7 +252,7 @@ def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method
     return Method(rung, name, tolerance, run, read)
 
 
-def _point(full: Scene, method: Method, reference: ReferenceRun, quantity: str, end: float) -> PricePoint:
+def _point(full: Scene, method: Method, reference: Reference, quantity: str, end: float) -> MeasuredPoint:
     """One method, run once cold and then warm as long as there is time."""
     started = time.perf_counter()
     try:
@@ -260,7 +261,10 @@ def _point(full: Scene, method: Method, reference: ReferenceRun, quantity: str, 
         raise
     except AbuError as failure:
         note = str(failure).splitlines()[0]
-        return PricePoint(method.rung, method.integrator, method.tolerance, None, 0, 0, None, None, note)
+        return MeasuredPoint(
+            rung=method.rung, integrator=method.integrator, tolerance=method.tolerance, error=None, evaluations=0,
+            steps=0, wall_s=None, cold_s=None, note=note,
+        )  # fmt: skip
     cold = time.perf_counter() - started
     warm = []
     for _ in range(REPEATS if cold < LONG else 1):
@@ -272,7 +276,7 @@ def _point(full: Scene, method: Method, reference: ReferenceRun, quantity: str, 
     measures, evaluations, steps = method.read(run)
     error = QUANTITIES[quantity](full, measures, reference.response)
     known = math.isfinite(error)
-    return PricePoint(
+    return MeasuredPoint(
         rung=method.rung,
         integrator=method.integrator,
         tolerance=method.tolerance,
@@ -325,7 +329,7 @@ def _unaffordable(full: Scene, takes: str, enough: float) -> NotTrustworthyError
     )
 
 
-def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> ReferenceRun:
+def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     """Two methods at tight tolerances; they must agree better than half the accuracy.
 
     A loose run first shows how long they will take; what is not done in twice the time is broken off.
@@ -336,7 +340,7 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
         raise _unaffordable(full, f"more than {LATEST * budget:g} s", 2 * LATEST * budget) from None
 
 
-def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> ReferenceRun:
+def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
     integrators = choice.verifiers(equations, max(accuracy, FINEST))
     (integrator, loose), (other, tight) = integrators
@@ -365,39 +369,13 @@ def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> Ref
             f"{full.name}: no reference: {integrator} and {other} differ by {apart:.2g} in the {quantity}\n"
             "  ask for less accuracy, or shorten the run: a chaotic motion has no reference"
         )
-    return ReferenceRun((integrator, other), (loose, tight), apart, second, time.perf_counter() - started)
+    return Reference(
+        integrators=(integrator, other), tolerances=(loose, tight), disagreement=apart, response=second,
+        wall_s=time.perf_counter() - started,
+    )  # fmt: skip
 
 
 BUDGET: Final = Range("budget", 0.1, 3600.0, "s", key="budget_s")
-
-
-@record
-class MeasuredPoint(Record):
-    """One way to compute; without a number of it, `note` says why."""
-
-    rung: Annotated[str, Quantity("rung", "", 4, "closed-form, envelope, equations, or everything: with all effects")]
-    integrator: Annotated[str | None, Quantity("by")]
-    tolerance: Annotated[float | None, Quantity("tolerance", "", 1)]
-    error: Annotated[float | None, Quantity("error", "", 2, "against the reference")]
-    evaluations: Annotated[int, Quantity("evaluations")]
-    steps: Annotated[int, Quantity("steps")]
-    wall_s: Annotated[float | None, Quantity("warm", "", 3, "median of repeats, everything loaded")] = field(
-        compare=False
-    )
-    cold_s: Annotated[float | None, Quantity("cold", "", 3, "the first run, with import and compilation")] = field(
-        compare=False
-    )
-    note: Annotated[str, Quantity("note")]
-
-
-@record
-class Reference(Record):
-    """Reference of the errors: two methods and their disagreement; no error is known better than that."""
-
-    integrators: Annotated[tuple[str, ...], Quantity("integrators")]
-    tolerances: Annotated[tuple[float, ...], Quantity("tolerances", "", 1)]
-    disagreement: Annotated[float, Quantity("disagreement", "", 2)]
-    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
 
 
 @record
@@ -441,9 +419,10 @@ def accuracy(
     subject = subject_of(source, scene, start, command="accuracy").lasting(duration_s)
     ledger = subject.ledger(accuracy)
     study = price_list(subject.scene, ledger, quantity, accuracy, budget_s, progress)
-    return AccuracyResult.read(
-        subject, study, checks=(_affordable(study),), model=SceneModel.of(ledger.scene), scene=subject.scene.name
-    )
+    return AccuracyResult(
+        **study._asdict(), title=subject.title, checks=(_affordable(study),), warnings=subject.warnings,
+        model=SceneModel.of(ledger.scene), provenance=subject.provenance, scene=subject.scene.name,
+    )  # fmt: skip
 
 
 def _affordable(study: PriceList) -> Check:

@@ -38,8 +38,8 @@ BAND: Final = (0.05, 0.5, 0.95)
 class CourseNumbers(Record):
     """Numbers of one start."""
 
-    settling_time_s: Annotated[float | None, Quantity("settling time from full speed", "t_s", 3)]
-    residual_um: Annotated[float, Quantity("residual displacement, 0–peak", "", 3)]
+    settling_time: Annotated[float | None, Quantity("settling time from full speed", "t_s", 3, unit="s")]
+    residual: Annotated[float, Quantity("residual displacement, 0–peak", "", 3, unit="um")]
     level_db: Annotated[float, Quantity("velocity level of the rotation", "L", 4)]
 
     @classmethod
@@ -52,7 +52,7 @@ class CourseNumbers(Record):
         late = len(above) > 0 and above[-1] >= len(centres) - 2
         velocity = scene.speed * end / math.sqrt(2)
         return cls(
-            settling_time_s=None if late else settled, residual_um=end * 1e6,
+            settling_time=math.inf if late else settled, residual=end,
             level_db=level_from_velocity(max(velocity, 1e-12)),
         )  # fmt: skip
 
@@ -63,7 +63,7 @@ class MeasuredCourse(Record):
 
     file: Annotated[str, Quantity("recording")]
     numbers: CourseNumbers
-    distance_um: Annotated[tuple[float, ...], Quantity("distance from the end", "", 4)]
+    distance: Annotated[tuple[float, ...], Quantity("distance from the end", "", 4, unit="um")]
 
 
 @record
@@ -75,7 +75,7 @@ class PredictedCourse(Record):
     median: CourseNumbers
     high: CourseNumbers
     starts: Annotated[int, Quantity("simulated starts")]
-    distance_um: Annotated[tuple[float, ...], Quantity("median distance from the end", "", 4)]
+    distance: Annotated[tuple[float, ...], Quantity("median distance from the end", "", 4, unit="um")]
 
 
 @record
@@ -86,7 +86,7 @@ class MeasuredCompareResult(Result):
 
     model: SceneModel
     mark: Annotated[bool, Quantity("a mark was recorded")]
-    times_s: Annotated[tuple[float, ...], Quantity("time from the switching-on")]
+    times: Annotated[tuple[float, ...], Quantity("time from the switching-on", unit="s")]
     measured: tuple[MeasuredCourse, ...]
     predicted: tuple[PredictedCourse, ...]
 
@@ -122,15 +122,16 @@ def compare_measured(
     starts = [recorded_start(signal, first, centres) for signal in signals]
     predicted = [_predicted(subject.title, scene, CourseReading(centres, marked), progress)
                  for subject, scene in zip(subjects, scenes, strict=True)]  # fmt: skip
-    return MeasuredCompareResult.read(
-        subjects[0],
+    return MeasuredCompareResult(
+        title=subjects[0].title,
+        provenance=subjects[0].provenance,
         warnings=tuple(dict.fromkeys(warning for subject in subjects for warning in subject.warnings)),
         model=SceneModel.of(first),
         mark=marked,
-        times_s=tuple(map(float, centres)),
+        times=tuple(centres.tolist()),
         measured=tuple(
             MeasuredCourse(file=start.file, numbers=CourseNumbers.of(start.track, centres, first, marked=marked),
-                           distance_um=_distances(start.track, marked=marked))
+                           distance=tuple(_away(start.track, marked=marked).tolist()))
             for start in starts
         ),
         predicted=tuple(predicted),
@@ -146,10 +147,6 @@ def _away(track: Track, *, marked: bool) -> Array:
     """Distances from the place of rest [m]; without a mark differences of the magnitudes."""
     end = _end(track, marked=marked)
     return np.abs(track - end) if marked else np.abs(np.abs(track) - abs(end))
-
-
-def _distances(track: Track, *, marked: bool) -> tuple[float, ...]:
-    return tuple(float(distance) * 1e6 for distance in _away(track, marked=marked))
 
 
 class CourseReading(NamedTuple):
@@ -169,21 +166,17 @@ def _predicted(title: str, scene: Scene, reading: CourseReading, progress: Progr
     if len(tracks) < STARTS // 2:
         raise NotTrustworthyError(f"{STARTS - len(tracks)} of {STARTS} starts cannot be simulated")
     numbers = [CourseNumbers.of(track, reading.centres, scene, marked=reading.marked) for track in tracks]
-    times = [math.inf if each.settling_time_s is None else each.settling_time_s for each in numbers]
+    times = np.array([each.settling_time for each in numbers], dtype=float)
     ends = [
         CourseNumbers(
-            settling_time_s=_finite(float(np.quantile(times, share, method="nearest"))),
-            residual_um=float(np.quantile([each.residual_um for each in numbers], share)),
+            settling_time=float(np.quantile(times, share, method="nearest")),
+            residual=float(np.quantile([each.residual for each in numbers], share)),
             level_db=float(np.quantile([each.level_db for each in numbers], share)),
         )
         for share in BAND
     ]
-    middle = np.median([_distances(track, marked=reading.marked) for track in tracks], axis=0)
+    middle = np.median([_away(track, marked=reading.marked) for track in tracks], axis=0)
     return PredictedCourse(
         title=title, low=ends[0], median=ends[1], high=ends[2], starts=len(tracks),
-        distance_um=tuple(map(float, middle)),
+        distance=tuple(middle.tolist()),
     )  # fmt: skip
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

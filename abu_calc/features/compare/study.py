@@ -189,7 +189,9 @@ def compare(
     rows = (*of_files(machines), *designs, *of_checks([result.checks for result in results]))
     return CompareResult(
         title=f"Comparison of {len(machines)} machines",
-        checks=tuple(_of(letter, check) for letter, _, result in named for check in result.checks),
+        checks=tuple(
+            replace(check, name=f"{check.name}, {letter}") for letter, _, result in named for check in result.checks
+        ),
         warnings=_warnings({letter: result.warnings for letter, _, result in named}),
         provenance=Provenance.today(),
         files=tuple(_file(*entry) for entry in named),
@@ -219,10 +221,6 @@ def _file(letter: str, machine: Machine, result: Result) -> ComparedFile:
         overrides=as_plain({override.key: override.value for override in machine.overrides}),
         status=result.status,
     )
-
-
-def _of(letter: str, check: Check) -> Check:
-    return replace(check, name=f"{check.name}, {letter}")
 
 
 def _warnings(of: Mapping[str, Sequence[str]]) -> tuple[str, ...]:

@@ -9,12 +9,15 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 
-from abu_calc.features.compare.labels import label_of
 from abu_calc.features.compare.main_numbers import main_blocks
 from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part, checks_named
+from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.verdict import WORDS, in_capitals
+from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.foundation.checks import RANK, Check, worst
 from abu_calc.foundation.checks import WORDS as VERDICTS
+from abu_calc.foundation.quantity import Record, hints, parts_of_type, quantities
+from abu_calc.foundation.units import quantity_and_unit
 from abu_calc.inputs.reading.text import is_number
 from abu_calc.inputs.reading.text import shown as exact
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
@@ -282,3 +285,38 @@ def _limit(result: CompareResult, code: str, unit: str) -> tuple[float, str] | N
     if len(limits) != 1 or limits[0] is None:
         return None
     return limits[0], f"limit {number(limits[0])} {unit}"
+
+
+def label_of(path: str, unit: str = "") -> str:
+    """Label of a design's result: the parts that hold it, its own label, its unit; items of lists count from 1.
+
+    >>> label_of("autobalancer.ball_diameter_mm", "mm")
+    'autobalancer: ball diameter, mm'
+    >>> label_of("frequency.natural_frequencies_hz.0", "Hz")
+    'frequency: natural frequencies x, y 1, Hz'
+    """
+    names = path.split(".")
+    record: type[Record] | None = SizeResult
+    if names[0] == "fits" and len(names) > 1 and not names[1].isdigit():  # bearing seats alone
+        record, names = CheckFitResult, names[1:]
+    words = list[str]()
+    for name in names:
+        if name.isdigit():
+            words[-1:] = [f"{' '.join(words[-1:])} {int(name) + 1}".strip()]
+            continue
+        known = None if record is None else quantities(record).get(name)
+        words.append(_plain(name) if known is None else known.label)
+        record = None if record is None else _record_in(hints(record).get(name))
+    label = ", ".join(words[:-1]) + (": " if words[:-1] else "") + words[-1]
+    return f"{label}, {unit}" if unit else label
+
+
+def _plain(name: str) -> str:
+    """Words of a key, without its unit."""
+    words = quantity_and_unit(name)[0].replace("_", " ").replace("felt mass", "effective mass")
+    return words.replace("accuracy budget", "residual-displacement budget")
+
+
+def _record_in(hint: Any) -> type[Record] | None:
+    """The record that a type holds, if any."""
+    return next((part for part in parts_of_type(hint) if isinstance(part, type) and issubclass(part, Record)), None)

@@ -7,7 +7,8 @@ from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.foundation.checks import Status
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.arguments import checked
-from abu_calc.simulation.records import EffectEntry, SceneModel
+from abu_calc.simulation.effect_selection import EffectEntry
+from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.subject import Source, subject_of
@@ -81,11 +82,13 @@ def effects(
     ACCURACY.check(accuracy)
     subject = subject_of(source, scene, command="effects")
     ledger = subject.ledger(accuracy, with_effects, without_effects)
-    return EffectsResult.read(
-        subject,
+    return EffectsResult(
+        title=subject.title,
+        warnings=subject.warnings,
+        provenance=subject.provenance,
         model=SceneModel.of(ledger.scene),
         scene=ledger.scene.name,
         accuracy=accuracy,
-        effects=tuple(map(EffectEntry.read, ledger.entries)),
+        effects=ledger.entries,
         promise=ledger.promise,
     )

@@ -7,7 +7,7 @@ from abu_calc.features.effects.study import EffectsResult, KnownEffectsResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.parts import notices, of_scene, provenance_blocks
 from abu_calc.reporting.screen import many, shortened
-from abu_calc.simulation.records import EffectEntry
+from abu_calc.simulation.effect_selection import EffectEntry
 
 INFLUENCE: Final = (
     "The estimated influence says how much the result would change without the effect, in the measure of --accuracy. "

@@ -2,18 +2,18 @@
 
 import cmath
 from dataclasses import replace
-from typing import Final
+from typing import Annotated, ClassVar, Final
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.grinding.formulas import flutter_drag, loaded_stiffness
 from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.simulation import WorkSimulation, only_contact, working
-from abu_calc.features.grinding.steady_contact import RestingBalls, SteadyWork, contact_presses, leaving
+from abu_calc.features.grinding.steady_contact import SteadyWork, contact_presses, leaving
 from abu_calc.features.grinding.work import Work
 from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.durations import free_rates
 from abu_calc.simulation.scene_of_design import scene_of_design
@@ -33,19 +33,21 @@ STAYS: Final = 3.0
 """Seconds at least for balls to stay where they were put: near a resonance axis and balls decay slower than either."""
 
 
-@dataclass(frozen=True)
-class Agreement:
-    """Relative differences of the simulated contact from the closed form: axis, force, resulting imbalance.
+@record
+class Comparison(Record):
+    """Difference between the simulation of the contact alone and the closed form, relative.
 
-    `apart`: the largest; `failure`: why there is none. `from_idle`: whether balls get there from where they stand at
-    idle; if not, they were started where the closed form has them.
+    Balls that do not get there from where they stand at idle were started where the closed form has them.
     """
 
-    axis: float | None = None
-    reaction: float | None = None
-    imbalance: float | None = None
+    left_out: ClassVar[frozenset[str]] = frozenset({"failure"})
+
+    axis: Annotated[float | None, Quantity("axis", "", 3)] = None
+    reaction: Annotated[float | None, Quantity("variable force", "", 3)] = None
+    imbalance: Annotated[float | None, Quantity("imbalance", "", 3)] = None
     failure: str | None = None
-    from_idle: bool = True
+    """Why there is none."""
+    from_idle: Annotated[bool, Quantity("balls get there from where they stand at idle")] = True
 
     @property
     def apart(self) -> float | None:
@@ -54,7 +56,7 @@ class Agreement:
 
 
 def work_checks(
-    work: Work, remedy: str | None, compared: Agreement | None, loads: GrindingOutcomes | None = None
+    work: Work, remedy: str | None, compared: Comparison | None, loads: GrindingOutcomes | None = None
 ) -> tuple[Check, ...]:
     """Level, capacity, stability, contact kept, power, and how far the closed form can be trusted.
 
@@ -222,7 +224,7 @@ def _kept(work: Work, remedy: str | None, loads: GrindingOutcomes | None) -> tup
                   remedy if warned else None),)  # fmt: skip
 
 
-def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
+def _agrees(compared: Comparison | None) -> tuple[Check, ...]:
     if compared is None:
         return ()
     if compared.apart is None:
@@ -241,7 +243,7 @@ def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
                   100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip
 
 
-def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
+def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Comparison | None:
     """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
 
     Balls that do not get to their places from there, or not within what is simulated, are started at them: they must
@@ -264,7 +266,8 @@ def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agree
         comparison = _compared(work, _lasting(scene, min(slowest, sway)), accuracy, progress)
         if comparison.apart is not None and comparison.apart <= AGREES:
             return comparison
-    there = _compared(work, _lasting(_placed(scene, steady.balls), min(sway, LONG / STAYS)), accuracy, progress)
+    placed = tuple(replace(race, start_angles=steady.balls.angles) for race in scene.races)
+    there = _compared(work, _lasting(replace(scene, races=placed), min(sway, LONG / STAYS)), accuracy, progress)
     return replace(there, from_idle=False)
 
 
@@ -274,16 +277,11 @@ def _lasting(scene: Scene, rate: float) -> Scene:
     return replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
 
 
-def _placed(scene: Scene, balls: RestingBalls) -> Scene:
-    """Started where the closed form has its balls."""
-    return replace(scene, races=tuple(replace(race, start_angles=balls.angles) for race in scene.races))
-
-
-def _compared(work: Work, scene: Scene, accuracy: float, progress: Progress) -> Agreement:
+def _compared(work: Work, scene: Scene, accuracy: float, progress: Progress) -> Comparison:
     try:
         run = working(scene, accuracy, progress)
     except NotTrustworthyError as error:
-        return Agreement(failure=str(error).splitlines()[0])
+        return Comparison(failure=str(error).splitlines()[0])
     return compared(work.fitted.steady, run, work.design.autobalancer.static_moment)
 
 
@@ -293,7 +291,7 @@ def loaded_rate(design: Design, stiffness: tuple[complex, complex]) -> float:
     return min((drag - abs(cmath.sqrt(drag**2 - 4 * inertia * k).real)) / (2 * inertia) for k in stiffness)
 
 
-def compared(steady: SteadyWork, run: WorkSimulation, moment: float) -> Agreement:
+def compared(steady: SteadyWork, run: WorkSimulation, moment: float) -> Comparison:
     """Differences relative to the larger of what is compared and what the imbalance that the balls carry would cause.
 
     `moment` Σ m·R_p [kg m].
@@ -305,4 +303,4 @@ def compared(steady: SteadyWork, run: WorkSimulation, moment: float) -> Agreemen
     usual = max(*map(abs, axis), force / min(map(abs, steady.contact.dynamic_stiffness)))
     reaction = steady.reaction or 0j
     pressed = abs(run.reaction - reaction) / max(abs(reaction), force) if len(run.force) else None
-    return Agreement(off / usual, pressed, abs(run.imbalance - total) / carried)
+    return Comparison(axis=off / usual, reaction=pressed, imbalance=abs(run.imbalance - total) / carried)

@@ -8,8 +8,9 @@ Kladiev 1996.
 
 import cmath
 import math
+from contextlib import suppress
 from dataclasses import replace
-from typing import Final, Literal
+from typing import Annotated, Final, Literal, NamedTuple
 
 import numpy as np
 
@@ -20,13 +21,14 @@ from abu_calc.dynamics.integrators.choice import quickest_loop
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Sampling
 from abu_calc.features.grinding.formulas import largest_factor, shaken_drag, shaking_threshold
+from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.simulation import only_contact
 from abu_calc.features.grinding.steady_contact import SteadyWork, bare, contact_of, contact_presses, fitted, runout_of
 from abu_calc.features.grinding.work import Work
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
-from abu_calc.foundation.units import to_si
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import to_si, wrapped_deg
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
@@ -44,8 +46,7 @@ TURNS: Final = 5
 """Turns at the end over which the residual is averaged."""
 
 
-@dataclass(frozen=True)
-class Shaken:
+class Shaken(NamedTuple):
     """Residual [m] of the balls' balance, unshaken and shaken by an amplitude [m], after `seconds`.
 
     `way`: across the race by an axial runout, which is `given` or only tried, or along it by runout in the
@@ -125,55 +126,71 @@ AROUND = 0.7, 1.1
 """Speed range as shares of the rated speed, for a file that gives no range."""
 
 
-@dataclass(frozen=True)
-class AtAngle:
-    """Phasors X, Y [m] without and with the autobalancer, the runout at an angle [rad] from the imbalance."""
+@record
+class HodographPoint(Record):
+    """Axis with the runout at another angle from the imbalance."""
 
-    angle: float
-    without: tuple[complex, complex]
-    fitted: tuple[complex, complex] | None
-
-
-@dataclass(frozen=True)
-class SpeedResponse:
-    """Amplitude [m] and variable force [N] without and with the autobalancer at a speed [rad/s], by steady contact.
-
-    None where balls come to no rest, or at a resonance that nothing damps.
-    """
-
-    speed: float
-    without: SteadyWork | None
-    fitted: SteadyWork | None
+    runout_angle: Annotated[float, Quantity("runout from the imbalance", "φ_ε", unit="deg")]
+    without: AxisMotion
+    fitted: AxisMotion
 
 
-@dataclass(frozen=True)
-class Friction:
-    """Dry friction of the balls: typical and worst displacement that it holds at idle, and what shakes it out [m].
+@record
+class ResponsePoint(Record):
+    """Axis and variable force at a speed."""
 
-    `axial`, `whirl`: amplitudes that shake across and along the race; `creep`: time constant [s] of balls that the
-    whirl shakes, None where it does not.
-    """
-
-    typical: float
-    worst: float
-    threshold: float
-    axial: float
-    whirl: float | None
-    creep: float | None
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    without: AxisMotion
+    fitted: AxisMotion
+    force_without: Annotated[float | None, Quantity("variable force without autobalancer", unit="N")]
+    force_with: Annotated[float | None, Quantity("variable force with it", unit="N")]
+    balls: Annotated[str | None, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
 
 
-def hodograph(design: Design, count: int = 24) -> tuple[AtAngle, ...]:
+@record
+class Reaction(Record):
+    """Force of wheel and work, N₀ + amplitude·cos(Ωt + angle), as if they never parted."""
+
+    mean: Annotated[float, Quantity("mean force", "N₀", unit="N")]
+    amplitude: Annotated[float | None, Quantity("variable part", "|N_c|", unit="N")]
+    angle_deg: Annotated[float | None, Quantity("its angle", "arg N_c")]
+    hardest_at_deg: Annotated[float | None, Quantity("point of the wheel pressed hardest, from the imbalance")]
+    separates: Annotated[bool, Quantity("wheel and work part")]
+    largest_runout: Annotated[float | None, Quantity("largest runout without parting", "ε", unit="mm")]
+
+
+@record
+class FrictionBand(Record):
+    """Dry friction of the balls, and whether work shakes it out."""
+
+    typical: Annotated[float, Quantity("friction holds the axis off by, typically", unit="um")]
+    worst: Annotated[float | None, Quantity("at the worst", unit="um")]
+    threshold: Annotated[float, Quantity("shaken out by more than", "k_r·R_p/r", unit="um")]
+    axial: Annotated[float, Quantity("shaking across the race, by axial runout", "a_s", unit="um")]
+    axial_shakes: Annotated[bool, Quantity("axial runout shakes it out")]
+    whirl: Annotated[float | None, Quantity("shaking along the race, by runout in the plane", "|X − iY|/2", unit="um")]
+    whirl_shakes: Annotated[bool, Quantity("runout in the plane shakes it out")]
+    creep: Annotated[float | None, Quantity("balls then creep to their places within", unit="s")]
+    simulated_way: Annotated[str | None, Quantity("shaken in the simulation", "", 4, "across the race or along it")]
+    simulated: Annotated[float | None, Quantity("by an amplitude of", unit="um")]
+    simulated_given: Annotated[bool | None, Quantity("that of the file")]
+    simulated_s: Annotated[float | None, Quantity("for")]
+    unshaken: Annotated[float | None, Quantity("simulated: left without it", "", 3, unit="um")]
+    shaken: Annotated[float | None, Quantity("simulated: left with it", "", 3, unit="um")]
+
+
+def hodograph(design: Design, count: int = 24) -> tuple[HodographPoint, ...]:
     """Steady contact at `count` angles of the runout round a full turn."""
     return tuple(_at_angle(design, cmath.rect(design.case.runout, angle), angle)
                  for angle in (2 * math.pi * step / count for step in range(count)))  # fmt: skip
 
 
-def _at_angle(design: Design, runout: complex, angle: float) -> AtAngle:
-    without = bare(design, runout).axis
-    return AtAngle(angle, without or (0j, 0j), fitted(design, runout, judged=False).axis)
+def _at_angle(design: Design, runout: complex, angle: float) -> HodographPoint:
+    without, free = bare(design, runout).axis, fitted(design, runout, judged=False).axis
+    return HodographPoint(runout_angle=angle, without=AxisMotion.of(without or (0j, 0j)), fitted=AxisMotion.of(free))
 
 
-def response(design: Design) -> tuple[SpeedResponse, ...]:
+def response(design: Design) -> tuple[ResponsePoint, ...]:
     """Steady contact over the speed range, or about the rated speed if the file gives no range."""
     case, runout = design.case, runout_of(design.case)
     low, high = case.speed_range
@@ -184,11 +201,20 @@ def response(design: Design) -> tuple[SpeedResponse, ...]:
     return tuple(_at_speed(design, runout, speed) for speed in sorted([*others, case.speed]))
 
 
-def _at_speed(design: Design, runout: complex, speed: float) -> SpeedResponse:
-    try:
-        return SpeedResponse(speed, bare(design, runout, speed=speed), fitted(design, runout, speed=speed))
-    except (InputError, ZeroDivisionError):
-        return SpeedResponse(speed, None, None)
+def _at_speed(design: Design, runout: complex, speed: float) -> ResponsePoint:
+    """None where balls come to no rest, or at a resonance that nothing damps."""
+    without = free = None
+    with suppress(InputError, ZeroDivisionError):
+        without, free = bare(design, runout, speed=speed), fitted(design, runout, speed=speed)
+    force = [None if each is None or each.reaction is None else abs(each.reaction) for each in (without, free)]
+    return ResponsePoint(
+        speed=speed,
+        without=AxisMotion.of(without.axis if without else None),
+        fitted=AxisMotion.of(free.axis if free else None),
+        force_without=force[0],
+        force_with=force[1],
+        balls=free.balls.places if free and free.balls else None,
+    )
 
 
 def loaded_resonance(design: Design) -> float | None:
@@ -219,8 +245,21 @@ def largest_runout(case: Case, steady: SteadyWork) -> float | None:
     return largest_factor(contact.normal_force(0j, direction), contact.normal_force(steady.imbalance, 0j), press)
 
 
-def friction(work: Work) -> Friction:
-    """Imbalance that dry friction holds, and the motions that release it on the workpiece."""
+def reaction(case: Case, steady: SteadyWork) -> Reaction:
+    """Force of wheel and workpiece in a steady motion."""
+    force, press = steady.reaction, case.contact.press_force if case.contact else 0.0
+    return Reaction(
+        mean=press,
+        amplitude=None if force is None else abs(force),
+        angle_deg=wrapped_deg(cmath.phase(force)) if force else None,
+        hardest_at_deg=wrapped_deg(cmath.phase(-1j * force)) if force else None,
+        separates=bool(force) and case.contact is not None and abs(force or 0j) > press,
+        largest_runout=largest_runout(case, steady),
+    )
+
+
+def friction(work: Work, run: Shaken | None) -> FrictionBand:
+    """Imbalance that dry friction holds, and the motions that release it on the workpiece; `run` as simulated."""
     design = work.design
     case, autobalancer, steady = design.case, design.autobalancer, work.fitted.steady
     threshold = shaking_threshold(case.friction_arm, autobalancer.pitch_radius, autobalancer.ball_diameter / 2)
@@ -234,4 +273,20 @@ def friction(work: Work) -> Friction:
         stiffness = [k.real for k in steady.balls.stiffness if k.real > 0]
         creep = drag / min(stiffness) if stiffness else None
     worst = max((budget.rolling_friction for budget in design.worst if budget.speed == case.speed), default=math.nan)
-    return Friction(autobalancer.budget.rolling_friction, worst, threshold, axial, whirl, creep)
+    way, amplitude, given, seconds, unshaken, left = run or (None,) * 6
+    return FrictionBand(
+        typical=autobalancer.budget.rolling_friction,
+        worst=worst,
+        threshold=threshold,
+        axial=axial,
+        axial_shakes=axial > threshold > 0,
+        whirl=whirl,
+        whirl_shakes=creep is not None,
+        creep=creep,
+        simulated_way=way,
+        simulated=amplitude,
+        simulated_given=given,
+        simulated_s=seconds,
+        unshaken=unshaken,
+        shaken=left,
+    )

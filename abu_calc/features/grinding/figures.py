@@ -8,7 +8,6 @@ from itertools import groupby
 from typing import Final
 
 from abu_calc.features.explain.steps import STEPS, step_blocks
-from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
 from abu_calc.registry import imported
@@ -79,10 +78,10 @@ def _reach(points: Iterable[tuple[float, float]]) -> str:
 def _hodograph(result: GrindingResult) -> Iterator[Figure]:
     rows = result.hodograph
     courses: list[tuple[str, int, Course]] = [
-        ("along, without", WITHOUT, [(row.runout_angle_deg, _um(row.without.x_amplitude_mm)) for row in rows]),
-        ("away, without", MEAN, [(row.runout_angle_deg, _um(row.without.y_amplitude_mm)) for row in rows]),
-        ("along, with", WITH, [(row.runout_angle_deg, _um(row.fitted.x_amplitude_mm)) for row in rows]),
-        ("away, with", FIXED, [(row.runout_angle_deg, _um(row.fitted.y_amplitude_mm)) for row in rows]),
+        ("along, without", WITHOUT, [(row.runout_angle_deg, _um(row.without.x_amplitude)) for row in rows]),
+        ("away, without", MEAN, [(row.runout_angle_deg, _um(row.without.y_amplitude)) for row in rows]),
+        ("along, with", WITH, [(row.runout_angle_deg, _um(row.fitted.x_amplitude)) for row in rows]),
+        ("away, with", FIXED, [(row.runout_angle_deg, _um(row.fitted.y_amplitude)) for row in rows]),
     ]
     caption = (
         "Amplitude of the axis along the work and away from it against the angle from imbalance to runout: how much "
@@ -95,8 +94,8 @@ def _hodograph(result: GrindingResult) -> Iterator[Figure]:
 def _response(result: GrindingResult) -> Iterator[Figure]:
     rows = result.response
     courses: list[tuple[str, int, Course]] = [
-        ("without", WITHOUT, [(row.speed_rpm, _largest(row.without)) for row in rows]),
-        ("with", WITH, [(row.speed_rpm, _largest(row.fitted)) for row in rows]),
+        ("without", WITHOUT, [(row.speed_rpm, _um(row.without.largest)) for row in rows]),
+        ("with", WITH, [(row.speed_rpm, _um(row.fitted.largest)) for row in rows]),
     ]
     resonance = "" if result.resonance_rpm is None else (
         f" Without autobalancer the machine resonates on its work at {number(result.resonance_rpm)} rpm.")  # fmt: skip
@@ -209,13 +208,8 @@ def _extremes(line: Curve) -> str:
     return ", ".join(f"{word} {number(y, 3)} at {number(x)}" for word, (x, y) in (("least", least), ("most", most)))
 
 
-def _um(length_mm: float | None) -> float | None:
-    return None if length_mm is None else 1e3 * length_mm
-
-
-def _largest(axis: AxisMotion) -> float | None:
-    both = [each for each in (axis.x_amplitude_mm, axis.y_amplitude_mm) if each is not None]
-    return _um(max(both)) if both else None
+def _um(length: float | None) -> float | None:
+    return None if length is None else 1e6 * length
 
 
 def _numbers(result: GrindingResult) -> tuple[str, ...]:

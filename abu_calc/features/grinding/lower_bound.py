@@ -3,7 +3,6 @@
 from typing import Annotated, Final
 
 from abu_calc.features.grinding.steady_contact import contact_presses
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.sizing.case import Case
@@ -21,17 +20,17 @@ ALWAYS: Final = ("wheel waviness", "forces of chip formation")
 """No scene of grinding has these."""
 
 
-@dataclass(frozen=True)
-class LowerBound:
-    """Excitation that sets a level under load in the model, and what the model lacks; `total` a_hv [m/s²] of the level.
+@record
+class LevelBound(Record):
+    """Mark of a level under load that is a lower bound: what sets it in the model, and what the model lacks.
 
-    `total` None: the speed is beyond the range of W_h.
+    No total: the speed is beyond the range of W_h.
     """
 
-    lower_bound: bool
-    total: float | None
-    set_by: tuple[str, ...]
-    lacks: tuple[str, ...]
+    lower_bound: Annotated[bool, Quantity("the level is a lower bound")]
+    total: Annotated[float | None, Quantity("weighted vibration total of the level", "a_hv", 3, unit="m_per_s2")]
+    set_by: Annotated[tuple[str, ...], Quantity("set by")]
+    lacks: Annotated[tuple[str, ...], Quantity("the model lacks")]
 
     @property
     def sentence(self) -> str:
@@ -45,7 +44,11 @@ class LowerBound:
         )
 
 
-def lower_bound(level: float | None, case: Case) -> LowerBound | None:
+LowerBound = LevelBound
+"""Another name, which the design reads."""
+
+
+def lower_bound(level: float | None, case: Case) -> LevelBound | None:
     """Lower bound that a level under load [dB] at the loudest handle may be; None if the level is not known.
 
     It is one if its weighted total is below `LEAST`; or if a contact presses in the plane of the wheel and the file
@@ -57,7 +60,7 @@ def lower_bound(level: float | None, case: Case) -> LowerBound | None:
     total = readings(velocity_from_level(level), case.speed).total
     presses = contact_presses(case)
     true = presses and not case.runout
-    return LowerBound(
+    return LevelBound(
         lower_bound=true or (total is not None and total < LEAST),
         total=total,
         set_by=_set_by(case, presses),
@@ -88,13 +91,3 @@ def _listed(names: tuple[str, ...]) -> str:
     ('a, b and c', 'a')
     """
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
-
-
-@record
-class LevelBound(Record):
-    """Mark of a level under load that is a lower bound: what sets it in the model, and what the model lacks."""
-
-    lower_bound: Annotated[bool, Quantity("the level is a lower bound")]
-    total_m_per_s2: Annotated[float | None, Quantity("weighted vibration total of the level", "a_hv", 3)]
-    set_by: Annotated[tuple[str, ...], Quantity("set by")]
-    lacks: Annotated[tuple[str, ...], Quantity("the model lacks")]

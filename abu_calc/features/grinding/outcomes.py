@@ -31,29 +31,30 @@ HARDLY: Final = 0.02
 """Share of the wheel's imbalance by which friction that is shaken out lets balls rest beside their places."""
 
 
-@dataclass(frozen=True)
-class LoadedGroup:
-    """Start cases of one way of pressing that end with the same motion; `count` of `total` of that way of pressing.
+@record
+class LoadedOutcomeGroup(Record):
+    """Start cases of one way of pressing that end with the same motion under load.
 
-    Levels [dB]: the median, the lowest and the highest of the group; `apart`: the largest share of the time in which
-    wheel and workpiece do not touch; `steady`: whether no level still changes by more than 0.5 dB.
+    `share`: of the start cases of that way of pressing, those without an answer included. Levels: the median, the
+    lowest and the highest of the group.
     """
 
-    pressed: Pressed
-    state: State
-    count: int
-    total: int
-    level: float
-    lowest: float
-    highest: float
-    apart: float
-    steady: bool
-    loudest_start: str
-
-    @property
-    def share(self) -> float:
-        """Share among the start cases of that way of pressing, those without an answer included."""
-        return self.count / self.total
+    pressed: Annotated[
+        str, Quantity("pressed", "", 4, "settled: after the balls settled at idle, as one works; or at once")
+    ]
+    state: Annotated[
+        str,
+        Quantity("motion", "", 4, "balanced, held by friction, not balanced, swinging, stalled or bouncing"),
+    ]
+    count: Annotated[int, Quantity("start cases")]
+    total: Annotated[int, Quantity("start cases of that way of pressing")]
+    share: Annotated[float, Quantity("share", "", 3, "", percent=True)]
+    level: Annotated[float, Quantity("level, median", "L", unit="db")]
+    lowest: Annotated[float, Quantity("lowest level", "L", unit="db")]
+    highest: Annotated[float, Quantity("highest level", "L", unit="db")]
+    apart: Annotated[float, Quantity("share of the time without contact, at most", "", 3, "", percent=True)]
+    steady: Annotated[bool, Quantity("levels no longer change")]
+    loudest_start: Annotated[str, Quantity("loudest start case")]
 
 
 def state_of(work: Work, outcome: LoadedOutcome) -> State:
@@ -95,13 +96,13 @@ def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
     return on_axis - centre / steady.contact.whirl_per_imbalance
 
 
-def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
+def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedOutcomeGroup, ...]:
     """Motions that start cases end with, for each way of pressing, the loudest first.
 
     Levels of one state that leave a gap of more than 1 dB are two motions, and of more by as much as they still change.
     Balls held by friction may rest anywhere within a band, so that they are one.
     """
-    groups: list[LoadedGroup] = []
+    groups: list[LoadedOutcomeGroup] = []
     for when in ("settled", "at once"):
         outcomes = ensemble.pressed(when)
         count = len(outcomes) + len(ensemble.without_answer(when))
@@ -124,12 +125,13 @@ def _parts(state: State, outcomes: Sequence[LoadedOutcome]) -> list[list[LoadedO
     return parts
 
 
-def _group(when: Pressed, state: State, outcomes: Sequence[LoadedOutcome], count: int) -> LoadedGroup:
-    return LoadedGroup(
+def _group(when: Pressed, state: State, outcomes: Sequence[LoadedOutcome], count: int) -> LoadedOutcomeGroup:
+    return LoadedOutcomeGroup(
         pressed=when,
         state=state,
         count=len(outcomes),
         total=count,
+        share=len(outcomes) / count,
         level=statistics.median(outcome.level for outcome in outcomes),
         lowest=outcomes[0].level,
         highest=outcomes[-1].level,
@@ -148,7 +150,7 @@ class GrindingOutcomes:
     """
 
     ensemble: LoadedEnsemble
-    groups: tuple[LoadedGroup, ...]
+    groups: tuple[LoadedOutcomeGroup, ...]
     before: float | None
     scatter: float = 0.0
     bouncing: float = 0.0
@@ -159,7 +161,7 @@ class GrindingOutcomes:
         return max((outcome.level for outcome in self.ensemble.outcomes), default=None)
 
     @property
-    def loudest(self) -> LoadedGroup | None:
+    def loudest(self) -> LoadedOutcomeGroup | None:
         """The group with the highest level."""
         return max(self.groups, key=lambda group: group.highest, default=None)
 
@@ -234,38 +236,12 @@ def loudest_start(work: Work, accuracy: float) -> float | None:
 
 
 @record
-class LoadedOutcomeGroup(Record):
-    """Start cases of one way of pressing that end with the same motion under load.
-
-    `share`: of the start cases of that way of pressing, those without an answer included. Levels: the median, the
-    lowest and the highest of the group.
-    """
-
-    pressed: Annotated[
-        str, Quantity("pressed", "", 4, "settled: after the balls settled at idle, as one works; or at once")
-    ]
-    state: Annotated[
-        str,
-        Quantity("motion", "", 4, "balanced, held by friction, not balanced, swinging, stalled or bouncing"),
-    ]
-    count: Annotated[int, Quantity("start cases")]
-    total: Annotated[int, Quantity("start cases of that way of pressing")]
-    share: Annotated[float, Quantity("share", "", 3, "", percent=True)]
-    level_db: Annotated[float, Quantity("level, median", "L")]
-    lowest_db: Annotated[float, Quantity("lowest level", "L")]
-    highest_db: Annotated[float, Quantity("highest level", "L")]
-    apart: Annotated[float, Quantity("share of the time without contact, at most", "", 3, "", percent=True)]
-    steady: Annotated[bool, Quantity("levels no longer change")]
-    loudest_start: Annotated[str, Quantity("loudest start case")]
-
-
-@record
 class LoadedStarts(Record):
     """The start cases of grinding: how many there are, how many gave no answer, the highest level, and the outcomes."""
 
     count: Annotated[int, Quantity("start cases")]
     without_answer: Annotated[int, Quantity("without an answer")]
-    worst_db: Annotated[float | None, Quantity("highest level", "L")]
+    worst: Annotated[float | None, Quantity("highest level", "L", unit="db")]
     outcomes: tuple[LoadedOutcomeGroup, ...]
 
     @classmethod
@@ -273,5 +249,4 @@ class LoadedStarts(Record):
         """None for a machine whose contact does not press in the plane of the wheel."""
         if loads is None:
             return None
-        outcomes = tuple(map(LoadedOutcomeGroup.read, loads.groups))
-        return cls.read(loads, count=loads.ensemble.count, without_answer=len(loads.lost), outcomes=outcomes)
+        return cls(count=loads.ensemble.count, without_answer=len(loads.lost), worst=loads.worst, outcomes=loads.groups)

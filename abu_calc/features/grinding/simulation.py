@@ -51,14 +51,12 @@ class WorkSimulation:
     imbalance: complex
     force: Array
     profile: tuple[tuple[float, float], ...]
-    velocity: float
     duration: float
-    ball_angles: tuple[float, ...]
     path: Array
-    settled: bool
     parts: bool
-    error: float
-    warnings: tuple[str, ...]
+    velocity: float = 0.0
+    ball_angles: tuple[float, ...] = ()
+    warnings: tuple[str, ...] = ()
     scatter: float = 0.0
 
     @property
@@ -85,28 +83,16 @@ def working(scene: Scene, accuracy: float, progress: Progress = silent, work: in
     return seen(simulate_chosen(chosen(scene, accuracy), accuracy, (), work, progress=progress)[1])
 
 
-@dataclass(frozen=True)
-class RunSummary:
-    """Results of a run besides its states: rms velocity [m/s], ball angles at the end [rad], quality."""
-
-    velocity: float
-    ball_angles: tuple[float, ...]
-    settled: bool
-    error: float
-    warnings: tuple[str, ...]
-
-
 def seen(run: Simulation) -> WorkSimulation:
     """Results of the last turns of a simulated grinding scene."""
     window, response = amplitude_window(run.scene), run.response
     times = window.times[-1 - min(window.whole, TURNS * SAMPLES_PER_REVOLUTION) :]
-    settled = response.settling_time is not None
-    summary = RunSummary(response.velocity_rms, response.ball_angles, settled, run.error_estimate, run.warnings)
-    return read(run.scene, times, run.trajectory.at(times), summary)
+    motion = read(run.scene, times, run.trajectory.at(times))
+    return replace(motion, velocity=response.velocity_rms, ball_angles=response.ball_angles, warnings=run.warnings)
 
 
-def read(scene: Scene, times: Array, states: Array, summary: RunSummary) -> WorkSimulation:
-    """Results from the states at equal steps over whole turns, both ends given."""
+def read(scene: Scene, times: Array, states: Array) -> WorkSimulation:
+    """The motion by its states at equal steps over whole turns, both ends given."""
     place, count = scene.axis_place(states), 2 * len(scene.support.names)
     whole = place[:, :-1]
     away = np.abs(whole - whole.mean(axis=1, keepdims=True)).max(axis=1)
@@ -120,14 +106,9 @@ def read(scene: Scene, times: Array, states: Array, summary: RunSummary) -> Work
         imbalance=complex(scene.total_imbalance(balls)[:-1].mean()),
         force=force[:-1],
         profile=_profile(scene, times, force) if len(force) else (),
-        velocity=summary.velocity,
         duration=scene.duration,
-        ball_angles=summary.ball_angles,
         path=place[:, -1 - SAMPLES_PER_REVOLUTION :] - whole.mean(axis=1, keepdims=True),
-        settled=summary.settled,
         parts=bool(len(force)) and float(force.min()) <= 0,
-        error=summary.error,
-        warnings=summary.warnings,
     )
 
 
@@ -214,7 +195,7 @@ def bouncing(scene: Scene, accuracy: float, progress: Progress = silent) -> Work
     )
     force = np.concatenate([run.force for run in runs])
     return replace(runs[0], velocity=velocity, force=force, parts=bool(force.min() <= 0), scatter=scatter,
-                   settled=False, warnings=(warning,))  # fmt: skip
+                   warnings=(warning,))  # fmt: skip
 
 
 def _copies(scene: Scene) -> Iterator[Scene]:
@@ -239,7 +220,7 @@ def _run(scene: Scene, tolerance: float) -> WorkSimulation:
     count, balls = 2 * len(scene.support.names), len(scene.ball_masses)
     velocity = float(np.sqrt((scene.axis_velocity(states[:, :-1]) ** 2).mean(axis=1)).max())
     angles = tuple(states[count : count + balls, -1].tolist())
-    return read(scene, times, states, RunSummary(velocity, angles, settled=False, error=math.nan, warnings=()))
+    return replace(read(scene, times, states), velocity=velocity, ball_angles=angles)
 
 
 def _times(scene: Scene) -> Array:

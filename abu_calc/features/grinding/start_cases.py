@@ -13,7 +13,7 @@ import numpy as np
 
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Array
-from abu_calc.features.grinding.simulation import RunSummary, read
+from abu_calc.features.grinding.simulation import read
 from abu_calc.features.grinding.steady_contact import contact_presses
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -208,7 +208,7 @@ def _observed(design: Design, start: LoadedStart, scene: Scene) -> LoadedOutcome
     first, last = (_level(design, _rms(part)) for part in (squares[:, :half], squares[:, -half:]))
     count, balls = 2 * len(scene.support.names), len(scene.ball_masses)
     angles = states[count : count + balls]
-    motion = read(scene, times, states, RunSummary(0.0, (), settled=False, error=math.nan, warnings=()))
+    motion = read(scene, times, states)
     velocity = _rms(squares)
     return LoadedOutcome(
         start=start,

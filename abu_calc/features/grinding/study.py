@@ -9,26 +9,23 @@ from collections.abc import Iterator
 from dataclasses import field
 from typing import Annotated, ClassVar, Self
 
-from abu_calc.features.grinding import curves as facts
-from abu_calc.features.grinding import work as analysis
-from abu_calc.features.grinding.checks import agreement, flutter_limits, work_checks
-from abu_calc.features.grinding.curves import shaken
-from abu_calc.features.grinding.formulas import published_resultant, stiffness_regions
-from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, loudest_start, with_starts
-from abu_calc.features.grinding.records import (
-    AxisMotion,
-    Comparison,
+from abu_calc.features.grinding.checks import Comparison, agreement, flutter_limits, work_checks
+from abu_calc.features.grinding.curves import (
     FrictionBand,
     HodographPoint,
-    Orbit,
-    Printed,
-    ProfilePoint,
     Reaction,
     ResponsePoint,
-    Simulated,
-    TriedRemedy,
+    friction,
+    hodograph,
+    loaded_resonance,
+    reaction,
+    response,
+    shaken,
 )
+from abu_calc.features.grinding.formulas import published_resultant, stiffness_regions
+from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
+from abu_calc.features.grinding.outcomes import LoadedStarts, loudest_start, with_starts
+from abu_calc.features.grinding.records import AxisMotion, Orbit, Printed, ProfilePoint, Simulated
 from abu_calc.features.grinding.start_cases import loaded_ensemble
 from abu_calc.features.grinding.steady_contact import (
     SteadyWork,
@@ -49,13 +46,13 @@ from abu_calc.features.grinding.wear import (
     rigid_course,
     wear_course,
 )
-from abu_calc.features.grinding.work import Work
+from abu_calc.features.grinding.work import TriedRemedy, Work, at_work, remedies
 from abu_calc.formulas.suspension import natural_frequency
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, wrapped_deg
+from abu_calc.foundation.units import wrapped_deg
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.two_races import TwoRaceFile
@@ -153,9 +150,9 @@ class GrindingResult(Result):
     bound: LevelBound | None
     measured_after: MeasuredAfterRecord | None
     remedies: tuple[TriedRemedy, ...]
-    ball_resultant_g_mm: Annotated[float | None, Quantity("imbalance of the balls", "|V|")]
+    ball_resultant: Annotated[float | None, Quantity("imbalance of the balls", "|V|", unit="g_mm")]
     ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V")]
-    needed_resultant_g_mm: Annotated[float, Quantity("imbalance asked of the balls")]
+    needed_resultant: Annotated[float, Quantity("imbalance asked of the balls", unit="g_mm")]
     ball_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
     balls: Annotated[str, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
     printed: Printed | None
@@ -165,11 +162,11 @@ class GrindingResult(Result):
     axis: AxisMotion
     axis_fixed: AxisMotion
     axis_without: AxisMotion
-    resting_um: Annotated[float, Quantity("race and friction leave besides", "", 3)]
+    resting: Annotated[float, Quantity("race and friction leave besides", "", 3, unit="um")]
     profile: tuple[ProfilePoint, ...] | None
     hodograph: tuple[HodographPoint, ...]
     response: tuple[ResponsePoint, ...]
-    resonance_rpm: Annotated[float | None, Quantity("resonance on the contact, without autobalancer")]
+    resonance: Annotated[float | None, Quantity("resonance on the contact, without autobalancer", unit="rpm")]
     wear: WearCourse | None
     wear_without: WearCourse | None
     wear_rigid: WearCourse | None
@@ -177,13 +174,16 @@ class GrindingResult(Result):
     wear_bouncing: WearCourse | None
     wear_bouncing_without: WearCourse | None
     claim: Claim | None
-    contact_stiffness_regions_N_per_m: Annotated[
-        tuple[float, float] | None, Quantity("contact stiffness up to which balls balance; above which they do again")
+    contact_stiffness_regions: Annotated[
+        Pair | None,
+        Quantity("contact stiffness up to which balls balance; above which they do again", unit="N_per_m"),
     ]
-    flutter_drag_limit_per_s: Annotated[float | None, Quantity("drag against flutter, as the balls stand", "h₀")]
-    flutter_drag_worst_per_s: Annotated[float | None, Quantity("drag against flutter, balls in a cross", "h₀")]
+    flutter_drag_limit: Annotated[
+        float | None, Quantity("drag against flutter, as the balls stand", "h₀", unit="per_s")
+    ]
+    flutter_drag_worst: Annotated[float | None, Quantity("drag against flutter, balls in a cross", "h₀", unit="per_s")]
     friction: FrictionBand
-    cutting_power_W: Annotated[float, Quantity("cutting power", "fN₀ΩR_w")]
+    cutting_power: Annotated[float, Quantity("cutting power", "fN₀ΩR_w", unit="W")]
     simulation: Simulated | None
     simulation_at_once: Simulated | None
     simulation_without: Simulated | None
@@ -214,14 +214,15 @@ def grinding(
     with machine.located():
         refuse_idle(tables)
         design = size_design(tables)
-        work = analysis.at_work(design, accuracy, progress)
+        work = at_work(design, accuracy, progress)
         work, loads = with_starts(work, loaded_ensemble(design, accuracy, progress, processors()))
-        tried = () if _always(work, loads) else _remedies(work, accuracy, progress)
-        compared, friction = agreement(work, accuracy, progress), shaken(work, progress)
+        always = work.always and (loads is None or (loads.lowered("settled") and loads.lowered("at once")))
+        tried = () if always else remedies(work, accuracy, progress, lambda tried: loudest_start(tried, accuracy))
+        compared, freed = agreement(work, accuracy, progress), shaken(work, progress)
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
     resultant = balls.resultant if balls else None
-    resonance, bound = facts.loaded_resonance(design), lower_bound(work.levels.after, design.case)
+    bound = lower_bound(work.levels.after, design.case)
     return GrindingResult(
         title=tables.machine.name,
         checks=work_checks(work, shortest(tried), compared, loads),
@@ -236,28 +237,28 @@ def grinding(
         level_at_once_db=work.level_at_once,
         at_once_stays=work.stays_loud,
         starts=LoadedStarts.of(loads),
-        bound=None if bound is None else LevelBound.read(bound),
+        bound=bound,
         measured_after=MeasuredAfterRecord.of(
             compared_starts(design, starts_for_measurement(design, progress)), level_where_measured(design, work.moved)
         ),
-        remedies=tuple(map(TriedRemedy.of, tried)),
-        ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
+        remedies=tried,
+        ball_resultant=None if resultant is None else abs(resultant),
         ball_resultant_angle_deg=None if not resultant else wrapped_deg(cmath.phase(resultant)),
-        needed_resultant_g_mm=from_si(abs(balls.needed) if balls else 0.0, "g_mm"),
+        needed_resultant=abs(balls.needed) if balls else 0.0,
         ball_angles_deg=tuple(map(wrapped_deg, balls.angles)) if balls and balls.angles else None,
         balls=balls.places if balls else "",
         printed=_printed(work),
-        reaction=Reaction.of(design.case, steady),
-        reaction_fixed=Reaction.of(design.case, still),
-        reaction_without=Reaction.of(design.case, work.without.steady),
+        reaction=reaction(design.case, steady),
+        reaction_fixed=reaction(design.case, still),
+        reaction_without=reaction(design.case, work.without.steady),
         axis=AxisMotion.of(steady.axis),
         axis_fixed=AxisMotion.of(still.axis),
         axis_without=AxisMotion.of(work.without.steady.axis),
-        resting_um=from_si(work.rest, "um"),
+        resting=work.rest,
         profile=_profile(work),
-        hodograph=tuple(map(HodographPoint.of, facts.hodograph(design))),
-        response=tuple(map(ResponsePoint.of, facts.response(design))),
-        resonance_rpm=None if resonance is None else from_si(resonance, "rpm"),
+        hodograph=hodograph(design),
+        response=response(design),
+        resonance=loaded_resonance(design),
         wear=wear_course(work, work.fitted.steady),
         wear_without=wear_course(work, work.without.steady),
         wear_rigid=rigid_course(work, fitted),
@@ -265,27 +266,17 @@ def grinding(
         wear_bouncing=bouncing_course(design, work.fitted),
         wear_bouncing_without=bouncing_course(design, work.without),
         claim=claim(work),
-        contact_stiffness_regions_N_per_m=_regions(design, steady),
-        flutter_drag_limit_per_s=None if limits is None else limits[0],
-        flutter_drag_worst_per_s=None if limits is None else limits[1],
-        friction=FrictionBand.of(facts.friction(work), friction),
-        cutting_power_W=_cutting_power(design),
-        simulation=None if work.fitted.run is None else Simulated.of(work.fitted.run),
-        simulation_at_once=None if work.at_once.run is None else Simulated.of(work.at_once.run),
-        simulation_without=None if work.without.run is None else Simulated.of(work.without.run),
-        agreement=None if compared is None else Comparison.read(compared),
+        contact_stiffness_regions=_regions(design, steady),
+        flutter_drag_limit=None if limits is None else limits[0],
+        flutter_drag_worst=None if limits is None else limits[1],
+        friction=friction(work, freed),
+        cutting_power=_cutting_power(design),
+        simulation=Simulated.of(work.fitted),
+        simulation_at_once=Simulated.of(work.at_once),
+        simulation_without=Simulated.of(work.without),
+        agreement=compared,
         orbits=tuple(_orbits(work, still)),
     )  # fmt: skip
-
-
-def _always(work: Work, loads: GrindingOutcomes | None) -> bool:
-    """Sentence that tells if the autobalancer lowers the level in every start case."""
-    return bool(work.always) and (loads is None or bool(loads.lowered("settled") and loads.lowered("at once")))
-
-
-def _remedies(work: Work, accuracy: float, progress: Progress) -> tuple[analysis.Remedy, ...]:
-    """Changes that lower the level in every start case."""
-    return analysis.remedies(work, accuracy, progress, lambda tried: loudest_start(tried, accuracy))
 
 
 def _orbits(work: Work, still: SteadyWork) -> Iterator[Orbit]:
@@ -334,11 +325,11 @@ def _printed(work: Work) -> Printed | None:
     half = math.acos(share) if autobalancer.ball_count == 2 and share <= 1 else None
     place = cmath.phase(printed)
     return Printed(
-        resultant_g_mm=from_si(abs(printed), "g_mm"),
+        resultant=abs(printed),
         resultant_angle_deg=wrapped_deg(place),
         ball_angles_deg=None if half is None else (wrapped_deg(place - half), wrapped_deg(place + half)),
         error_deg=abs(wrapped_deg(cmath.phase(printed / balls.needed))) if balls.needed and printed else None,
-        open_g_mm=from_si(abs(printed - balls.needed), "g_mm"),
+        open=abs(printed - balls.needed),
     )
 
 

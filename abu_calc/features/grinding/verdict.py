@@ -5,12 +5,13 @@ from collections.abc import Sequence
 
 from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.start_cases import WHEN
-from abu_calc.features.grinding.work import LOUDER, Remedy, Side, Work
+from abu_calc.features.grinding.steady_contact import RestingBalls
+from abu_calc.features.grinding.work import LOUDER, Side, TriedRemedy, Work
 from abu_calc.foundation.units import from_si
 from abu_calc.reporting.blocks import capitalised
 
 
-def in_words(work: Work, tried: Sequence[Remedy], loads: GrindingOutcomes | None = None) -> str:
+def in_words(work: Work, tried: Sequence[TriedRemedy], loads: GrindingOutcomes | None = None) -> str:
     """A sentence or two; the level first, then the start cases that are louder than the usual case."""
     before, after = work.levels.before, work.levels.after
     if work.lowered is None or before is None or after is None:
@@ -61,7 +62,7 @@ def _level(value: float, side: Side) -> str:
 NOTHING = " No smaller runout, softer contact or larger normal force was found that changes this."
 
 
-def changes(tried: Sequence[Remedy]) -> str:
+def changes(tried: Sequence[TriedRemedy]) -> str:
     """Sentence on the changes that help, with the level of each; empty without any."""
     if not tried:
         return ""
@@ -70,21 +71,21 @@ def changes(tried: Sequence[Remedy]) -> str:
     return f" {first} that in all simulated cases. {' '.join(texts)}"
 
 
-def _short(remedy: Remedy) -> str:
+def _short(remedy: TriedRemedy) -> str:
     """Loudest level with the change beside the level without autobalancer."""
-    after, before = remedy.levels.after, remedy.levels.before
+    after, before = remedy.level_after_db, remedy.level_before_db
     known = "not known" if after is None else f"{after:.1f} dB at most"
     return known + ("" if before is None else f", {before:.1f} dB without")
 
 
-def _levels(remedy: Remedy) -> str:
+def _levels(remedy: TriedRemedy) -> str:
     """Loudest level with the change, and the level without autobalancer beside it."""
-    after, before = remedy.levels.after, remedy.levels.before
+    after, before = remedy.level_after_db, remedy.level_before_db
     known = "not known" if after is None else f"{after:.1f} dB"
     return f"loudest case {known}" + ("" if before is None else f", without autobalancer {before:.1f} dB")
 
 
-def shortest(tried: Sequence[Remedy]) -> str | None:
+def shortest(tried: Sequence[TriedRemedy]) -> str | None:
     """The first remedy alone."""
     if not tried:
         return None
@@ -92,12 +93,12 @@ def shortest(tried: Sequence[Remedy]) -> str | None:
     return f"{capitalised(text)}: {_levels(tried[0])} (simulated)."
 
 
-def _remedy(remedy: Remedy) -> str:
-    if remedy.what == "runout":
-        return f"reduce wheel.runout_mm to {from_si(remedy.value, 'mm'):g}"
-    if remedy.what == "stiffness":
-        return f"reduce grinding.contact_stiffness_N_per_m to {_plain(remedy.value)}"
-    return f"raise grinding.press_force_N to {remedy.value:g}"
+def _remedy(remedy: TriedRemedy) -> str:
+    if remedy.runout is not None:
+        return f"reduce wheel.runout_mm to {remedy.runout_mm:g}"
+    if remedy.contact_stiffness is not None:
+        return f"reduce grinding.contact_stiffness_N_per_m to {_plain(remedy.contact_stiffness)}"
+    return f"raise grinding.press_force_N to {remedy.press_force:g}"
 
 
 def _haste(work: Work) -> str:
@@ -115,10 +116,9 @@ def _helps(work: Work) -> str:
     contact, case = work.design.case.contact, work.design.case
     if contact is None or contact.kind == "face":
         return "A face does not press in the plane of the balls, so they settle as at idle."
-    balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
+    balls = work.fitted.steady.balls
     if balls is not None and balls.places == "short":
-        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
-        return f"But the capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires."
+        return f"But the {_capacity(work, balls)}."
     if balls is None or balls.places != "balanced":
         return "But the balls do not stay where they would balance (ABU423)."
     if not case.runout:
@@ -130,9 +130,14 @@ def _helps(work: Work) -> str:
     return f"The balls balance the wheel, and {share}."
 
 
+def _capacity(work: Work, balls: RestingBalls) -> str:
+    carried, needed = (from_si(each, "g_mm") for each in (work.design.autobalancer.capacity, abs(balls.needed)))
+    return f"capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires"
+
+
 def _worse(work: Work) -> str:
     case, steady = work.design.case, work.fitted.steady
-    balls, autobalancer = steady.balls, work.design.autobalancer
+    balls = steady.balls
     moved = work.design.imbalance.value / case.body.effective_mass()
     runout = f"ε = {_um(case.runout)} {'exceeds' if case.runout > moved else 'against'} m₀e/M = {_um(moved)}"
     if balls is not None and balls.places in ("gathered", "turning"):
@@ -140,8 +145,7 @@ def _worse(work: Work) -> str:
     if balls is not None and balls.places == "restless":
         return f"The balls do not stay where they would balance (ABU423); {runout}."
     if balls is not None and balls.places == "short":
-        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
-        return f"The capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires; {runout}."
+        return f"The {_capacity(work, balls)}; {runout}."
     if work.fitted.parts and case.contact is not None:
         force = abs(steady.reaction or 0.0)
         return (f"The machine follows the wheel's runout ({runout}). The normal force, {case.contact.press_force:g} ± "

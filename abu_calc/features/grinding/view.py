@@ -3,8 +3,9 @@
 import re
 from typing import Final
 
+from abu_calc.features.grinding.curves import FrictionBand
 from abu_calc.features.grinding.outcomes import LoadedOutcomeGroup, LoadedStarts
-from abu_calc.features.grinding.records import AxisMotion, FrictionBand, Simulated
+from abu_calc.features.grinding.records import AxisMotion, Simulated
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
@@ -59,14 +60,14 @@ def numbers_that_matter(result: GrindingResult) -> Grid:
     rows = [
         ("level, pressed after settling", _db(result.level_before_db, result.simulation_without), "", after),
         ("  pressed earlier", "", "", _db(result.level_at_once_db, result.simulation_at_once)),
-        ("spindle along workpiece", *(_um(axis.x_amplitude_mm) for axis in axes)),
-        ("  normal to it", *(_um(axis.y_amplitude_mm) for axis in axes)),
+        ("spindle along workpiece", *(_um(axis.x_amplitude) for axis in axes)),
+        ("  normal to it", *(_um(axis.y_amplitude) for axis in axes)),
     ]
     if result.contact_stiffness_regions_N_per_m is not None:
         rows += [
             (f"normal force {result.reaction.mean_N:g} N ±",
              *(_newton(force.amplitude_N, parts=force.separates) for force in forces)),
-            ("  runout keeping contact", *(_limit(force.largest_runout_mm) for force in forces)),
+            ("  runout keeping contact", *(_limit(force.largest_runout) for force in forces)),
         ]  # fmt: skip
     return Grid(("grinding", "without", "balls fixed", "with"), tuple(rows), RIGHT)
 
@@ -195,8 +196,8 @@ def _hodograph(result: GrindingResult) -> list[Block]:
 
 def _response(result: GrindingResult) -> list[Block]:
     rows = tuple(
-        (number(point.speed_rpm, 5), _largest(point.without), _largest(point.fitted), _newton(point.force_without_N),
-         _newton(point.force_with_N), point.balls or "")
+        (number(point.speed_rpm, 5), _um(point.without.largest), _um(point.fitted.largest),
+         _newton(point.force_without), _newton(point.force_with), point.balls or "")
         for point in result.response
     )  # fmt: skip
     header = ("rpm", "spindle without", "with", "force without", "with", "balls")
@@ -217,13 +218,8 @@ def _profile(result: GrindingResult) -> list[Block]:
 
 def _pair(axis: AxisMotion) -> tuple[str, str]:
     """x and y in µm."""
-    x, y = ("" if each is None else number(1e3 * each, 3) for each in (axis.x_amplitude_mm, axis.y_amplitude_mm))
+    x, y = ("" if each is None else number(1e6 * each, 3) for each in (axis.x_amplitude, axis.y_amplitude))
     return x, y
-
-
-def _largest(axis: AxisMotion) -> str:
-    both = [each for each in (axis.x_amplitude_mm, axis.y_amplitude_mm) if each is not None]
-    return _um(max(both)) if both else ""
 
 
 def _db(level: float | None, run: Simulated | None) -> str:
@@ -233,8 +229,8 @@ def _db(level: float | None, run: Simulated | None) -> str:
     return f"{level:.1f} ± {max(run.scatter_db, 0.1):.1f} dB" if run and run.scatter_db else f"{level:.1f} dB"
 
 
-def _um(length_mm: float | None) -> str:
-    return "" if length_mm is None else f"{number(1e3 * length_mm, 3)} µm"
+def _um(length: float | None) -> str:
+    return "" if length is None else f"{number(1e6 * length, 3)} µm"
 
 
 def _newton(force: float | None, *, parts: bool = False) -> str:
@@ -246,8 +242,8 @@ def _stiffness(value: float) -> str:
     return f"{value:.3g}".replace("e+0", "e")
 
 
-def _limit(length_mm: float | None) -> str:
-    return "none" if length_mm is None else _um(length_mm)
+def _limit(length: float | None) -> str:
+    return "none" if length is None else _um(length)
 
 
 LEFT_OUT = (

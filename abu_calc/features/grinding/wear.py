@@ -14,7 +14,7 @@ the wheel to be centred at a rigid contact, where it is driven off centre.
 import cmath
 import math
 from collections.abc import Callable, Iterator
-from typing import Annotated, Self
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ from abu_calc.features.grinding.work import Side, Work
 from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+from abu_calc.foundation.units import to_si, wrapped_deg
 from abu_calc.sizing.budget import permitted_displacement
 from abu_calc.sizing.design import Design
 
@@ -218,24 +218,12 @@ USABLE = 0.2
 class WearStage(Record):
     """The wheel after some wear."""
 
-    depth_um: Annotated[float, Quantity("worn off")]
-    time_min: Annotated[float | None, Quantity("after")]
-    runout_mm: Annotated[float, Quantity("runout", "ε")]
+    depth: Annotated[float, Quantity("worn off", unit="um")]
+    time: Annotated[float | None, Quantity("after", unit="min")]
+    runout: Annotated[float, Quantity("runout", "ε", unit="mm")]
     runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ₀")]
-    imbalance_g_mm: Annotated[float, Quantity("imbalance of the wheel", "m₀e")]
-    variable_force_N: Annotated[float, Quantity("variable force", "|F_H|")]
-
-    @classmethod
-    def of(cls, stage: WearState, pace: float | None) -> Self:
-        """Record of a stage; `pace` in minutes per metre."""
-        return cls(
-            depth_um=from_si(stage.depth, "um"),
-            time_min=None if pace is None else pace * stage.depth,
-            runout_mm=from_si(abs(stage.runout), "mm"),
-            runout_angle_deg=wrapped_deg(cmath.phase(stage.runout)),
-            imbalance_g_mm=from_si(abs(stage.imbalance), "g_mm"),
-            variable_force_N=abs(stage.pressure),
-        )
+    imbalance: Annotated[float, Quantity("imbalance of the wheel", "m₀e", unit="g_mm")]
+    variable_force: Annotated[float, Quantity("variable force", "|F_H|", unit="N")]
 
 
 @record
@@ -246,27 +234,12 @@ class WearCourse(Record):
     runout_rate: Annotated[
         float, Quantity("change of the runout per depth worn off", "dε/ds", 4, "as if wheel and work never parted")
     ]
-    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|F_H|")]
+    pressure_amplitude: Annotated[float, Quantity("variable force round the wheel", "|F_H|", unit="N")]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
     ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, limit, parted, settled or worn out")]
-    depth_um: Annotated[float | None, Quantity("worn off until then")]
-    time_min: Annotated[float | None, Quantity("until then")]
+    depth: Annotated[float | None, Quantity("worn off until then", unit="um")]
+    time: Annotated[float | None, Quantity("until then", unit="min")]
     stages: tuple[WearStage, ...]
-
-    @classmethod
-    def of(cls, wear: Wear, runout: complex, pace: float | None) -> Self:
-        """`pace` in minutes per metre of depth."""
-        away = cmath.phase(wear.pressure) - cmath.phase(runout)
-        return cls(
-            centres=wear.centres,
-            runout_rate=wear.rate,
-            pressure_amplitude_N=abs(wear.pressure),
-            hardest_at_deg=wrapped_deg(away) if wear.pressure else None,
-            ends=wear.event,
-            depth_um=None if wear.depth is None else from_si(wear.depth, "um"),
-            time_min=None if wear.depth is None or pace is None else pace * wear.depth,
-            stages=tuple(WearStage.of(stage, pace) for stage in wear.stages),
-        )
 
 
 @record
@@ -347,6 +320,30 @@ def _usable(design: Design) -> float:
 
 
 def _course(design: Design, wear: Wear) -> WearCourse:
+    """Times by the measured life of the wheel."""
     wheel = design.case.table.wheel
-    pace = wheel.life_min / to_si(wheel.usable_wear_mm, "mm") if wheel.life_min and wheel.usable_wear_mm else None
-    return WearCourse.of(wear, runout_of(design.case), pace)
+    pace = None
+    if wheel.life_min and wheel.usable_wear_mm:
+        pace = to_si(wheel.life_min, "min") / to_si(wheel.usable_wear_mm, "mm")
+    away = cmath.phase(wear.pressure) - cmath.phase(runout_of(design.case))
+    stages = tuple(
+        WearStage(
+            depth=stage.depth,
+            time=None if pace is None else pace * stage.depth,
+            runout=abs(stage.runout),
+            runout_angle_deg=wrapped_deg(cmath.phase(stage.runout)),
+            imbalance=abs(stage.imbalance),
+            variable_force=abs(stage.pressure),
+        )
+        for stage in wear.stages
+    )
+    return WearCourse(
+        centres=wear.centres,
+        runout_rate=wear.rate,
+        pressure_amplitude=abs(wear.pressure),
+        hardest_at_deg=wrapped_deg(away) if wear.pressure else None,
+        ends=wear.event,
+        depth=wear.depth,
+        time=stages[-1].time if stages else None,
+        stages=stages,
+    )

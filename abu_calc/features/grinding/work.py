@@ -6,7 +6,7 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.grinding.simulation import WorkSimulation, bounces, bouncing, seen, working
@@ -22,6 +22,7 @@ from abu_calc.features.grinding.steady_contact import (
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.design_scenes import WORK, SceneFailure, SceneRun
 from abu_calc.simulation.scene_of_design import grinding_without, scene_of_design
@@ -44,7 +45,7 @@ A smaller difference counts as the same state with a decaying transient.
 """
 LOUD: Final = 10 ** (LOUDER / 20)
 
-What = Literal["runout", "stiffness", "press"]
+What = Literal["runout", "contact_stiffness", "press_force"]
 
 LESS: Final = 1.0, 0.75, 0.5
 """Shares of the value that would just suffice, tried one after another."""
@@ -139,16 +140,15 @@ def below(after: float | None, before: float | None, doubt: float) -> bool | Non
     return after < before
 
 
-@dataclass(frozen=True)
-class Remedy:
-    """Tried change that lowers the level, and its result.
+@record
+class TriedRemedy(Record):
+    """Change that was tried and lowers the level under load, and the levels it gave."""
 
-    The change is a runout [m], a contact stiffness [N/m] or a normal force [N].
-    """
-
-    what: What
-    value: float
-    levels: Levels
+    runout: Annotated[float | None, Quantity("runout", "ε", unit="mm")] = None
+    contact_stiffness: Annotated[float | None, Quantity("contact stiffness", "c_n", unit="N_per_m")] = None
+    press_force: Annotated[float | None, Quantity("press force", "N₀", unit="N")] = None
+    level_before_db: Annotated[float | None, Quantity("level without autobalancer")]
+    level_after_db: Annotated[float | None, Quantity("level with it")]
 
 
 def at_work(
@@ -243,7 +243,7 @@ def _displacement(design: Design, side: Side, rest: float) -> float | None:
 
 def remedies(
     work: Work, accuracy: float, progress: Progress = silent, loudest: Callable[[Work], float | None] | None = None
-) -> tuple[Remedy, ...]:
+) -> tuple[TriedRemedy, ...]:
     """Changes that lower the level of a machine whose autobalancer does not always; each was simulated, pressed either
     way.
 
@@ -259,7 +259,8 @@ def remedies(
                 if started is None:
                     continue
                 worst = max(tried.level_at_once, tried.levels.after or tried.level_at_once, started)
-                helpful_remedies.append(Remedy(what, value, Levels(tried.levels.before, worst)))
+                remedy = {what: value, "level_before_db": tried.levels.before, "level_after_db": worst}
+                helpful_remedies.append(TriedRemedy(**remedy))
                 break
     return tuple(helpful_remedies)
 
@@ -270,7 +271,7 @@ def _sized(design: Design, what: What, value: float) -> Design:
     if what == "runout":
         runout = {"runout_mm": from_si(value, "mm"), "runout_tir_mm": None}
         return size(table.model_copy(update={"wheel": table.wheel.model_copy(update=runout)}))
-    key = "press_force_N" if what == "press" else "contact_stiffness_N_per_m"
+    key = "press_force_N" if what == "press_force" else "contact_stiffness_N_per_m"
     grinding = table.grinding.model_copy(update={key: value}) if table.grinding else None
     return size(table.model_copy(update={"grinding": grinding}))
 
@@ -278,7 +279,7 @@ def _sized(design: Design, what: What, value: float) -> Design:
 def _with(design: Design, what: What, value: float) -> Design:
     if what == "runout":
         return replace(design, case=replace(design.case, runout=value))
-    return changed(design, press=value) if what == "press" else changed(design, stiffness=value)
+    return changed(design, press=value) if what == "press_force" else changed(design, stiffness=value)
 
 
 def _candidates(work: Work) -> Iterator[tuple[What, tuple[float, ...]]]:
@@ -290,15 +291,15 @@ def _candidates(work: Work) -> Iterator[tuple[What, tuple[float, ...]]]:
     if runout and _better(work, "runout", runout / 100):
         least = crossing(lambda e: _better(work, "runout", e), runout / 100, runout)
         yield "runout", tuple(_rounded(share * least, down=True) for share in LESS)
-    if contact.kind == "compliant" and _better(work, "stiffness", SOFTEST * contact.stiffness):
+    if contact.kind == "compliant" and _better(work, "contact_stiffness", SOFTEST * contact.stiffness):
         softest = SOFTEST * contact.stiffness
-        least = crossing(lambda c: _better(work, "stiffness", c), softest, contact.stiffness)
-        yield "stiffness", tuple(_rounded(share * least, down=True) for share in LESS)
+        least = crossing(lambda c: _better(work, "contact_stiffness", c), softest, contact.stiffness)
+        yield "contact_stiffness", tuple(_rounded(share * least, down=True) for share in LESS)
     forces = [abs(side.steady.reaction or 0.0) for side in (work.fitted, work.without)]
     needed = max(forces if contact.kind == "rigid" else forces[:1])
-    if (work.fitted.parts or work.at_once.parts) and _better(work, "press", 1.1 * needed):
+    if (work.fitted.parts or work.at_once.parts) and _better(work, "press_force", 1.1 * needed):
         needed = max(needed, contact.press_force)
-        yield "press", tuple(_rounded(needed / share * 1.02, down=False) for share in LESS)
+        yield "press_force", tuple(_rounded(needed / share * 1.02, down=False) for share in LESS)
 
 
 def _better(work: Work, what: What, value: float) -> bool:

@@ -8,26 +8,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.features.design.judgement import judge
-from abu_calc.features.optimise.bounds import interval
-from abu_calc.features.optimise.candidates import GEOMETRY, SearchSpace, changes
+from abu_calc.features.optimise.candidates import SearchSpace, changes
 from abu_calc.features.optimise.choices import Option
-from abu_calc.features.optimise.costs import items_of
+from abu_calc.features.optimise.costs import cost_entries
 from abu_calc.features.optimise.members import SampleSource
 from abu_calc.features.optimise.racing import CandidateRace
 from abu_calc.features.optimise.requests import OptimiseRequest
 from abu_calc.features.optimise.result import (
     ChosenKey,
-    CostEntry,
     FrontPoint,
     OptimiseResult,
     RecommendedDesign,
-    RuledOut,
     RunnerUp,
     SampledShare,
 )
 from abu_calc.features.sweep.plan import planned
 from abu_calc.foundation.checks import CHECK_CODES, Check, coded
 from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.shares import interval
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.simulation.result import Provenance
 
@@ -45,6 +43,7 @@ def answered(
     undecided = _undecided(race, best) if proven else 0
     point = designs.point(best)
     front = tuple(designs.point(k, on_front[place - 1] if place else None) for place, k in enumerate(on_front))
+    given = {key: cost for machine in ask.machines for key, cost in machine.whole("optimise").costs.items()}
     first = ask.machines[0]
     title = first.title if len(ask.machines) == 1 else f"{len(ask.machines)} machines"
     return OptimiseResult(
@@ -63,10 +62,10 @@ def answered(
         share=ask.share,
         share_parts=ask.share_parts,
         options=_options(options, default=ask.choose is None),
-        costs=_costs(ask, space),
+        costs=cost_entries(space.keys, given),
         scatter=_scatter(ask, space, best),
         considered=space.considered,
-        ruled_out=tuple(RuledOut(code=code, name=_name(code), combinations=n) for code, n in space.ruled_out),
+        ruled_out=space.ruled_out,
         evaluated=len(space.rows),
         samples=race.spent + sum(map(len, fresh)),
         rounds=race.rounds,
@@ -195,21 +194,12 @@ def _why_not(race: CandidateRace, number: int, best: int, proven: bool) -> str:
     return "as dear, lower share"
 
 
-def _name(code: str) -> str:
-    return "impossible to build" if code == GEOMETRY else CHECK_CODES[code].name
-
-
 def _options(options: Sequence[tuple[Option, ...]], *, default: bool) -> tuple[ChosenKey, ...]:
     values: dict[str, dict[str, None]] = {}
     for option in (option for its in options for option in its):
         texts = ["×".join(shown_short(v) for v in assignment.values()) for assignment in option.values]
         values.setdefault(option.name, {}).update(dict.fromkeys(texts))
     return tuple(ChosenKey(name=name, values=tuple(texts), default=default) for name, texts in values.items())
-
-
-def _costs(ask: OptimiseRequest, space: SearchSpace) -> tuple[CostEntry, ...]:
-    given = {key: cost for machine in ask.machines for key, cost in machine.whole("optimise").costs.items()}
-    return tuple(CostEntry(**item._asdict()) for item in items_of(space.keys, given))
 
 
 def _judged(ask: OptimiseRequest, space: SearchSpace, best: int) -> Iterator[str]:
@@ -237,13 +227,13 @@ def _scatter(ask: OptimiseRequest, space: SearchSpace, best: int) -> dict[str, s
 def _warnings(ask: OptimiseRequest, space: SearchSpace) -> list[str]:
     notes = []
     if space.failing:
-        codes = ", ".join(f"{code} {_name(code)}" for code in space.failing)
+        codes = ", ".join(f"{code} {CHECK_CODES[code].name}" for code in space.failing)
         notes.append(f"Every candidate fails {codes}: run `abu size FILE`.")
     for machine in ask.machines:
         unused = [key for key in machine.whole("optimise").costs if key not in space.keys]
         if unused:
             notes.append(f"[costs] of {machine.file} prices {', '.join(unused)}, which nobody chooses here.")
-    free = [item.key for item in items_of(space.keys, {}) if item.source.startswith("no cost")]
+    free = [item.key for item in cost_entries(space.keys, {}) if item.source.startswith("no cost")]
     given = {key for machine in ask.machines for key in machine.whole("optimise").costs}
     notes += [f"{key} costs nothing: specify its cost in [costs]." for key in free if key not in given]
     return notes

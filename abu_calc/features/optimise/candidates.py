@@ -3,14 +3,16 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
-from typing import Any, Final, NamedTuple
+from typing import Annotated, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.features.optimise.choices import SHARED, SIZED, Assignment, Option, sized_values
 from abu_calc.features.optimise.costs import COUNT, DIAMETER, RADIUS, Values, cost_of
+from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.errors import AbuError, InputError, Place
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.sizing import size as sized
 
@@ -18,6 +20,15 @@ MOST_CANDIDATES: Final = 20_000
 """Combinations of variants of several machines."""
 GEOMETRY: Final = "geometry"
 """Reason of a combination that no geometry allows, beside the codes of checks."""
+
+
+@record
+class RuledOut(Record):
+    """Combinations that a closed form rules out."""
+
+    code: Annotated[str, Quantity("check")]
+    name: Annotated[str, Quantity("name")]
+    combinations: Annotated[int, Quantity("combinations")]
 
 
 class DesignVariant(NamedTuple):
@@ -39,7 +50,7 @@ class SearchSpace(NamedTuple):
     rows: NDArray[np.int64]
     costs: NDArray[np.float64]
     keys: tuple[str, ...]
-    ruled_out: tuple[tuple[str, int], ...]
+    ruled_out: tuple[RuledOut, ...]
     considered: int
     failing: tuple[str, ...]
 
@@ -83,7 +94,12 @@ def search_space(
     rows = renumbered.reshape(rows.shape).astype(np.int64)
     costs = np.array([variant.cost for variant in variants])[rows].sum(axis=1)
     keys = tuple(dict.fromkeys(key for variant in variants for key in variant.values))
-    ranked = tuple(sorted(reasons.items(), key=lambda item: (-item[1], item[0])))
+    ranked = tuple(
+        RuledOut(
+            code=code, name="impossible to build" if code == GEOMETRY else CHECK_CODES[code].name, combinations=count
+        )
+        for code, count in sorted(reasons.items(), key=lambda item: (-item[1], item[0]))
+    )
     return SearchSpace(tuple(variants), rows, costs, keys, ranked, considered, tuple(sorted(always - {GEOMETRY})))
 
 

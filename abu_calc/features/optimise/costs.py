@@ -6,9 +6,10 @@ accuracy rises with the reciprocal of the tolerance (Chase & Greenwood 1988, Man
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
-from typing import Any, Final, NamedTuple
+from typing import Annotated, Any, Final, NamedTuple
 
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.inputs.reading.plain import plain_number
 from abu_calc.inputs.reading.text import shown_short
 
@@ -65,25 +66,26 @@ DEFAULTS: Final[dict[str, DefaultCost]] = {
 """Default costs by key; the diameter of the balls has its cost with their number."""
 
 
-class CostItem(NamedTuple):
-    """Cost of one key: its formula, and the source of it."""
+@record
+class CostEntry(Record):
+    """Cost of one key."""
 
-    key: str
-    formula: str
-    source: str
+    key: Annotated[str, Quantity("value")]
+    formula: Annotated[str, Quantity("cost")]
+    source: Annotated[str, Quantity("source")]
 
 
-def items_of(keys: Sequence[str], given: Mapping[str, object]) -> tuple[CostItem, ...]:
+def cost_entries(keys: Sequence[str], given: Mapping[str, object]) -> tuple[CostEntry, ...]:
     """The costs in force for values that differ among candidates; a key without any costs nothing."""
-    items = []
+    entries = []
     for key in keys:
         if key in given:
-            items.append(CostItem(key, _formula(given[key]), "[costs] of the file"))
+            entries.append(CostEntry(key=key, formula=_formula(given[key]), source="[costs] of the file"))
         elif key in DEFAULTS:
-            items.append(CostItem(key, DEFAULTS[key].formula, DEFAULTS[key].source))
+            entries.append(CostEntry(key=key, formula=DEFAULTS[key].formula, source=DEFAULTS[key].source))
         elif key != DIAMETER:
-            items.append(CostItem(key, "0", "no cost known: specify it in [costs]"))
-    return tuple(items)
+            entries.append(CostEntry(key=key, formula="0", source="no cost known: specify it in [costs]"))
+    return tuple(entries)
 
 
 def cost_of(keys: Sequence[str], values: Values, given: Mapping[str, object], place: Place) -> float:

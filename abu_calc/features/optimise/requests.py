@@ -10,7 +10,6 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.optimisation import PARTS, Optimise
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.variation import Variation
 
 TARGET = Range("wanted share", 0.5, 0.9999, key="share")
 SEED = Range("seed", 0, 2**31 - 2, key="seed")
@@ -87,9 +86,5 @@ def _request(machine: Machine, tolerances: bool | None, seed: int, most: int) ->
     known = machine.whole("optimise").sweep
     wanted = (known is None or None) if tolerances is None else tolerances
     request = asked(machine, None, runs=most, what="build", tolerances=wanted, sampling="sobol", seed=seed)
-    vary = tuple((key, _drawn(way)) for key, way in request.vary)
+    vary = tuple((key, replace(way, kind="choice") if way.listed else way) for key, way in request.vary)
     return replace(request, vary=vary, grid=None, sensitivity=False)
-
-
-def _drawn(way: Variation) -> Variation:
-    return replace(way, kind="choice") if way.listed else way

@@ -2,6 +2,8 @@
 
 from typing import Annotated, Any, ClassVar
 
+from abu_calc.features.optimise.candidates import RuledOut
+from abu_calc.features.optimise.costs import CostEntry
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.result import Result
 
@@ -59,24 +61,6 @@ class ChosenKey(Record):
     name: Annotated[str, Quantity("option")]
     values: Annotated[tuple[str, ...], Quantity("values")]
     default: Annotated[bool, Quantity("by default")]
-
-
-@record
-class CostEntry(Record):
-    """Cost of one key."""
-
-    key: Annotated[str, Quantity("value")]
-    formula: Annotated[str, Quantity("cost")]
-    source: Annotated[str, Quantity("source")]
-
-
-@record
-class RuledOut(Record):
-    """Combinations that a closed form rules out."""
-
-    code: Annotated[str, Quantity("check")]
-    name: Annotated[str, Quantity("name")]
-    combinations: Annotated[int, Quantity("combinations")]
 
 
 @record

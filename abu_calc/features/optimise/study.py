@@ -1,6 +1,5 @@
 """The cheapest design of a series: options → candidates → race → front → fresh samples of the recommended one."""
 
-import json
 import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,19 +14,18 @@ from abu_calc.features.design.study import WORKERS
 from abu_calc.features.optimise.answers import answered
 from abu_calc.features.optimise.candidates import SearchSpace, search_space
 from abu_calc.features.optimise.choices import Option, options_of, usual_of_family
-from abu_calc.features.optimise.front import front, runners_up
 from abu_calc.features.optimise.members import COLUMNS, MOST, SampleSource, VariantStudy
-from abu_calc.features.optimise.racing import FIRST, CandidateRace, highest, run
+from abu_calc.features.optimise.racing import FIRST, CandidateRace, front, highest, run, runners_up
 from abu_calc.features.optimise.requests import OptimiseRequest, asked_of
 from abu_calc.features.optimise.result import OptimiseResult
-from abu_calc.features.sweep.batches import RenewableExecutor, given, here, processes
-from abu_calc.features.sweep.cluster import client_of, is_alive, is_ours_to_end, software, threads_of, versions
-from abu_calc.features.sweep.execution import Workers, described
+from abu_calc.features.sweep.batches import RenewableExecutor
+from abu_calc.features.sweep.cluster import software
+from abu_calc.features.sweep.execution import Workers
 from abu_calc.features.sweep.result import Kept
 from abu_calc.features.sweep.store import Store
 from abu_calc.features.sweep.study import WAIT, store_path
 from abu_calc.foundation import patience
-from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError
+from abu_calc.foundation.errors import AbuError, NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
@@ -92,7 +90,7 @@ def optimise(
     identity = {**_identity(ask, study, accuracy), "runs": count}
     database = Store.open(file, identity, COLUMNS, frozenset(), force=force and not resume)
     try:
-        with _hands(hands) as workers_, _noted(database, ask, hands, command):
+        with _hands(hands) as workers_, hands.noted(database, ask.machines, ask.seed, command):
             source = SampleSource(study, database, workers_, progress)
             return _raced(ask, options, space, source, budget, runs, path)
     except BaseException as ended:
@@ -109,7 +107,8 @@ def _raced(
 ) -> OptimiseResult:  # fmt: skip
     race = CandidateRace(space.rows, space.costs, ask.share, source, MOST, max(budget, FIRST * len(space.variants)))
     best = run(race)
-    if not any(flags.any() for flags in race.met) and _none_computed(source):
+    computed = "SELECT COUNT(*) FROM members WHERE reason IS NULL"
+    if not any(flags.any() for flags in race.met) and not source.store.ask(computed)[0][0]:
         raise NotTrustworthyError("no sample gave a number that can be trusted: run `abu sweep FILE`")
     proven = best is not None
     if best is None:
@@ -119,10 +118,6 @@ def _raced(
     others = runners_up(race, best)
     fresh = [source.fresh(arm, runs) for arm in space.rows[best].tolist()]
     return answered(ask, options, space, race, source, best, proven, on_front, others, fresh, path)
-
-
-def _none_computed(source: SampleSource) -> bool:
-    return not source.store.ask("SELECT COUNT(*) FROM members WHERE reason IS NULL")[0][0]
 
 
 def _options(ask: OptimiseRequest) -> list[tuple[Option, ...]]:
@@ -166,42 +161,12 @@ def _identity(ask: OptimiseRequest, study: VariantStudy, accuracy: float) -> dic
 
 
 @contextmanager
-def _noted(store: Store, ask: OptimiseRequest, hands: Workers, command: str | None) -> Iterator[None]:
-    """Note in the store who computed."""
-    store.begun({
-        "file": ", ".join(machine.file for machine in ask.machines),
-        "sha256": ", ".join(machine.sha256 for machine in ask.machines),
-        "versions": json.dumps({**software(), **versions("distributed")}),
-        "seed": ask.seed,
-        "command": command,
-        "workers": described(hands.workers, hands.executor),
-    })  # fmt: skip
-    try:
-        yield
-    except BaseException:
-        with suppress(AbuError):
-            store.ended()
-        raise
-    store.ended()
-
-
-@contextmanager
 def _hands(hands: Workers) -> Iterator[RenewableExecutor]:
     """Executors for all rounds of the race."""
-    workers, executor = hands.workers, hands.executor
-    if executor is not None:
-        client = client_of(executor)
-        count = getattr(executor, "_max_workers", None) or (threads_of(client) if client else 1) or 1
-        alive = None if client is None else lambda: is_alive(client)
-        yield given(executor, count, ends=is_ours_to_end(executor), alive=alive, patience=hands.patience)
-        return
-    own = here() if workers is None or workers < 2 else processes(workers)
+    own = hands.executors()
     try:
         yield own
     except BaseException:
         own.close(at_once=True)
         raise
     own.close()
-
-
-__all__ = ["InputError", "optimise"]

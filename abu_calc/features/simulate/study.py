@@ -26,15 +26,15 @@ from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.effect_selection import EffectAudit, simulate_chosen
+from abu_calc.simulation.effect_selection import Audit, simulate_chosen
 from abu_calc.simulation.effect_selection import audit as with_all_effects
 from abu_calc.simulation.ensemble import followed_until
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
-from abu_calc.simulation.records import SceneModel, SimulatedLevel, SimulatedScene, in_words
+from abu_calc.simulation.records import SceneModel, SimulatedScene, in_words
 from abu_calc.simulation.response import Response, settling_count
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.rotor_view import RotorView
-from abu_calc.simulation.run_checks import level_at, levels_at_places, loudest, one_run_checks
+from abu_calc.simulation.run_checks import SimulatedLevel, level_at, levels_at_places, loudest, one_run_checks
 from abu_calc.simulation.scene_of_design import QUIET
 from abu_calc.simulation.simulate import ACCURACY, Simulation
 from abu_calc.simulation.start_cases import idle_speed
@@ -231,7 +231,7 @@ def simulate(
         warnings=(*subject.warnings, *_at_rated_speed(subject), *run.warnings),
         model=SceneModel.of(run.scene),
         level_at=_level_at(subject, run.response),
-        handles=_handles(subject, run.response),
+        handles=None if subject.design is None else levels_at_places(subject.design, run.response) or None,
         measured_after=_measured(subject, run.response, progress),
         provenance=subject.provenance,
         description=in_words(run.scene),
@@ -304,11 +304,6 @@ def _measured(subject: Subject, response: Response, progress: Progress) -> Measu
     return MeasuredAfterRecord.of(comparison, level)
 
 
-def _handles(subject: Subject, response: Response) -> tuple[SimulatedLevel, ...] | None:
-    places = () if subject.design is None else levels_at_places(subject.design, response)
-    return tuple(SimulatedLevel(name=each.name, level_db=each.level) for each in places) or None
-
-
 def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
     message = "two runs, a decade of tolerance apart, agree in amplitude, times and ball angles"
     if run.rung == "envelope":
@@ -323,7 +318,7 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
     return Check("ABU801", "accuracy reached", "fail", message, value, accuracy, None, remedy)
 
 
-def _left_out(audited: EffectAudit, accuracy: float) -> Check:
+def _left_out(audited: Audit, accuracy: float) -> Check:
     message = "with every effect in, amplitude, times and ball angles differ by no more than the accuracy"
     remedy = "Ask for more accuracy, or take effects in: --with EFFECT, Python: with_effects=."
     held = audited.difference <= accuracy

@@ -4,7 +4,7 @@ figures    path of the balls; imbalance, level and speed against time; the formu
 CSV        the axis in mm, ball angles in degrees, unwrapped, and whatever else of the scene moves
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -28,8 +28,10 @@ from abu_calc.reporting.parts import (
     warning_blocks,
 )
 from abu_calc.reporting.screen import one_screen, verdict_line
-from abu_calc.simulation.records import Audit, Cost, EffectEntry, End
+from abu_calc.simulation.effect_selection import Audit
+from abu_calc.simulation.records import End
 from abu_calc.simulation.rotor_view import RotorView
+from abu_calc.simulation.simulate import Cost
 from abu_calc.sizing.case import WHEEL_PLANE
 
 CONVENTIONS = (
@@ -82,7 +84,7 @@ def simulate_blocks(result: SimulateResult) -> tuple[Block, ...]:
         *_final(result.final),
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
-        *_effects(result.effects),
+        *((Heading("Effects"), effects_grid(result.effects)) if result.effects else ()),
         *_audit(result.audit),
         Heading("Model"),
         Paragraph(f"Start: {result.start}."),
@@ -194,10 +196,6 @@ def _final(final: End) -> list[Block]:
     )
     blocks: list[Block] = [Heading(f"At the end, {value_of(final, 't_s')}"), facts(final, *FINAL)]
     return [*blocks, Grid(("ball", "angle", "speed"), rows, frozenset({1, 2}))] if rows else blocks
-
-
-def _effects(entries: Sequence[EffectEntry]) -> list[Block]:
-    return [Heading("Effects"), effects_grid(entries)] if entries else []
 
 
 def _audit(audit: Audit | None) -> list[Block]:

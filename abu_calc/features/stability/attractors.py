@@ -4,10 +4,10 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Annotated, Final, Self
+from typing import Annotated, Final
 
 from abu_calc.dynamics.scene import Scene, without
-from abu_calc.dynamics.stability.stuck_speeds import StuckSpeed, natural_frequencies, stuck_speeds
+from abu_calc.dynamics.stability.stuck_speeds import ClosedStuckSpeed, natural_frequencies, stuck_speeds
 from abu_calc.features.stability.attractor_ends import (
     CHAOTIC,
     LOOKS,
@@ -23,6 +23,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.shares import interval
 from abu_calc.foundation.units import from_si, level_from_velocity
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
@@ -42,8 +43,6 @@ ALWAYS: Final = ("dry_rolling_friction", "ball_contact")
 
 RUNS_UP: Final = ("run_up", "motor")
 """Effects that change the rotor's speed: they are left out."""
-
-CONFIDENCE: Final = 0.95
 
 CRITERION: Final = (
     f"Each start is followed for {', '.join(str(look) for look in LOOKS[:-1])} or {LOOKS[-1]} times the scene's "
@@ -66,7 +65,7 @@ class AttractorExample(Record):
 
     start_angles_deg: Annotated[tuple[float, ...], Quantity("balls start at", "θ", 6)]
     start_speeds_rpm: Annotated[tuple[float, ...], Quantity("balls start with", "", 8)]
-    duration_s: Annotated[float, Quantity("length of the run", "t", 6)]
+    duration: Annotated[float, Quantity("length of the run", "t", 6, unit="s")]
     confirmed: Annotated[bool, Quantity("a closer run ends there, too")]
     command: Annotated[str | None, Quantity("command that follows it again", "", 4, "None for a scene without a file")]
     simulate: Annotated[str | None, Quantity("command that shows its motion", "", 4, "refused if errors grow in it")]
@@ -82,27 +81,13 @@ class Attractor(Record):
     high: Annotated[float, Quantity("share, at most")]
     drawn_starts: Annotated[int, Quantity("drawn starts that end there")]
     designed_starts: Annotated[int, Quantity("designed starts that end there")]
-    ball_speeds_rpm: Annotated[tuple[float, ...], Quantity("balls turn at", "", 5, "in space, slowest first")]
-    natural_frequency_rpm: Annotated[float | None, Quantity("stuck at the natural frequency", "", 5)]
+    ball_speeds: Annotated[tuple[float, ...], Quantity("balls turn at", "", 5, "in space, slowest first", unit="rpm")]
+    natural_frequency: Annotated[float | None, Quantity("stuck at the natural frequency", "", 5, unit="rpm")]
     level_db: Annotated[float | None, Quantity("level", "L", 4)]
     level_range_db: Annotated[tuple[float, float] | None, Quantity("levels of all its ends", "L", 4)]
-    residual_imbalance_g_mm: Annotated[float, Quantity("residual imbalance", "", 4)]
+    residual_imbalance: Annotated[float, Quantity("residual imbalance", "", 4, unit="g_mm")]
     example: AttractorExample
     text: Annotated[str, Quantity("in words")]
-
-
-@record
-class ClosedStuckSpeed(Record):
-    """A speed at which drag and dissipation balance, of balls of a race that go round together."""
-
-    race: Annotated[int, Quantity("race")]
-    speed_rpm: Annotated[float, Quantity("balls can turn at", "ν", 5)]
-    holds: Annotated[bool, Quantity("holds its speed")]
-
-    @classmethod
-    def of(cls, stuck: StuckSpeed) -> Self:
-        """Record of a stuck speed; races count from 1."""
-        return cls(race=stuck.race + 1, speed_rpm=from_si(stuck.speed, "rpm"), holds=stuck.holds)
 
 
 @record
@@ -115,7 +100,7 @@ class AttractorSearch(Record):
     undecided_starts: Annotated[int, Quantity("starts without a decided end")]
     undecided_share: Annotated[float, Quantity("share of drawn starts without a decided end")]
     undecided_reasons: Annotated[tuple[str, ...], Quantity("their reasons")]
-    natural_frequencies_rpm: Annotated[tuple[float, ...], Quantity("natural frequencies with the balls", "", 5)]
+    natural_frequencies: Annotated[tuple[float, ...], Quantity("natural frequencies with the balls", "", 5, unit="rpm")]
     stuck_speeds: tuple[ClosedStuckSpeed, ...]
     criterion: Annotated[str, Quantity("criterion")]
 
@@ -138,8 +123,8 @@ def attractors_of(
         undecided_starts=len(found.undecided),
         undecided_share=lost / found.drawn,
         undecided_reasons=tuple(f"{reason} ({number})" for reason, number in reasons.most_common(5)),
-        natural_frequencies_rpm=tuple(from_si(each, "rpm") for each in natural_frequencies(scene)),
-        stuck_speeds=tuple(map(ClosedStuckSpeed.of, stuck_speeds(scene, touching(scene)))),
+        natural_frequencies=natural_frequencies(scene),
+        stuck_speeds=stuck_speeds(scene, touching(scene)),
         criterion=CRITERION,
     )
     return groups, summary, _check(found)
@@ -159,14 +144,6 @@ def _always(scene: Scene) -> list[str]:
     return [name for name in ALWAYS if scene.effect(name) is not None]
 
 
-def interval(met: int, count: int) -> tuple[float, float]:
-    """Exact 95 % interval of a share (Clopper-Pearson)."""
-    from scipy.stats import binomtest
-
-    bounds = binomtest(met, count).proportion_ci(CONFIDENCE, method="exact")
-    return float(bounds.low), float(bounds.high)
-
-
 def _record(subject: Subject, scene: Scene, group: EndGroup, drawn: int, lot: tuple[int, int]) -> Attractor:
     """Record of a group; `lot`: how many starts were drawn by which seed."""
     levels = [level for end in group.ends if (level := _level(subject, end)) is not None]
@@ -179,15 +156,15 @@ def _record(subject: Subject, scene: Scene, group: EndGroup, drawn: int, lot: tu
         high=high,
         drawn_starts=group.drawn,
         designed_starts=len(group.ends) - group.drawn,
-        ball_speeds_rpm=tuple(from_si(speed, "rpm") for speed in example.ball_speeds),
-        natural_frequency_rpm=None if example.frequency is None else from_si(example.frequency, "rpm"),
+        ball_speeds=example.ball_speeds,
+        natural_frequency=example.frequency,
         level_db=_level(subject, example),
         level_range_db=(min(levels), max(levels)) if levels else None,
-        residual_imbalance_g_mm=from_si(example.residual, "g_mm"),
+        residual_imbalance=example.residual,
         example=AttractorExample(
             start_angles_deg=example.start.angles_deg,
             start_speeds_rpm=example.start.speeds_rpm,
-            duration_s=example.duration,
+            duration=example.duration,
             confirmed=group.confirmed,
             command=_again(subject, example, lot),
             simulate=_simulate(subject, example),

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import replace
-from typing import Final, Literal
+from typing import Annotated, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.search import MARGIN, Search, decided, searched
 from abu_calc.dynamics.stability.verdict import Stability, judged
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 
 Array = NDArray[np.float64]
 Kind = Literal["drift", "growth", "undecided"]
@@ -39,23 +39,47 @@ SETTLED, LEFT = 0.1, 10.0
 """Ratios of these two: below the first the balls have settled, above the second they have left."""
 
 
-@dataclass(frozen=True)
-class Consequence:
-    """The end of a run of `duration` [s]: balls in a stable arrangement ("drift"), away from balance ("growth"), or
-    neither within the work allowed ("undecided").
-
-    `angles` [rad] of the arrangement they end in and its `growth_rate` [1/s], None unless they drift. `residual`: the
-    largest residual imbalance at the end over that at the start, None without a run.
-    """
-
-    kind: Kind
-    duration: float
-    residual: float | None = None
-    angles: tuple[float, ...] | None = None
-    growth_rate: float | None = None
+RUN: Final = f"Simulated without friction from the worst arrangement, disturbed by {DISTURBANCE:g} rad at most"
+ENDS: Final[dict[Kind, str]] = {
+    "drift": "the balls drift to a stable arrangement nearby and balance there",
+    "growth": "the balls leave the balanced state",
+    "undecided": "the run does not decide whether the balls drift to a stable arrangement or leave the balanced state",
+}
 
 
-def consequence(scene: Scene, worst: Stability, half_angle: float = 0.0) -> Consequence | None:
+@record
+class ArrangementEnd(Record):
+    """The end of a run that starts in the worst arrangement, a little disturbed."""
+
+    kind: Annotated[str, Quantity("what the balls do", "", 4, "drift, growth or undecided")]
+    simulated_time: Annotated[float, Quantity("simulated time", unit="s")]
+    residual_ratio: Annotated[float | None, Quantity("residual imbalance at the end over that at the start")]
+    resting_angles: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5, unit="deg")]
+    growth_rate: Annotated[float | None, Quantity("growth rate there", "max Re λ", unit="per_s")]
+    text: Annotated[str, Quantity("in words")]
+
+
+def end_of_run(
+    kind: Kind, duration: float, residual: float | None = None, angles: tuple[float, ...] | None = None,
+    growth_rate: float | None = None,
+) -> ArrangementEnd:  # fmt: skip
+    """The end of a run of a `duration` [s]; `angles` [rad] of the arrangement that balls end in, if they drift."""
+    text = f"{RUN}, for {duration:.3g} s: {ENDS[kind]}"
+    if growth_rate is not None:
+        text += f" (growth rate {growth_rate:.3g} 1/s)"
+    if duration == 0:
+        text = "No simulation tells what becomes of the balls in the worst arrangement: the work allowed did not do"
+    return ArrangementEnd(
+        kind=kind,
+        simulated_time=duration,
+        residual_ratio=residual,
+        resting_angles=angles,
+        growth_rate=growth_rate,
+        text=f"{text}.",
+    )
+
+
+def consequence(scene: Scene, worst: Stability, half_angle: float = 0.0) -> ArrangementEnd | None:
     """Simulate the scene from its worst arrangement, disturbed by 0.02 rad at most; None unless others are stable.
 
     At constant speed, without effects other than contact of balls, as the linear motion has it. `worst`: the stability
@@ -71,7 +95,7 @@ def consequence(scene: Scene, worst: Stability, half_angle: float = 0.0) -> Cons
     try:
         return _followed(disturbed, duration, search)
     except NotTrustworthyError:
-        return Consequence("undecided", 0.0)
+        return end_of_run("undecided", 0.0)
 
 
 def _disturbed(scene: Scene, angles: tuple[float, ...]) -> Scene:
@@ -100,7 +124,7 @@ def _ranks(angles: Array) -> Array:
     return ranks
 
 
-def _followed(scene: Scene, duration: float, search: Search) -> Consequence:
+def _followed(scene: Scene, duration: float, search: Search) -> ArrangementEnd:
     """The run, as long as the work allowed reaches."""
     scene = replace(scene, duration=duration)
     equations = assemble(scene)
@@ -117,14 +141,14 @@ def _followed(scene: Scene, duration: float, search: Search) -> Consequence:
     share = math.ceil(LAST * SAMPLES)
     ratio = float(left[-share:].max() / left[:share].max())
     if ratio > LEFT:
-        return Consequence("growth", duration, ratio)
+        return end_of_run("growth", duration, ratio)
     resting = closed(search.races, angles[:, -share:].mean(axis=1))
     if ratio < SETTLED and resting is not None:
         motion = BalancedMotion(search.listed[0].scene, tuple(math.remainder(a, math.tau) for a in resting))
         rate = decided(motion, scene.speed)[1]
         if rate < -MARGIN * scene.speed:
-            return Consequence("drift", duration, ratio, motion.angles, rate)
-    return Consequence("undecided", duration, ratio)
+            return end_of_run("drift", duration, ratio, motion.angles, rate)
+    return end_of_run("undecided", duration, ratio)
 
 
 def _residual(search: Search, angles: Array) -> Array:

@@ -10,12 +10,12 @@ from typing import Annotated, ClassVar, Final, NamedTuple, Self
 from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.arrangements import ARRANGEMENTS, Arrangement
-from abu_calc.dynamics.stability.boundaries import Boundary, boundaries, crossings_of, growth_over
-from abu_calc.dynamics.stability.stall import HangingBounds, hanging_bounds
+from abu_calc.dynamics.stability.boundaries import Boundary, Crossing, boundaries, crossings_of, growth_over
+from abu_calc.dynamics.stability.stall import hanging_bounds
 from abu_calc.dynamics.stability.verdict import Stability, critical_damping
 from abu_calc.dynamics.stability.verdict import stability as judged
 from abu_calc.features.stability.attractors import Attractor, AttractorSearch, attractors_of
-from abu_calc.features.stability.disturbed import DISTURBANCE, Consequence
+from abu_calc.features.stability.disturbed import ArrangementEnd, consequence
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
 from abu_calc.foundation.checks import Check, verdict
 from abu_calc.foundation.errors import InputError, Place
@@ -38,7 +38,7 @@ class HangingBound(Record):
     """Viscous drag rate above which balls do not stall in one of three ways; null if no drag rate suffices."""
 
     state: Annotated[str, Quantity("balls can stall")]
-    drag_per_s: Annotated[float | None, Quantity("up to a drag rate of")]
+    drag: Annotated[float | None, Quantity("up to a drag rate of", unit="per_s")]
     margin: Annotated[float | None, Quantity("drag rate over the bound")]
 
 
@@ -46,8 +46,8 @@ class HangingBound(Record):
 class Hanging(Record):
     """Closed bounds at the scene's speed: they suffice and are not necessary."""
 
-    drag_per_s: Annotated[float, Quantity("viscous drag rate of the race", "h₀")]
-    hanging_drag_per_s: Annotated[float | None, Quantity("drag rate above which no ball stalls")]
+    drag: Annotated[float, Quantity("viscous drag rate of the race", "h₀", unit="per_s")]
+    hanging_drag: Annotated[float | None, Quantity("drag rate above which no ball stalls", unit="per_s")]
     doubt: Annotated[bool, Quantity("balls may stall")]
     bounds: tuple[HangingBound, ...]
 
@@ -58,52 +58,13 @@ class Hanging(Record):
             return None
         bounds = hanging_bounds(scene, half_angle, horizontal=scene.effect("gravity") is not None)
         drags = zip(STATES, (bounds.resonance, bounds.damped, bounds.gravity), strict=True)
-        return cls.read(
-            bounds,
-            hanging_drag_per_s=finite(bounds.largest),
-            doubt=bounds.doubt(),
-            bounds=tuple(_bound(bounds, state, drag) for state, drag in drags if drag > 0),
-        )
-
-
-def _bound(bounds: HangingBounds, state: str, drag: float) -> HangingBound:
-    return HangingBound(state=state, drag_per_s=finite(drag), margin=bounds.margin(drag))
-
-
-RUN: Final = f"Simulated without friction from the worst arrangement, disturbed by {DISTURBANCE:g} rad at most"
-ENDS: Final = {
-    "drift": "the balls drift to a stable arrangement nearby and balance there",
-    "growth": "the balls leave the balanced state",
-    "undecided": "the run does not decide whether the balls drift to a stable arrangement or leave the balanced state",
-}
-
-
-@record
-class ArrangementEnd(Record):
-    """The end of a run that starts in the worst arrangement, a little disturbed."""
-
-    kind: Annotated[str, Quantity("what the balls do", "", 4, "drift, growth or undecided")]
-    simulated_time_s: Annotated[float, Quantity("simulated time")]
-    residual_ratio: Annotated[float | None, Quantity("residual imbalance at the end over that at the start")]
-    resting_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
-    growth_rate_per_s: Annotated[float | None, Quantity("growth rate there", "max Re λ")]
-    text: Annotated[str, Quantity("in words")]
-
-    @classmethod
-    def of(cls, end: Consequence) -> Self:
-        """Record of the simulated outcome."""
-        text = f"{RUN}, for {end.duration:.3g} s: {ENDS[end.kind]}"
-        if end.growth_rate is not None:
-            text += f" (growth rate {end.growth_rate:.3g} 1/s)"
-        if end.duration == 0:
-            text = "No simulation tells what becomes of the balls in the worst arrangement: the work allowed did not do"
         return cls(
-            kind=end.kind,
-            simulated_time_s=end.duration,
-            residual_ratio=end.residual,
-            resting_angles_deg=None if end.angles is None else tuple(map(wrapped_deg, end.angles)),
-            growth_rate_per_s=end.growth_rate,
-            text=f"{text}.",
+            drag=bounds.drag,
+            hanging_drag=bounds.largest,
+            doubt=bounds.doubt(),
+            bounds=tuple(
+                HangingBound(state=state, drag=drag, margin=bounds.margin(drag)) for state, drag in drags if drag > 0
+            ),
         )
 
 
@@ -130,20 +91,11 @@ Pairs = tuple[tuple[float, float], ...]
 
 
 @record
-class Crossing(Record):
-    """A speed at which eigenvalues or multipliers cross the edge of stability."""
-
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    growing_below: Annotated[int, Quantity("growing below it")]
-    growing_above: Annotated[int, Quantity("growing above it")]
-
-
-@record
 class GrowthAt(Record):
     """Growth rate of the slowest-dying disturbance at a speed; below zero it dies out."""
 
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    growth_rate_per_s: Annotated[float, Quantity("growth rate of a disturbance", "max Re λ")]
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    growth_rate: Annotated[float, Quantity("growth rate of a disturbance", "max Re λ", unit="per_s")]
 
 
 @record
@@ -151,19 +103,21 @@ class StabilityResult(Result):
     """The balanced state of a scene at its speed; complex numbers as real and imaginary part."""
 
     command: ClassVar[str] = "stability"
-    left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched"}
     optional: ClassVar[frozenset[str]] = frozenset(
         {"arm_advice", "swing_arm", "arm_motion", "growth_by_speed", "consequence", "attractors", "attractor_search"}
     )
 
     model: SceneModel
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
     state: Annotated[str | None, Quantity("state judged", "", 4, "balanced, race still or arm alone")]
     stable: Annotated[bool | None, Quantity("stable")]
-    growth_rate_per_s: Annotated[float | None, Quantity("growth rate of a disturbance", "max Re λ")]
+    growth_rate: Annotated[float | None, Quantity("growth rate of a disturbance", "max Re λ", unit="per_s")]
     eigenvalues: Annotated[Pairs | None, Quantity("eigenvalues", "λ", 5, "1/s")]
     floquet_multipliers: Annotated[Pairs | None, Quantity("Floquet multipliers of one revolution", "μ", 5)]
-    critical_damping_N_s_per_m: Annotated[float | None, Quantity("damping against parametric resonance", "h_sh")]
+    critical_damping: Annotated[
+        float | None, Quantity("damping against parametric resonance", "h_sh", unit="N_s_per_m")
+    ]
     resting_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
     arrangement: Annotated[str, Quantity("arrangement", "", 4, "asked for: worst, fan or start")]
     arrangements_judged: Annotated[int, Quantity("arrangements judged")]
@@ -181,8 +135,7 @@ class StabilityResult(Result):
     attractors: tuple[Attractor, ...] | None = None
     """All attractors that starts reach, if they were asked for."""
     attractor_search: AttractorSearch | None = None
-    searched_rpm: tuple[float, float] | None
-    """The range of speeds that boundaries were looked for in."""
+    searched: Annotated[tuple[float, float] | None, Quantity("range in which boundaries were looked for", unit="rpm")]
 
 
 @checked
@@ -208,9 +161,7 @@ def stability(
                          remedy="Add --attractors, Python: attractors=True.")  # fmt: skip
     way = next(name for name in ARRANGEMENTS if name == arrangement)
     subject = _subject(source, scene)
-    if crossings and speeds_rpm is None:
-        rated = from_si(subject.scene.speed, "rpm")
-        speeds_rpm = SLOWEST * rated, min(FASTEST * rated, FASTEST_RPM)
+    band = _band(speeds_rpm, subject.scene.speed if crossings else None)
     pressed = grinds(subject.scene)
     if attractors and pressed:
         raise InputError(
@@ -220,35 +171,42 @@ def stability(
     progress("balanced state")
     judgement = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.
-    if speeds_rpm:
-        progress(f"speeds from {speeds_rpm[0]:g} to {speeds_rpm[1]:g} rpm")
-    limits = _limits(subject, speeds_rpm, way) if speeds_rpm and judgement.reason is None else None
+    limits = crossed = None
+    if band:
+        progress(f"speeds from {from_si(band[0], 'rpm'):g} to {from_si(band[1], 'rpm'):g} rpm")
+    if band and judgement.reason is None:
+        limits = boundaries(subject.scene, *band, subject.half_angle, way)
+        crossed = crossings_of(subject.scene, *band, subject.half_angle, way) if crossings else None
     arm = _on_arm(subject)
     ends = attractors_of(subject, DRAWN if starts is None else starts, seed, progress, only) if attractors else None
-    return StabilityResult.read(
-        subject,
-        judgement,
+    return StabilityResult(
+        title=subject.title,
         checks=(_check(judgement, way, pressed=pressed), *(ends[2:] if ends else ())),
         warnings=(*subject.warnings, *stability_warnings(judgement, subject.scene, way), *arm.warnings),
+        provenance=subject.provenance,
         model=SceneModel.of(subject.scene),
+        speed=judgement.speed,
+        state=judgement.state,
+        stable=judgement.stable,
+        growth_rate=judgement.growth_rate,
         eigenvalues=_pairs(judgement.eigenvalues),
         floquet_multipliers=_pairs(judgement.multipliers),
-        critical_damping_N_s_per_m=critical_damping(subject.scene),
+        critical_damping=critical_damping(subject.scene),
         resting_angles_deg=None if judgement.angles is None else tuple(map(wrapped_deg, judgement.angles)),
         arrangement=arrangement,
         arrangements_judged=judgement.arrangements,
         hanging=Hanging.of(subject.scene, subject.half_angle),
         effects_left_out=judgement.left_out,
         boundaries_rpm=None if limits is None else stability_boundaries(limits),
-        crossings_rpm=_crossings(subject, speeds_rpm, way) if crossings and speeds_rpm and limits is not None else None,
+        crossings_rpm=crossed,
         arm_advice=arm.advice,
         swing_arm=arm.bounds,
         arm_motion=arm.motion,
-        growth_by_speed=None if limits is None or speeds_rpm is None else _growth(subject, speeds_rpm, limits, way),
+        growth_by_speed=None if limits is None or band is None else _growth(subject, band, limits, way),
         consequence=_consequence(subject, judgement, way, progress),
         attractors=ends[0] if ends else None,
         attractor_search=ends[1] if ends else None,
-        searched_rpm=speeds_rpm,
+        searched=band,
     )
 
 
@@ -256,11 +214,8 @@ def _consequence(subject: Subject, judgement: Stability, way: Arrangement, progr
     """Outcome of the worst arrangement if it grows and others do not, on an anisotropic support."""
     if way != "worst" or judgement.stable is not False or judgement.multipliers is None:
         return None
-    from abu_calc.features.stability.disturbed import consequence
-
     progress("the worst arrangement, disturbed")
-    end = consequence(subject.scene, judgement, subject.half_angle)
-    return None if end is None else ArrangementEnd.of(end)
+    return consequence(subject.scene, judgement, subject.half_angle)
 
 
 class ArmAnswer(NamedTuple):
@@ -295,27 +250,24 @@ def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
     raise InputError("not a range of speeds", place=Place(key="speeds_rpm"), found=speed_range, allowed=SPEEDS)
 
 
-def _limits(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Boundary, ...]:
-    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
-    return boundaries(subject.scene, low, high, subject.half_angle, way)
+def _band(speeds_rpm: tuple[float, float] | None, rated: float | None) -> tuple[float, float] | None:
+    """Range of speeds [rad/s] as asked for, else about the rated one."""
+    if speeds_rpm is not None:
+        return to_si(speeds_rpm[0], "rpm"), to_si(speeds_rpm[1], "rpm")
+    return None if rated is None else (SLOWEST * rated, min(FASTEST * rated, to_si(FASTEST_RPM, "rpm")))
 
 
 def _growth(
-    subject: Subject, speeds_rpm: tuple[float, float], limits: tuple[Boundary, ...], way: Arrangement
+    subject: Subject, band: tuple[float, float], limits: tuple[Boundary, ...], way: Arrangement
 ) -> tuple[GrowthAt, ...]:
-    """Evenly over the range, and where stability changes."""
-    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
+    """Evenly over the band of speeds, and where stability changes."""
+    low, high = band
     even = (low + (high - low) * step / (SPEEDS_SHOWN - 1) for step in range(SPEEDS_SHOWN))
     speeds = sorted({*even, *(boundary.speed for boundary in limits)})
     return tuple(
-        GrowthAt(speed_rpm=from_si(speed, "rpm"), growth_rate_per_s=rate)
+        GrowthAt(speed=speed, growth_rate=rate)
         for speed, rate in growth_over(subject.scene, speeds, subject.half_angle, way)
     )
-
-
-def _crossings(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Crossing, ...]:
-    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
-    return tuple(map(Crossing.read, crossings_of(subject.scene, low, high, subject.half_angle, way)))
 
 
 def grinds(scene: Scene) -> bool:

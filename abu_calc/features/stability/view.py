@@ -7,9 +7,10 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
+from abu_calc.dynamics.stability.boundaries import Crossing
 from abu_calc.features.explain.steps import STEPS, Step, step_blocks
 from abu_calc.features.stability.attractors_view import attractor_blocks, attractor_figure
-from abu_calc.features.stability.study import Crossing, GrowthAt, Hanging, StabilityResult
+from abu_calc.features.stability.study import GrowthAt, Hanging, StabilityResult
 from abu_calc.features.swing_arm.view import BOUNDS, arm_bounds, arm_line, motion_blocks, printed_otherwise
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot, alike

@@ -24,10 +24,10 @@ from abu_calc.features.sweep.result import (
 from abu_calc.features.sweep.sampling import BLOCK, Sample, block
 from abu_calc.features.sweep.sensitivity import Indices, RegressionSums, saltelli
 from abu_calc.features.sweep.store import Store, quoted
+from abu_calc.foundation.shares import interval
 
 REASONS: Final = 20
 """Most reasons that are listed."""
-CONFIDENCE: Final = 0.95
 SHARES: Final = (0.0, 0.01, 0.02, *(k / 20 for k in range(1, 20)), 0.98, 0.99, 1.0)
 """Shares of samples for which a distribution is given."""
 START: Final = "start.kind"
@@ -112,14 +112,7 @@ def meets(store: Store, what: What) -> MeetsLimits:
 def _share(store: Store, name: str) -> LimitShare:
     query = f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE {TRIED} AND member < {store.drawn}"
     met, count = store.ask(query)[0]
-    return LimitShare(share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
-
-
-def _interval(met: int, count: int) -> tuple[float, float]:
-    from scipy.stats import binomtest
-
-    interval = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
-    return float(interval.low), float(interval.high)
+    return LimitShare(share=met / count, confidence_interval=interval(met, count), met=int(met), of=int(count))
 
 
 def basins(store: Store) -> tuple[Basin, ...]:
@@ -132,7 +125,7 @@ def basins(store: Store) -> tuple[Basin, ...]:
         "GROUP BY 1"
     )
     return tuple(
-        Basin(start=name, share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
+        Basin(start=name, share=met / count, confidence_interval=interval(met, count), met=int(met), of=int(count))
         for name, met, count in store.ask(query)
     )
 
@@ -150,17 +143,14 @@ def sensitivities(
     unexplained: dict[str, float] = {}
     for name, indices in every.items():
         if indices is not None:
-            pairs = zip(sample.factors, indices.each, strict=True)
-            rows = [Sensitivity(key=param.key, first_order=each.first_order, total=each.total) for param, each in pairs]
-            by_name[name] = tuple(sorted(rows, key=lambda row: -row.total))
+            by_name[name] = tuple(sorted(indices.each, key=lambda row: -row.total))
             unexplained[name] = indices.unexplained
     return by_name, unexplained
 
 
 def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
     """All numbers in one pass, since their products are the same."""
-    levels = tuple(len(factor.variation.values) for factor in sample.factors)
-    fits = {name: RegressionSums(levels, sample.runs) for name in names}
+    fits = {name: RegressionSums(sample.factors, sample.runs) for name in names}
     for members, columns in parts_of(store, names):
         places = np.empty((len(members), len(sample.factors)))
         for first in np.unique(members // BLOCK).tolist():
@@ -183,7 +173,7 @@ def _of_saltelli(store: Store, sample: Sample, names: Sequence[str]) -> dict[str
         parts = column.reshape(len(sample.factors) + 2, -1)
         whole = np.flatnonzero(np.isfinite(parts).all(axis=0))
         rows = whole[np.searchsorted(whole, np.arange(parts.shape[1])) % len(whole)] if len(whole) else whole
-        indices[name] = saltelli(parts[:, rows].ravel(), len(sample.factors)) if len(whole) else None
+        indices[name] = saltelli(parts[:, rows].ravel(), sample.factors) if len(whole) else None
     return indices
 
 

@@ -1,15 +1,17 @@
 """Workers of a sweep: this process, several, or another's executor; and their record in the store."""
 
+import json
 import os
 import platform
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import contextmanager, suppress
 from itertools import islice
 from time import perf_counter
 from typing import Final
 
 from abu_calc.features.sweep.batches import BatchStudy as Computed
-from abu_calc.features.sweep.batches import Row, given, here, in_batches, processes
+from abu_calc.features.sweep.batches import RenewableExecutor, Row, given, here, in_batches, processes
 from abu_calc.features.sweep.cluster import (
     PLACE,
     client_of,
@@ -19,15 +21,17 @@ from abu_calc.features.sweep.cluster import (
     refuse_other_software,
     software,
     threads_of,
+    versions,
     worker_name,
 )
 from abu_calc.features.sweep.columns import OUTSIDE
 from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.store import Store
 from abu_calc.features.sweep.store_faults import fault
-from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.errors import AbuError, InputError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
+from abu_calc.inputs.reading.document import FileReading
 
 Take = Callable[[list[Row]], None]
 
@@ -51,11 +55,40 @@ class Workers:
         if client is not None:
             refuse_other_software(client)
 
+    def executors(self) -> RenewableExecutor:
+        """Source of their executors."""
+        if self.executor is None:
+            return here() if self.workers is None or self.workers < 2 else processes(self.workers)
+        client = client_of(self.executor)
+        count = getattr(self.executor, "_max_workers", None) or (threads_of(client) if client else os.cpu_count()) or 1
+        alive = None if client is None else lambda: is_alive(client)
+        ends = is_ours_to_end(self.executor)
+        return given(self.executor, count, ends=ends, alive=alive, patience=self.patience)
 
-def described(workers: int | None, executor: Executor | None) -> str:
-    """Description of the workers, for the store."""
-    who = type(executor).__name__ if executor is not None else f"{workers or 1} of this machine"
-    return f"{who}; Python {platform.python_version()}, {platform.system()} {platform.machine()}"
+    @property
+    def described(self) -> str:
+        """Description of the workers, for the store."""
+        who = f"{self.workers or 1} of this machine" if self.executor is None else type(self.executor).__name__
+        return f"{who}; Python {platform.python_version()}, {platform.system()} {platform.machine()}"
+
+    @contextmanager
+    def noted(self, store: Store, files: Sequence[FileReading], seed: int, command: str | None) -> Iterator[None]:
+        """Note in the store who computes, from when until when."""
+        store.begun({
+            "file": ", ".join(each.file for each in files),
+            "sha256": ", ".join(each.sha256 for each in files),
+            "versions": json.dumps({**software(), **versions("distributed")}),
+            "seed": seed,
+            "command": command,
+            "workers": self.described,
+        })  # fmt: skip
+        try:
+            yield
+        except BaseException:
+            with suppress(AbuError):  # the first fault is the one to tell
+                store.ended()
+            raise
+        store.ended()
 
 
 def compute(study: SweepStudy, store: Store, hands: Workers, progress: Progress) -> None:
@@ -106,15 +139,8 @@ class Attributed:
 
 def _computed(study: Computed, missing: Iterator[int], counted: "_Counted", hands: Workers) -> None:
     workers, executor, study = hands.workers, hands.executor, Attributed(study, software())
-    if executor is not None:
-        client = client_of(executor)
-        count = getattr(executor, "_max_workers", None) or (threads_of(client) if client else os.cpu_count()) or 1
-        alive = None if client is None else lambda: is_alive(client)
-        ours = given(executor, count, ends=is_ours_to_end(executor), alive=alive, patience=hands.patience)
-        in_batches(study, missing, ours, counted)
-        return
-    if workers is None or workers < 2:
-        in_batches(study, missing, here(), counted)
+    if executor is not None or workers is None or workers < 2:
+        in_batches(study, missing, hands.executors(), counted)
         return
     begun = perf_counter()
     first = list(islice(missing, FIRST))

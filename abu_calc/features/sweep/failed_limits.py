@@ -60,7 +60,7 @@ def _failed(
 ) -> FailedLimit:
     fails = columns[name] == 0
     margin = MARGINS.get(name, _answer)(columns, limits, name)
-    fit = RegressionSums(tuple(len(factor.variation.values) for factor in sample.factors), len(margin))
+    fit = RegressionSums(sample.factors, len(margin))
     fit.add(fit.products(places), margin, np.arange(len(margin)))
     indices = fit.indices()
     rows = [] if indices is None else [

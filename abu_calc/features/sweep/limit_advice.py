@@ -58,11 +58,13 @@ def advice(
     plan: Plan, ask: SweepRequest, machine: Machine, failed: Sequence[FailedLimit], store: Store, compute: Compute
 ) -> tuple[tuple[LimitAdvice, ...], int]:
     """Changes that raise the share, the best first, and how many were tried."""
+    if not failed or plan.design is None or plan.study.what != "build":  # only builds have all flags in the store
+        return (), 0
     flags, accuracy = dict(flags_of(store)), plan.study.accuracy
-    if not failed or plan.design is None or plan.study.what != "build" or not FEWEST <= store.drawn == len(flags):
+    if not FEWEST <= store.drawn == len(flags):
         return (), 0
     try:
-        before = judge(machine.whole("sweep"), plan.study.accuracy)
+        before = judge(machine.whole("sweep"), accuracy)
     except AbuError:  # `abu size` says why
         return (), 0
     changes = [

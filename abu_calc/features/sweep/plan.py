@@ -82,7 +82,7 @@ class SweepRequest:
 
 def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> SweepRequest:
     """The table of the file, with the arguments that are not None in its place; keys of `vary` add to those there."""
-    table = _table(source)
+    table = _given(source) or Sweep()
     chosen = {name: getattr(table, name) if options.get(name) is None else options[name] for name in NAMES}
     one_of("what", chosen["what"], WHAT)
     one_of("sampling", chosen["sampling"], SCHEMES)
@@ -119,10 +119,6 @@ def _given(source: Machine | SceneDescription) -> Sweep | None:
     if isinstance(source, SceneDescription):
         return source.sweep
     return source.whole("sweep").sweep if source.two_races is None else source.two_races.sweep
-
-
-def _table(source: Machine | SceneDescription) -> Sweep:
-    return _given(source) or Sweep()
 
 
 EXAMPLE: Final = "wheel.imbalance_g_mm=normal(265,40), in quotes"

@@ -196,31 +196,23 @@ class Scenes(SweepStudy):
         warm = values.get("start.temperature_C")
         angle = to_si(values.get("start.angle_deg", 0.0), "deg")
         scene = turned(scene, angle, 1.0 if warm is None else drag_ratio(warm))
-        run = scene_once(scene, TOLERANCE * self.accuracy / USUAL)
-        response = run.response
+        response, balanced = scene_once(scene, TOLERANCE * self.accuracy / USUAL)
         return (
             response.level, response.quiet_time, response.rest_time, response.settling_time,
             from_si(response.axis_amplitude, "mm"),
-            from_si(response.residual_imbalance, "g_mm"), run.balanced, run.balanced,
+            from_si(response.residual_imbalance, "g_mm"), balanced, balanced,
         )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class SceneOutcome:
-    """A scene given outright, run once, and whether its balls balance."""
+def scene_once(scene: Scene, tolerance: float) -> tuple[Response, bool]:
+    """One run of a scene given outright, and whether its balls balance, as those of a machine do.
 
-    response: Response
-    slip: float
-    balanced: bool
-
-
-def scene_once(scene: Scene, tolerance: float) -> SceneOutcome:
-    """One run of a scene. It balances as a machine does: see `balanced`. Raises NotTrustworthyError."""
+    Raises NotTrustworthyError.
+    """
     scene, _ = with_parted_balls(scene)
     response = evaluate(scene, integrated(scene, needed_times(scene), tolerance, MOST_EVALUATIONS)[0])
     slipping = slip(response, abs(response.final.speed) or scene.speed)
-    balanced = balances(response.residual_imbalance, allowed_of_scene(scene, response.ball_angles), slipping)
-    return SceneOutcome(response, slipping, balanced)
+    return response, balances(response.residual_imbalance, allowed_of_scene(scene, response.ball_angles), slipping)
 
 
 def _line(text: str) -> str:

@@ -8,13 +8,15 @@ are left out; the variance that no product explains is reported too. For Saltell
 scipy.stats.sobol_indices.
 """
 
+from collections.abc import Sequence
 from itertools import combinations, product
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.features.sweep.result import Sensitivity
+from abu_calc.features.sweep.sampling import Factor
 
 Array = NDArray[np.float64]
 
@@ -30,19 +32,10 @@ LEVELS: Final = 12
 ROUNDING: Final = 1e-9
 
 
-@dataclass(frozen=True)
-class Index:
-    """Shares of the variance: by the value alone, and with all it does together with others."""
-
-    first_order: float
-    total: float
-
-
-@dataclass(frozen=True)
-class Indices:
+class Indices(NamedTuple):
     """One for each factor; `unexplained`: the share of the variance that no product explains."""
 
-    each: tuple[Index, ...]
+    each: tuple[Sensitivity, ...]
     unexplained: float
 
 
@@ -56,16 +49,14 @@ class RegressionSums:
     `levels` of each factor: how many choices it has, 0 for a number; `members`: about how many there will be.
     """
 
-    def __init__(self, levels: tuple[int, ...], members: int) -> None:
-        self.levels = tuple(0 if count > LEVELS else count for count in levels)
+    def __init__(self, factors: Sequence[Factor], members: int) -> None:
+        self.factors = factors
+        choices = (len(factor.variation.values) for factor in factors)
+        self.levels = tuple(0 if count > LEVELS else count for count in choices)
         self.terms = _terms(self.levels, members)
         size = len(self.terms) + 1
         self.gram, self.right = np.zeros((FOLDS, size, size)), np.zeros((FOLDS, size))
         self.squares, self.count = np.zeros(FOLDS), np.zeros(FOLDS)
-
-    def take(self, probabilities: Array, values: Array, members: NDArray[np.int64]) -> None:
-        """Some members: where their values lie (members × factors), their number, and which they are."""
-        self.add(self.products(probabilities), values, members)
 
     def products(self, probabilities: Array) -> Array:
         """The value of each product for each member, which serves all numbers of the same members."""
@@ -91,7 +82,7 @@ class RegressionSums:
         mean = self.right[:, 0].sum() / count
         variance = self.squares.sum() / count - mean**2
         if variance <= ROUNDING * max(mean**2, 1e-300):
-            return Indices((Index(0.0, 0.0),) * len(self.levels), 0.0)
+            return _none(self.factors)
         unseen = [(self.gram.sum(axis=0) - self.gram[k], self.right.sum(axis=0) - self.right[k]) for k in range(FOLDS)]
         picked = min(_nested(self.terms), key=lambda some: self._error(some, unseen))
         G, b = _part(self.gram.sum(axis=0), self.right.sum(axis=0), picked)
@@ -103,13 +94,14 @@ class RegressionSums:
         terms = [self.terms[k - 1] for k in picked if k]
         # Not the variance of these members: an orthonormal sum knows that of all there could be.
         shares = parts[1:] / (parts[1:].sum() + left / count)
-        each = tuple(self._index(factor, terms, shares) for factor in range(len(self.levels)))
+        each = tuple(self._index(k, terms, shares) for k in range(len(self.factors)))
         return Indices(each, float(1 - min(shares.sum(), 1.0)))
 
-    def _index(self, factor: int, terms: list[Term], shares: Array) -> Index:
+    def _index(self, factor: int, terms: list[Term], shares: Array) -> Sensitivity:
         first = sum(s for term, s in zip(terms, shares, strict=True) if [variable for variable, _ in term] == [factor])
         total = sum(s for term, s in zip(terms, shares, strict=True) if factor in [variable for variable, _ in term])
-        return Index(float(min(first, 1.0)), float(min(total, 1.0)))
+        key = self.factors[factor].key
+        return Sensitivity(key=key, first_order=float(min(first, 1.0)), total=float(min(total, 1.0)))
 
     def _error(self, picked: tuple[int, ...], unseen: list[tuple[Array, Array]]) -> float:
         """Squared error for samples that the fit has not seen; `unseen`: the sums without each fold."""
@@ -188,15 +180,21 @@ def _functions(levels: int, probability: Array) -> list[Array]:
     return [np.sqrt(levels) * basis[chosen, k] for k in range(levels)]
 
 
-def saltelli(values: Array, factors: int) -> Indices:
+def _none(factors: Sequence[Factor]) -> Indices:
+    """Of a number that is the same for all."""
+    return Indices(tuple(Sensitivity(key=factor.key, first_order=0.0, total=0.0) for factor in factors), 0.0)
+
+
+def saltelli(values: Array, factors: Sequence[Factor]) -> Indices:
     """Indices from the samples of Saltelli's design in their order, each of its parts a power of two."""
     from scipy.stats import sobol_indices
 
-    parts = values.reshape(factors + 2, -1)
+    parts = values.reshape(len(factors) + 2, -1)
     if np.ptp(parts) <= ROUNDING * np.abs(parts).max():
-        return Indices((Index(0.0, 0.0),) * factors, 0.0)
+        return _none(factors)
     indices: Any = sobol_indices(
         func={"f_A": parts[:1].copy(), "f_B": parts[1:2].copy(), "f_AB": parts[2:, None, :].copy()}, n=parts.shape[1]
     )
-    pairs = zip(np.atleast_1d(indices.first_order), np.atleast_1d(indices.total_order), strict=True)
-    return Indices(tuple(Index(float(first), float(total)) for first, total in pairs), 0.0)
+    rows = zip(factors, np.atleast_1d(indices.first_order), np.atleast_1d(indices.total_order), strict=True)
+    each = (Sensitivity(key=row.key, first_order=float(first), total=float(total)) for row, first, total in rows)
+    return Indices(tuple(each), 0.0)

@@ -1,6 +1,5 @@
 """Many machines like one: the share that meets the limits, and the values that decide."""
 
-import json
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
@@ -12,10 +11,9 @@ from typing import Any, Final
 from abu_calc.features.design.study import WORKERS
 from abu_calc.features.seats.seats import bearing_checks
 from abu_calc.features.sweep import answers
-from abu_calc.features.sweep import tolerance_costs as worth
-from abu_calc.features.sweep.cluster import software, versions
+from abu_calc.features.sweep.cluster import software
 from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
-from abu_calc.features.sweep.execution import Take, Workers, compute, described, once_more
+from abu_calc.features.sweep.execution import Take, Workers, compute, once_more
 from abu_calc.features.sweep.failed_limits import failed_limits
 from abu_calc.features.sweep.limit_advice import advice
 from abu_calc.features.sweep.plan import Plan, SweepRequest, asked, planned
@@ -23,7 +21,7 @@ from abu_calc.features.sweep.result import Failed, Kept, MeetsLimits, Members, P
 from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.store import Store, study_of
 from abu_calc.features.sweep.store_faults import checked_path, damaged, fault
-from abu_calc.features.sweep.tolerance_costs import Compute, Trials, loosened
+from abu_calc.features.sweep.tolerance_costs import Compute, Trials, prices
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError
@@ -98,9 +96,9 @@ def sweep(
         file, _identity(plan, accuracy), columns, texts,
         force=force and not resume, time_limit=ask.time_limit,
     )  # fmt: skip
-    database.drawn = plan.study.sample.drawn
     try:
-        _computed(plan, database, machine, hands, command, progress)
+        with hands.noted(database, [machine], plan.study.sample.seed, command):
+            compute(plan.study, database, hands, progress)
         members = Members(file, columns, database.runs, kept)
         progress("sweep: reading the answers")
 
@@ -171,32 +169,6 @@ def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
     }
 
 
-def _computed(
-    plan: Plan,
-    store: Store,
-    source: Machine | SceneDescription,
-    hands: Workers,
-    command: str | None,
-    progress: Progress,
-) -> None:
-    facts = {
-        "file": source.file,
-        "sha256": source.sha256,
-        "versions": json.dumps({**software(), **versions("distributed")}),
-        "seed": plan.study.sample.seed,
-        "command": command,
-        "workers": described(hands.workers, hands.executor),
-    }
-    store.begun(facts)
-    try:
-        compute(plan.study, store, hands, progress)
-    except BaseException:
-        with suppress(AbuError):  # the first fault is the one to tell
-            store.ended()
-        raise
-    store.ended()
-
-
 def _answered(
     plan: Plan,
     ask: SweepRequest,
@@ -207,6 +179,7 @@ def _answered(
     again: Compute,
 ) -> SweepResult:
     study, sample = plan.study, plan.study.sample
+    store.drawn = sample.drawn
     failed, late = answers.failed(store), answers.left_out(store)
     if (
         failed.members >= store.runs
@@ -219,9 +192,7 @@ def _answered(
     first = next(iter(by_name), None)
     ranked = by_name[first] if first else ()
     drawn = sample.scheme if any(not factor.variation.listed for factor in sample.factors) else "listed values"
-    halves = worth.halves(store, sample, study.what, ranked)
-    idle = [split.row.key for split in reversed(halves) if split.idle]
-    tried = loosened(study, store, idle, again)
+    priced = prices(study, store, ranked, again)
     limits = _limits(plan)
     failing = () if study.what != "build" or late else failed_limits(store, sample, met, limits)
     given, many = ((), 0) if not isinstance(source, Machine) else advice(plan, ask, source, failing, store, again)
@@ -246,7 +217,7 @@ def _answered(
         sensitivity=ranked,
         sensitivity_by_quantity=by_name,
         unexplained=unexplained,
-        prices=worth.prices(halves, tried),
+        prices=priced,
         failed_limits=failing,
         advice=given,
         tried=many,

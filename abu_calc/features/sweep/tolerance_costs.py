@@ -5,15 +5,15 @@ Values that decide nothing are each tried with twice their scatter: the same sam
 
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
 
 from abu_calc.features.sweep.answers import percentiles, there
 from abu_calc.features.sweep.batches import Row
-from abu_calc.features.sweep.columns import DECIDING, IMPATIENT, MEETS, What
+from abu_calc.features.sweep.columns import DECIDING, IMPATIENT, MEETS
 from abu_calc.features.sweep.result import Price, Sensitivity
 from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.sampling import Sample
@@ -30,15 +30,6 @@ KEPT: Final = 0.95
 
 Numbers = tuple[float | None, ...]
 Compute = Callable[["Trials", Iterator[int], Callable[[list[Row]], None]], None]
-
-
-class Loosened(NamedTuple):
-    """By how much the level rises that 95 % of these members keep [dB], and how many more of them miss a limit."""
-
-    way: str
-    rise: float | None
-    fail: int
-    members: int
 
 
 @dataclass(frozen=True)
@@ -67,10 +58,9 @@ class Trials:
         return self.studies[trial], self.members[member]
 
 
-def loosened(study: SweepStudy, store: Store, keys: Sequence[str], compute: Compute) -> dict[str, Loosened]:
-    """Each of these values with twice its scatter, as many as are cheap beside the sweep; of the others nothing.
-
-    Nor of trials that patience left out.
+def _loosened(study: SweepStudy, store: Store, keys: Sequence[str], compute: Compute) -> dict[str, dict[str, Any]]:
+    """Fields of the price of each value with twice its scatter, as many as are cheap beside the sweep; of the others
+    nothing. Nor of trials that patience left out.
     """
     many = int(min(MOST, max(LEAST, PART * store.drawn // max(len(keys), 1))))
     keys = keys[: int(PART * store.drawn) // many]
@@ -104,10 +94,12 @@ def _before(store: Store, names: Sequence[str], members: Sequence[int]) -> list[
     return store.ask(query)
 
 
-def _compared(way: str, before: Sequence[Numbers], after: Sequence[Numbers]) -> Loosened:
+def _compared(way: str, before: Sequence[Numbers], after: Sequence[Numbers]) -> dict[str, Any]:
+    """Rise of the level that 95 % of these members keep [dB], and how many more of them miss a limit."""
     was, now = _kept([level for level, _ in before]), _kept([level for level, _ in after])
     fail = sum(bool(met) for _, met in before) - sum(bool(met) for _, met in after)
-    return Loosened(way, None if was is None or now is None else now - was, fail, len(before))
+    rise = None if was is None or now is None else now - was
+    return {"loosened_to": way, "loosened_db": rise, "loosened_fail": fail, "loosened_of": len(before)}
 
 
 def _kept(levels: Sequence[float | None]) -> float | None:
@@ -157,40 +149,37 @@ LITTLE: Final = 0.5
 """Largest rise of the level with which a value may still be loosened [dB]."""
 
 
-class Halves(NamedTuple):
-    """The members by one value: what the level is in its better and its other half."""
+def prices(study: SweepStudy, store: Store, ranked: Sequence[Sensitivity], compute: Compute) -> tuple[Price, ...]:
+    """Price of each value of the file that is drawn as a number, with the advice that follows.
 
-    row: Sensitivity
-    better: str
-    median: float
-    gain: float
-    cost: float | None
-    within_chance: bool
-
-    @property
-    def idle(self) -> bool:
-        """True if the value decides nothing as it is, so that more scatter is worth a trial."""
-        return self.within_chance and self.row.total < FIRST
-
-
-def halves(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Halves, ...]:
-    """Halves for each value of the file that is drawn as a number."""
-    (whole,) = percentiles(store, DECIDING[what], (KEPT,), there(store))
+    Values that decide nothing as they scatter are worth a trial with twice the scatter; loosening is advised only after
+    it.
+    """
+    (whole,) = percentiles(store, DECIDING[study.what], (KEPT,), there(store))
     if whole is None:
         return ()
-    drawn = {factor.key for factor in sample.factors if factor.path and factor.variation.numbers}
-    splits = (_halves(store, DECIDING[what], row, whole) for row in ranked if row.key in drawn)
-    return tuple(split for split in splits if split is not None)
+    drawn = {factor.key for factor in study.sample.factors if factor.path and factor.variation.numbers}
+    split = ((row, _halves(store, DECIDING[study.what], row.key, whole)) for row in ranked if row.key in drawn)
+    priced = [(row, price) for row, price in split if price is not None]
+    idle = [row.key for row, price in reversed(priced) if price.within_chance and row.total < FIRST]
+    tried = _loosened(study, store, idle, compute)
+    return tuple(_advised(replace(price, **tried.get(price.key, {}))) for _, price in priced)
 
 
-def _halves(store: Store, name: str, row: Sensitivity, whole: float) -> Halves | None:
-    key = quoted(row.key)
-    (middle,) = percentiles(store, row.key, (0.5,), there(store))
+def _advised(price: Price) -> Price:
+    rise, fail = price.loosened_db, price.loosened_fail
+    loosen = rise is not None and rise <= LITTLE and fail is not None and fail <= 0
+    return replace(price, advice="may be loosened" if loosen else "" if price.within_chance else "tighten")
+
+
+def _halves(store: Store, name: str, key: str, whole: float) -> Price | None:
+    """Price of a value by the members in its better and its other half."""
+    (middle,) = percentiles(store, key, (0.5,), there(store))
     if middle is None:
         return None
     sides = []
     for side, sign in (("lower", "<="), ("upper", ">")):
-        where = f"{there(store)} AND {key} {sign} {middle!r}"
+        where = f"{there(store)} AND {quoted(key)} {sign} {middle!r}"
         many = store.ask(f"SELECT COUNT(*) FROM members WHERE {where}")[0][0]
         # By the binomial law of how many of a half lie below its own 95 % level.
         off = 1.96 * math.sqrt(KEPT * (1 - KEPT) / max(many, 1))
@@ -200,19 +189,12 @@ def _halves(store: Store, name: str, row: Sensitivity, whole: float) -> Halves |
     if not sides:
         return None
     (level, better, highest), worse = min(sides), max(sides)[0] if len(sides) > 1 else None
-    cost = None if worse is None else worse - whole
-    return Halves(row, better, middle, whole - level, cost, highest is None or whole <= highest)
-
-
-def prices(splits: Sequence[Halves], tried: Mapping[str, Loosened]) -> tuple[Price, ...]:
-    """Prices with the advice that follows; loosening is advised only after it was tried."""
-    return tuple(_price(split, tried.get(split.row.key)) for split in splits)
-
-
-def _price(split: Halves, tried: Loosened | None) -> Price:
-    loosen = tried is not None and tried.rise is not None and tried.rise <= LITTLE and tried.fail <= 0
-    loosened: dict[str, Any] = {} if tried is None else {
-        "loosened_to": tried.way, "loosened_db": tried.rise, "loosened_fail": tried.fail, "loosened_of": tried.members,
-    }  # fmt: skip
-    advice = "may be loosened" if loosen else "" if split.within_chance else "tighten"
-    return Price.read(split, key=split.row.key, **loosened, advice=advice)
+    return Price(
+        key=key,
+        better=better,
+        median=middle,
+        gain_db=whole - level,
+        cost_db=None if worse is None else worse - whole,
+        within_chance=highest is None or whole <= highest,
+        advice="",
+    )

@@ -279,7 +279,11 @@ def _prices(result: SweepResult, *, short: bool = False) -> list[Block]:
         rows = tuple(map(_loose, sorted(loose, key=lambda price: (price.advice != LOOSE, price.loosened_db or 0.0))))
         header = ("value", "tried with", "95 % level", "more fail", *(() if short else ("",)))
         grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
-        blocks += [Heading("Values that may be loosened", "loosen"), *(() if short else (_tried(loose[0]),)), grid]
+        blocks += [
+            Heading("Values that may be loosened", "loosen"),
+            *(() if short else (Paragraph(LOOSEN.format(loose[0].loosened_of)),)),
+            grid,
+        ]
     return blocks
 
 
@@ -293,10 +297,6 @@ def _tight(price: Price) -> tuple[str, ...]:
 def side_kept(price: Price) -> str:
     """Range in which a value is to be kept."""
     return f"{'to' if price.better == 'lower' else 'from'} {number(price.median)} {unit_of(price.key)}".rstrip()
-
-
-def _tried(price: Price) -> Paragraph:
-    return Paragraph(LOOSEN.format(price.loosened_of))
 
 
 def _loose(price: Price) -> tuple[str, ...]:

@@ -59,9 +59,9 @@ def test_the_growth_told_is_that_of_the_arrangement_told(refuted: Scene) -> None
 @pytest.mark.slow
 def test_balls_drift_from_it_to_a_stable_neighbour(refuted: Scene) -> None:
     end = consequence(refuted, stability(refuted))
-    assert end is not None and end.kind == "drift" and end.angles is not None and end.growth_rate is not None
-    assert end.growth_rate < 0 and end.residual is not None and end.residual < 1e-3
-    assert BalancedMotion(refuted, end.angles).growth(refuted.speed) == pytest.approx(end.growth_rate, rel=1e-6)
+    assert end is not None and end.kind == "drift" and end.resting_angles is not None and end.growth_rate is not None
+    assert end.growth_rate < 0 and end.residual_ratio is not None and end.residual_ratio < 1e-3
+    assert BalancedMotion(refuted, end.resting_angles).growth(refuted.speed) == pytest.approx(end.growth_rate, rel=1e-6)
     stiff = replace(refuted, speed=3.5)
     assert consequence(stiff, stability(stiff)) is None
 

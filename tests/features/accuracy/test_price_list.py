@@ -9,7 +9,7 @@ from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEff
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.integrators import choice
 from abu_calc.features.accuracy import study as module
-from abu_calc.features.accuracy.study import MeasuredPoint, PricePoint, ReferenceRun, cheapest, price_list
+from abu_calc.features.accuracy.study import MeasuredPoint, Reference, cheapest, price_list
 from abu_calc.features.accuracy.view import picture
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation.effect_selection import Ledger
@@ -69,7 +69,16 @@ def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
 def test_a_point_that_tighter_tolerances_of_its_method_do_not_confirm_came_near_by_chance(measured):
     """Motions with two ends: a loose run may land at the right one."""
     points = [
-        PricePoint("equations", "compiled-rk45", tolerance, error, 100, 10, wall, wall)
+        MeasuredPoint(
+            rung="equations",
+            integrator="compiled-rk45",
+            tolerance=tolerance,
+            error=error,
+            evaluations=100,
+            steps=10,
+            wall_s=wall,
+            cold_s=wall,
+        )
         for tolerance, error, wall in ((1e-4, 4e-4, 0.1), (1e-5, 1.5, 0.2), (1e-6, 1e-3, 0.3), (1e-8, 1e-4, 0.5))
     ]
     sure = replace(measured.reference, disagreement=1e-3)
@@ -99,7 +108,7 @@ def test_where_scipy_takes_too_long_for_its_events_the_loop_verifies_itself(monk
 
 @pytest.mark.slow
 def test_the_picture_stays_within_eighty_columns(measured):
-    lines = picture(tuple(map(MeasuredPoint.read, measured.points)))
+    lines = picture(measured.points)
     assert max(map(len, lines)) <= 80
     assert any("D" in line for line in lines)
 
@@ -122,7 +131,7 @@ def test_a_reference_that_two_methods_do_not_share_is_none(monkeypatch):
 def test_unknown_quantities_are_refused(measured):
     with pytest.raises(InputError, match="known quantities"):
         price_list(measured.reference.response, Ledger(None, (), None), "beauty", 0.01, 1.0, quiet)
-    assert isinstance(measured.reference, ReferenceRun)
+    assert isinstance(measured.reference, Reference)
 
 
 @pytest.mark.slow

@@ -1,6 +1,6 @@
 """The picture of error against time, the table of points, and the chosen way."""
 
-from abu_calc.features.accuracy.study import AccuracyResult, MeasuredPoint, PricePoint, Reference
+from abu_calc.features.accuracy.study import AccuracyResult, MeasuredPoint, Reference
 from abu_calc.features.accuracy.view import accuracy_blocks, accuracy_extras, picture
 from abu_calc.reporting.charts.chart import Plot
 from abu_calc.reporting.text import as_text
@@ -9,28 +9,27 @@ from abu_calc.simulation.result import Provenance
 
 def test_each_decade_stands_once_in_the_picture():
     """Nine decades on sixteen rows: no two rows with one label, and the labels fall."""
-    points = tuple(
-        MeasuredPoint.read(PricePoint("equations", "compiled-dop853", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3))
-        for k in range(10)
-    )
+    points = tuple(point("compiled-dop853", 10.0**-k, 1e-3) for k in range(10))
     labels = [line.split("|")[0].strip() for line in picture(points) if "|" in line]
     decades = [int(label.removeprefix("1e")) for label in labels if label]
     assert decades == list(range(0, -10, -1))
 
 
 def test_a_picture_of_nothing():
-    nothing = MeasuredPoint.read(PricePoint("closed-form", None, None, None, 0, 0, None, None))
-    assert picture((nothing,)) == ["no point has an error"]
+    assert picture((point(None, None, None, "closed-form"),)) == ["no point has an error"]
 
 
-def point(integrator: str, error: float | None, wall_s: float | None, rung: str = "equations") -> MeasuredPoint:
-    return MeasuredPoint.read(
-        PricePoint(rung, integrator, 1e-3, error, 10, 5, wall_s, wall_s, "" if error else "stiff")
-    )
+def point(integrator: str | None, error: float | None, wall_s: float | None, rung: str = "equations") -> MeasuredPoint:
+    return MeasuredPoint(
+        rung=rung, integrator=integrator, tolerance=1e-3, error=error, evaluations=10, steps=5, wall_s=wall_s,
+        cold_s=wall_s, note="" if error else "stiff",
+    )  # fmt: skip
 
 
 def result(*points: MeasuredPoint, skipped: tuple[str, ...] = ()) -> AccuracyResult:
-    reference = Reference(integrators=("a", "b"), tolerances=(1e-10, 1e-11), disagreement=1e-9, wall_s=1.0)
+    reference = Reference(
+        integrators=("a", "b"), tolerances=(1e-10, 1e-11), disagreement=1e-9, wall_s=1.0, response=None,  # type: ignore[arg-type]
+    )  # fmt: skip
     return AccuracyResult(
         title="disc", provenance=Provenance.today(), model=None, scene="scene", quantity="amplitude", accuracy=0.01,
         reference=reference, points=points, chosen=points[0], skipped=skipped,

@@ -7,7 +7,14 @@ import pytest
 
 import abu_calc
 from abu_calc.features.compare.study import CompareResult, Difference
-from abu_calc.features.compare.view import ComparisonTable, compare_blocks, compare_extras, table_blocks, tables_of
+from abu_calc.features.compare.view import (
+    ComparisonTable,
+    compare_blocks,
+    compare_extras,
+    label_of,
+    table_blocks,
+    tables_of,
+)
 from abu_calc.reporting.blocks import Grid, Heading, Paragraph
 from abu_calc.reporting.charts.chart import Bars
 from abu_calc.reporting.text import as_text
@@ -67,3 +74,17 @@ def test_bars_stand_for_machines_that_have_the_number() -> None:
     ]
     alone = replace(seats(), differences=(row(path, 240.0, None),), alike=())
     assert compare_extras(alone).figures == ()
+
+
+@pytest.mark.parametrize(
+    ("path", "unit", "label"),
+    [
+        ("autobalancer.ball_diameter_mm", "mm", "autobalancer: ball diameter, mm"),
+        ("imbalance_g_mm", "g·mm", "imbalance, g·mm"),
+        ("drawing.12.requirement", "", "drawing 13: requirement"),
+        ("frequency.modes.1.damping_ratio", "", "frequency, modes 2: damping ratio"),
+        ("no_such.entry_mm", "mm", "no such: entry, mm"),
+    ],
+)
+def test_a_path_has_the_label_of_its_record(path: str, unit: str, label: str) -> None:
+    assert label_of(path, unit) == label

@@ -7,7 +7,7 @@ from abu_calc.features.effects.study import effects, known_effects
 from abu_calc.features.effects.view import effects_blocks, effects_grid, effects_screen, known_blocks
 from abu_calc.reporting.blocks import Grid
 from abu_calc.reporting.text import as_text, height
-from abu_calc.simulation.records import EffectEntry
+from abu_calc.simulation.effect_selection import EffectEntry
 from tests.dynamics.scenes import dimensionless
 
 SCENE = dimensionless(3.0, 0.05, 0.05, 0.2, 0.3, (1.0, 2.5), 100.0)

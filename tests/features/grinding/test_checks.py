@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc.features.grinding.checks import AGREES, Agreement, _agrees, compared, loaded_rate
+from abu_calc.features.grinding.checks import AGREES, Comparison, _agrees, compared, loaded_rate
 from abu_calc.features.grinding.simulation import WorkSimulation
 from abu_calc.features.grinding.steady_contact import SteadyWork, fitted, runout_of
 from abu_calc.sizing import size
@@ -27,8 +27,7 @@ def run_of(steady: SteadyWork, **changes: Any) -> WorkSimulation:
     values: dict[str, Any] = {
         "axis": steady.axis, "x": 0.0, "y": 0.0, "reaction": steady.reaction, "imbalance": steady.imbalance,
         "force": np.ones(4), "profile": (), "velocity": 0.0, "duration": 1.0, "ball_angles": (),
-        "path": np.zeros((2, 2)),
-        "settled": True, "parts": False, "error": 0.0, "warnings": (),
+        "path": np.zeros((2, 2)), "parts": False, "warnings": (),
     }  # fmt: skip
     return WorkSimulation(**(values | changes))
 
@@ -51,7 +50,7 @@ def test_differences_are_relative_to_what_is_compared(design: Design) -> None:
     )
     assert pushed.reaction == pytest.approx(0.05) and pushed.axis == pytest.approx(0.0, abs=1e-12)
     assert compared(steady, run_of(steady, force=np.empty(0)), moment).reaction is None  # a face does not press
-    assert Agreement(failure="chaotic").apart is None
+    assert Comparison(failure="chaotic").apart is None
 
 
 @pytest.mark.parametrize("stiffness", [(3000.0 + 0j, 500.0 + 0j), (40.0 + 0j, 9.0 + 0j), (2000 + 300j, 800 - 90j)])
@@ -69,13 +68,15 @@ def test_a_contact_that_sends_the_balls_away_has_a_rate_below_zero(design: Desig
 @pytest.mark.parametrize(
     ("errors", "status", "value"),
     [
-        (Agreement(axis=0.5 * AGREES, imbalance=0.0), "pass", 50 * AGREES),
-        (Agreement(axis=2 * AGREES, imbalance=0.0), "warn", 200 * AGREES),
-        (Agreement(axis=0.0, from_idle=False), "warn", 0.0),
-        (Agreement(failure="chaotic"), "not-done", None),
+        (Comparison(axis=0.5 * AGREES, imbalance=0.0), "pass", 50 * AGREES),
+        (Comparison(axis=2 * AGREES, imbalance=0.0), "warn", 200 * AGREES),
+        (Comparison(axis=0.0, from_idle=False), "warn", 0.0),
+        (Comparison(failure="chaotic"), "not-done", None),
     ],
 )
-def test_a_closed_form_that_a_run_contradicts_is_a_warning(errors: Agreement, status: str, value: float | None) -> None:
+def test_a_closed_form_that_a_run_contradicts_is_a_warning(
+    errors: Comparison, status: str, value: float | None
+) -> None:
     (check,) = _agrees(errors)
     assert (check.code, check.status) == ("ABU425", status)
     assert check.value == value if value is None else math.isclose(check.value or 0.0, value, abs_tol=1e-12)

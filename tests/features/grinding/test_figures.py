@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.grinding.figures import _largest, _unbroken, grinding_extras
-from abu_calc.features.grinding.records import AxisMotion
+from abu_calc.features.grinding.figures import _unbroken, grinding_extras
 from abu_calc.reporting.charts.chart import Bars, Plot
 from tests.features.grinding.test_command import STRAIGHT, worked
 
@@ -15,11 +14,6 @@ def test_a_line_is_broken_where_a_value_is_not_known() -> None:
     lines = list(_unbroken("with", 1, course))
     assert [line.points for line in lines] == [[(1.0, 5.0), (2.0, 6.0)], [(4.0, 7.0)]]
     assert list(_unbroken("with", 1, [(1.0, None)])) == []
-
-
-def test_the_larger_amplitude_counts_in_micrometres() -> None:
-    assert _largest(AxisMotion(x_amplitude_mm=0.03, y_amplitude_mm=0.04)) == pytest.approx(40.0)
-    assert _largest(AxisMotion(x_amplitude_mm=None, y_amplitude_mm=None)) is None
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from abu_calc.features.grinding.lower_bound import LEAST, LowerBound, lower_bound
+from abu_calc.features.grinding.lower_bound import LEAST, LevelBound, lower_bound
 from abu_calc.features.grinding.work import Work, at_work
 from abu_calc.sizing import size
 from tests.sizing.machines import machine
@@ -24,7 +24,7 @@ def _work(runout_mm: float, **changes: Any) -> Work:
     return at_work(size(machine(**{**usual, **changes})), 0.01)
 
 
-def _bound(work: Work) -> LowerBound | None:
+def _bound(work: Work) -> LevelBound | None:
     """Of the usual case."""
     return lower_bound(work.levels.after, work.design.case)
 

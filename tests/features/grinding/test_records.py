@@ -2,16 +2,13 @@
 
 import cmath
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from abu_calc.features.grinding.records import AxisMotion, Orbit, ProfilePoint, TriedRemedy, _nearest
+from abu_calc.features.grinding.records import AxisMotion, Orbit, ProfilePoint, _nearest
 from abu_calc.features.grinding.steady_contact import SteadyWork
-from abu_calc.features.grinding.work import Remedy
 from abu_calc.formulas.steady_contact import SteadyContact
-from abu_calc.sizing.places import Levels
 
 CONTACT = SteadyContact(600.0, (-2e6 + 0j, -2e6 + 0j), 0.0, 0.0)
 
@@ -23,7 +20,8 @@ def steady(imbalance: complex | None, runout: complex = 3e-5 + 0j) -> SteadyWork
 def test_amplitudes_of_phasors_are_their_sizes() -> None:
     axis = AxisMotion.of((cmath.rect(3e-5, 1.0), cmath.rect(4e-5, -2.0)))
     assert (axis.x_amplitude_mm, axis.y_amplitude_mm) == pytest.approx((0.03, 0.04))
-    assert AxisMotion.of(None) == AxisMotion(x_amplitude_mm=None, y_amplitude_mm=None)
+    assert axis.largest == pytest.approx(4e-5)
+    assert AxisMotion.of(None) == AxisMotion(x_amplitude=None, y_amplitude=None) and AxisMotion.of(None).largest is None
 
 
 def test_an_orbit_goes_round_an_ellipse_once() -> None:
@@ -52,17 +50,3 @@ def test_the_profile_averages_to_the_press_and_peaks_where_the_wheel_is_pressed(
 
 def test_the_nearest_angle_is_found_across_the_turn() -> None:
     assert _nearest({0.1: 1.0, 3.0: 2.0}, math.tau - 0.1) == 1.0 and _nearest({}, 0.0) is None
-
-
-@pytest.mark.parametrize(
-    ("what", "value", "key", "shown"),
-    [("runout", 2e-5, "runout_mm", 0.02), ("stiffness", 4e5, "contact_stiffness_N_per_m", 4e5),
-     ("press", 90.0, "press_force_N", 90.0)],
-)  # fmt: skip
-def test_a_remedy_has_its_value_under_its_own_key(what: str, value: float, key: str, shown: float) -> None:
-    levels: Levels = SimpleNamespace(before=111.0, after=104.0)  # type: ignore[assignment]
-    record = TriedRemedy.of(Remedy(what, value, levels))  # type: ignore[arg-type]
-    keys = {"runout_mm", "contact_stiffness_N_per_m", "press_force_N"}
-    assert getattr(record, key) == pytest.approx(shown)
-    assert all(getattr(record, other) is None for other in keys - {key})
-    assert (record.level_before_db, record.level_after_db) == (111.0, 104.0)

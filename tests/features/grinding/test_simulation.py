@@ -12,7 +12,6 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.features.grinding.simulation import (
     COPIES,
     SECONDS,
-    RunSummary,
     _copies,
     _times,
     harmonic_force,
@@ -23,8 +22,6 @@ from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing import size
 from tests.sizing.machines import machine
-
-SUMMARY = RunSummary(velocity=0.01, ball_angles=(1.0,), settled=True, error=1e-3, warnings=())
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +41,7 @@ def test_a_circling_axis_comes_back_as_its_phasors(scene: Scene) -> None:
     for k, angle in enumerate(np.linspace(0, math.tau, len(scene.ball_masses), endpoint=False)):
         states[2 * len(scene.support.names) + k] = angle
     plain = replace(only_contact(scene))
-    result = read(plain, times, states, SUMMARY)
+    result = read(plain, times, states)
     assert result.axis == (pytest.approx(X), pytest.approx(Y))
     assert result.x == pytest.approx(2e-5, rel=1e-3) and result.y == pytest.approx(1e-5, rel=1e-3)
     assert result.reaction == pytest.approx(-4.9e5 * Y, rel=1e-6)

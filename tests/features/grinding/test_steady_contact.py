@@ -24,6 +24,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Sampling
 from abu_calc.features.grinding.checks import AGREES, agreement, flutter_limits, work_checks
 from abu_calc.features.grinding.curves import hodograph, largest_runout, loaded_resonance, response
+from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.simulation import working
 from abu_calc.features.grinding.steady_contact import RestingBalls, bare, even_fan, fitted, fixed, runout_of, with_balls
 from abu_calc.features.grinding.work import at_work
@@ -322,10 +323,10 @@ def test_separation_is_where_the_force_reaches_the_press() -> None:
 def test_curves_hold_the_rated_machine() -> None:
     design = straight()
     E = runout_of(design.case)
-    point = next(one for one in hodograph(design) if math.isclose(one.angle, math.radians(30)))
-    assert point.fitted == pytest.approx(fitted(design, E).axis)
+    point = next(one for one in hodograph(design) if math.isclose(one.runout_angle, math.radians(30)))
+    assert point.fitted == AxisMotion.of(fitted(design, E).axis)
     rated = next(one for one in response(design) if one.speed == design.case.speed)
-    assert rated.without == bare(design, E)
+    assert rated.without == AxisMotion.of(bare(design, E).axis)
     resonance = loaded_resonance(design)
     assert resonance is not None
     contact = replace(design, case=replace(design.case, suspension=design.case.suspension))

@@ -6,12 +6,12 @@ from typing import Any
 import pytest
 
 from abu_calc.features.grinding.verdict import NOTHING, changes, in_words, shortest
-from abu_calc.features.grinding.work import Remedy
+from abu_calc.features.grinding.work import TriedRemedy
 
 LEVELS: Any = SimpleNamespace(before=111.04, after=104.96)
-RUNOUT = Remedy("runout", 2e-5, LEVELS)
-STIFFNESS = Remedy("stiffness", 4.5e5, LEVELS)
-PRESS = Remedy("press", 90.0, LEVELS)
+RUNOUT = TriedRemedy(runout=2e-5, level_before_db=111.04, level_after_db=104.96)
+STIFFNESS = TriedRemedy(contact_stiffness=4.5e5, level_before_db=111.04, level_after_db=104.96)
+PRESS = TriedRemedy(press_force=90.0, level_before_db=111.04, level_after_db=104.96)
 
 
 def side(**values: Any) -> SimpleNamespace:

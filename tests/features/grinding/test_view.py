@@ -44,12 +44,12 @@ def test_the_contact_is_placed_among_its_regions(
     golden: GrindingResult, stiffness: float | None, bounds: tuple[float, float], part: str
 ) -> None:
     model = replace(golden.model, contact_stiffness_N_per_m=stiffness)
-    assert part in said(contact_blocks(replace(golden, model=model, contact_stiffness_regions_N_per_m=bounds)))
+    assert part in said(contact_blocks(replace(golden, model=model, contact_stiffness_regions=bounds)))
 
 
 @pytest.mark.slow
 def test_balls_are_told_with_their_places(golden: GrindingResult) -> None:
-    here = replace(golden, ball_resultant_g_mm=100.0, ball_angles_deg=(10.0, -20.0), printed=None)
+    here = replace(golden, ball_resultant=1e-4, ball_angles_deg=(10.0, -20.0), printed=None)
     assert "The balls balance: 100.0 g·mm, at 10.00°, -20.00° from the imbalance." in said(balls_blocks(here))
     three = replace(here, ball_angles_deg=(10.0, -20.0, 90.0))
     assert "one of many arrangements" in said(balls_blocks(three))
@@ -59,9 +59,9 @@ def test_balls_are_told_with_their_places(golden: GrindingResult) -> None:
 
 @pytest.mark.slow
 def test_friction_that_is_none_is_told_as_none(golden: GrindingResult) -> None:
-    smooth = replace(golden.friction, threshold_um=0.0)
+    smooth = replace(golden.friction, threshold=0.0)
     assert said(friction_blocks(replace(golden, friction=smooth))).endswith("None.")
-    thrown = replace(golden.friction, unshaken_um=1.0, shaken_um=9.0)
+    thrown = replace(golden.friction, unshaken=1e-6, shaken=9e-6)
     assert "That runout moves the balls away from their places." in said(
         friction_blocks(replace(golden, friction=thrown))
     )
@@ -73,9 +73,9 @@ def test_wear_tells_what_comes_first() -> None:
     assert wear is not None and wear.stages
     row = _row("with", wear)
     assert row[2] == "grows" and row[3].startswith("wheel loses contact after ") and " µm, at " in row[3]
-    timed = replace(wear, ends="halved", depth_um=2500.0, time_min=0.5, centres=True, runout_rate=-0.1)
+    timed = replace(wear, ends="halved", depth=2.5e-3, time=30.0, centres=True, runout_rate=-0.1)
     assert _row("with", timed) == ("with", "-0.10", "falls", "runout halved after 2.50 mm (30 s)")
-    assert _row("with", replace(wear, depth_um=0.0))[3] == "wheel loses contact already"
+    assert _row("with", replace(wear, depth=0.0))[3] == "wheel loses contact already"
     assert wear_blocks(worked("avtovaz-707-370")) == []
 
 

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.optimise import front
+from abu_calc.features.optimise import racing
 from abu_calc.features.optimise.result import OptimiseResult
 
 CHOICES = {
@@ -18,5 +18,5 @@ OPTIONS: dict[str, Any] = {"share": 0.9, "runs": 100, "samples": 600}
 @pytest.fixture(scope="session")
 def small() -> OptimiseResult:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(front, "ENOUGH", 32)
+        patch.setattr(racing, "ENOUGH", 32)
         return abu_calc.optimise(abu_calc.read("avtovaz-707-222"), CHOICES, **OPTIONS)

@@ -6,7 +6,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.optimise.choices import options_of
-from abu_calc.features.optimise.costs import COUNT, DIAMETER, ECCENTRICITY, RADIUS, cost_of, items_of
+from abu_calc.features.optimise.costs import COUNT, DIAMETER, ECCENTRICITY, RADIUS, cost_entries, cost_of
 from abu_calc.features.optimise.written import written_text
 from abu_calc.foundation.errors import InputError, Place
 
@@ -37,7 +37,7 @@ def test_text_needs_a_list() -> None:
 
 
 def test_each_cost_has_a_source() -> None:
-    items = items_of((*VALUES, "machine.mass_kg"), {COUNT: 1})
+    items = cost_entries((*VALUES, "machine.mass_kg"), {COUNT: 1})
     assert {item.key for item in items} == {COUNT, RADIUS, ECCENTRICITY, "machine.mass_kg"}
     assert all(item.source for item in items)
 

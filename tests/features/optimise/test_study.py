@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.optimise import front
+from abu_calc.features.optimise import racing
 from abu_calc.features.optimise.result import OptimiseResult
 from abu_calc.features.optimise.written import written_text
 from tests.features.optimise.conftest import CHOICES, OPTIONS
@@ -46,7 +46,7 @@ def test_a_sweep_of_the_written_file_has_the_fresh_samples(small: OptimiseResult
 
 
 def _again(monkeypatch: pytest.MonkeyPatch, **more: Any) -> OptimiseResult:
-    monkeypatch.setattr(front, "ENOUGH", 32)
+    monkeypatch.setattr(racing, "ENOUGH", 32)
     return abu_calc.optimise(abu_calc.read(PRESET), CHOICES, **OPTIONS, **more)
 
 
@@ -88,7 +88,7 @@ def test_a_store_goes_on_and_computes_nothing_twice(
 
 @pytest.mark.hard
 def test_an_impossible_share_gives_the_highest_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(front, "ENOUGH", 32)
+    monkeypatch.setattr(racing, "ENOUGH", 32)
     machine = abu_calc.read(PRESET).changed({"limits.vibration_level_db": 82.0})
     result = abu_calc.optimise(machine, CHOICES, share=0.99, runs=100, samples=400)
     assert result.status == "fail"
@@ -137,7 +137,7 @@ def test_a_value_that_scatters_cannot_be_chosen() -> None:
 
 @pytest.mark.hard
 def test_a_family_shares_balls_and_race(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(front, "ENOUGH", 16)
+    monkeypatch.setattr(racing, "ENOUGH", 16)
     machines = [abu_calc.read(PRESET), abu_calc.read(PRESET).changed({"machine.mass_kg": 6.5})]
     result = abu_calc.optimise(machines, {DRAG: "choice(4, 20)"}, share=0.9, runs=100, samples=800)
     first, second = result.recommended.set_.values()

@@ -16,7 +16,7 @@ from abu_calc.dynamics.stability.stuck_speeds import stuck_speeds
 from abu_calc.features.stability.attractor_ends import EndState, Follower
 from abu_calc.features.stability.attractor_search import alike, grouped, search
 from abu_calc.features.stability.attractor_starts import designed_starts, drawn_starts, started
-from abu_calc.features.stability.attractors import attractors_of, interval
+from abu_calc.features.stability.attractors import attractors_of
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.scene import read_any
 from abu_calc.registry import known
@@ -136,12 +136,6 @@ def test_balls_that_touch_at_their_end_can_be_disturbed(shift: float) -> None:
     angles = tuple(1 + k * (step + shift) for k in range(4))
     end = EndState(next(drawn_starts(scene, 1, 0)), "undecided", end=(0.0,) * 4 + angles + (0.0,) * 4)
     assert 0 < follower.grows(end) < 1e4
-
-
-def test_shares_have_exact_intervals() -> None:
-    # No success of n: the upper end of Clopper and Pearson is 1 − (0.025)^(1/n).
-    assert interval(0, 20) == pytest.approx((0.0, 1 - 0.025 ** (1 / 20)))
-    assert interval(20, 20) == pytest.approx((0.025 ** (1 / 20), 1.0))
 
 
 @pytest.mark.slow

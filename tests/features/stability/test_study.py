@@ -1,5 +1,6 @@
 """The study of a balanced state: the check, warnings, outcomes in words, speeds that are refused."""
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -8,8 +9,8 @@ import pytest
 import abu_calc
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.verdict import Stability
-from abu_calc.features.stability.disturbed import Consequence
-from abu_calc.features.stability.study import ArrangementEnd, Hanging, _check, not_judged, stability_warnings
+from abu_calc.features.stability.disturbed import end_of_run
+from abu_calc.features.stability.study import Hanging, _check, not_judged, stability_warnings
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import dimensionless
 from tests.inputs.scenes import SCENE
@@ -63,11 +64,11 @@ def test_warnings_name_what_was_judged_and_what_was_left_out() -> None:
 
 @pytest.mark.parametrize(("kind", "part"), [("drift", "drift to a stable"), ("growth", "leave the balanced")])
 def test_the_end_of_a_run_is_told_in_words_and_degrees(kind: Any, part: str) -> None:
-    end = ArrangementEnd.of(Consequence(kind, 12.0, 0.01, (1.0, 4.0), -0.25))
+    end = end_of_run(kind, 12.0, 0.01, (1.0, 4.0 - math.tau), -0.25)
     assert part in end.text and "for 12 s" in end.text and "growth rate -0.25 1/s" in end.text
     assert end.resting_angles_deg == pytest.approx((57.29578, 229.1831 - 360), abs=1e-4)
-    nothing = ArrangementEnd.of(Consequence("undecided", 0.0))
-    assert nothing.text.startswith("No simulation tells") and nothing.resting_angles_deg is None
+    nothing = end_of_run("undecided", 0.0)
+    assert nothing.text.startswith("No simulation tells") and nothing.resting_angles is None
 
 
 def test_bounds_on_the_drag_have_their_margin() -> None:

@@ -14,6 +14,7 @@ from abu_calc.features.stability.view import (
     stability_extras,
     stability_screen,
 )
+from abu_calc.foundation.units import to_si
 from abu_calc.reporting.charts.chart import Plot
 from abu_calc.reporting.text import as_text
 from abu_calc.simulation.records import StabilityBoundary
@@ -29,7 +30,7 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> StabilityResult:
 
 def course(*rates: float) -> tuple[GrowthAt, ...]:
     """At 100, 200, … rpm."""
-    return tuple(GrowthAt(speed_rpm=100.0 * k, growth_rate_per_s=rate) for k, rate in enumerate(rates, 1))
+    return tuple(GrowthAt(speed=to_si(100.0 * k, "rpm"), growth_rate=rate) for k, rate in enumerate(rates, 1))
 
 
 def edges(*pairs: tuple[float, bool]) -> tuple[StabilityBoundary, ...]:
@@ -81,14 +82,14 @@ def test_boundaries_are_listed_or_said_to_be_none(result: StabilityResult) -> No
         return " ".join(as_text(stability_blocks(replace(result, **changes)), 80).split())  # type: ignore[arg-type]
 
     assert "Not searched. `--speeds LOW:HIGH` finds them." in text()
-    assert "None from 5 to 50 rpm." in text(boundaries_rpm=(), searched_rpm=(5.0, 50.0))
-    both = text(boundaries_rpm=edges((9.0, True), (12.0, False)), searched_rpm=(5.0, 50.0))
+    assert "None from 5 to 50 rpm." in text(boundaries_rpm=(), searched=(to_si(5.0, "rpm"), to_si(50.0, "rpm")))
+    both = text(boundaries_rpm=edges((9.0, True), (12.0, False)), searched=(to_si(5.0, "rpm"), to_si(50.0, "rpm")))
     assert "9.00000 stable 12.0000 not stable" in both
 
 
 def test_balls_may_hang_where_a_bound_is_not_passed() -> None:
-    bound = HangingBound(state="at a resonance", drag_per_s=20.0, margin=0.5)
-    doubt = Hanging(drag_per_s=10.0, hanging_drag_per_s=20.0, doubt=True, bounds=(bound,))
+    bound = HangingBound(state="at a resonance", drag=20.0, margin=0.5)
+    doubt = Hanging(drag=10.0, hanging_drag=20.0, doubt=True, bounds=(bound,))
     assert hanging_word(doubt).startswith("Balls may stall: the viscous drag rate, 10.0 1/s, is not above")
     assert hanging_word(replace(doubt, doubt=False)).startswith(
         "No ball stalls: the viscous drag rate, 10.0 1/s, is above"

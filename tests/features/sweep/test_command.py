@@ -56,7 +56,7 @@ def test_who_interrupts_the_trials_is_told_that_all_members_are_there(
     def stopped(*_: Any) -> Any:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("abu_calc.features.sweep.study.loosened", stopped)
+    monkeypatch.setattr("abu_calc.features.sweep.study.prices", stopped)
     store = tmp_path / "members.sqlite"
     seen = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "4", *CALM, "--store", str(store))
     assert seen.status == 130 and f"4 of 4 samples are in {store}. Go on with:" in seen.err

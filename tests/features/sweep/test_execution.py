@@ -10,7 +10,7 @@ import pytest
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.cluster import software, worker_name
 from abu_calc.features.sweep.columns import LEVEL, MEMBER, OUTSIDE, REASON, SEED
-from abu_calc.features.sweep.execution import Attributed, Workers, compute, described, once_more
+from abu_calc.features.sweep.execution import Attributed, Workers, compute, once_more
 from abu_calc.features.sweep.store import Store
 from abu_calc.foundation.errors import InputError
 
@@ -62,6 +62,6 @@ def test_a_worker_with_other_software_computes_nothing() -> None:
 
 
 def test_the_store_is_told_who_computed() -> None:
-    assert described(3, None).startswith("3 of this machine; Python ")
+    assert Workers(3, None, 1.0).described.startswith("3 of this machine; Python ")
     with ThreadPoolExecutor(1) as pool:
-        assert described(None, pool).startswith("ThreadPoolExecutor; Python ")
+        assert Workers(None, pool, 1.0).described.startswith("ThreadPoolExecutor; Python ")

@@ -31,10 +31,10 @@ def values(
 
 
 def fitted(sample: Sample, found: np.ndarray[tuple[int], np.dtype[np.float64]], parts: int = 1) -> Indices | None:
-    fit = RegressionSums(tuple(len(one.variation.values) for one in sample.factors), sample.runs)
+    fit = RegressionSums(sample.factors, sample.runs)
     places = np.vstack([block(sample, number) for number in range(-(-sample.runs // BLOCK))])
     for members in np.array_split(np.arange(sample.runs), parts):
-        fit.take(places[members], found[members], members)
+        fit.add(fit.products(places[members]), found[members], members)
     return fit.indices()
 
 
@@ -55,7 +55,7 @@ def test_indices_of_ishigami_from_the_members_there_are() -> None:
 def test_indices_of_ishigami_by_saltellis_design() -> None:
     """1024 rows; the error of estimates of this design is some hundredths (Saltelli et al. 2010, figure 1)."""
     sample = drawn(5 * 1024, CIRCLE, "saltelli", 1024)
-    found = saltelli(values(sample, ishigami), 3)
+    found = saltelli(values(sample, ishigami), sample.factors)
     for index, (first, total) in zip(found.each, ISHIGAMI, strict=True):
         assert index.first_order == pytest.approx(first, abs=0.05)
         assert index.total == pytest.approx(total, abs=0.05)
@@ -101,4 +101,4 @@ def test_too_few_members_say_nothing_and_constants_are_decided_by_nothing() -> N
     assert fitted(few, values(few, ishigami)) is None
     found = fitted(constant, np.full(100, 3.0))
     assert found is not None and {index.total for index in found.each} == {0.0}
-    assert {index.total for index in saltelli(np.full(40, 3.0), 3).each} == {0.0}
+    assert {index.total for index in saltelli(np.full(40, 3.0), constant.factors).each} == {0.0}

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
-from abu_calc.features.optimise.bounds import chance, compared, interval, lower, upper
+from abu_calc.foundation.shares import chance, compared, interval, lower, upper
 
 
 @pytest.mark.parametrize(("met", "of"), [(0, 5), (5, 5), (3, 16), (97, 100), (1, 1000)])
