@@ -1,12 +1,11 @@
 """One simulated scene as results hold it: its numbers in SI and states, and the scene in words."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.boundaries import Boundary
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
 from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.simulation.effect_selection import Audit, EffectEntry, Ledger
@@ -193,16 +192,3 @@ class SimulatedScene(Record):
             quiet_time_range_s=response.quiet.grazed(simulation.scene.revolution),
             rest_time_range_s=response.rest.grazed(simulation.scene.revolution),
         )
-
-
-@record
-class StabilityBoundary(Record):
-    """A speed at which the balanced state gains or loses its stability."""
-
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    stable_above: Annotated[bool, Quantity("stable above it")]
-
-
-def stability_boundaries(limits: Sequence[Boundary]) -> tuple[StabilityBoundary, ...]:
-    """Speeds where stability changes."""
-    return tuple(map(StabilityBoundary.read, limits))

@@ -54,7 +54,7 @@ def body_bands(case: Case, candidate: Candidate, possible: bool) -> BodyBands | 
             return [math.nan] * (3 + 4 * len(case.places))
         levels = speed_levels(other, imbalance, candidate, (), possible)
         places = idle_vibration(other, imbalance, candidate, possible).places
-        highest = math.nan if levels is None else levels.highest.level_after
+        highest = math.nan if levels is None else levels.highest.level_after_db
         mass = other.body.effective_mass(candidate.mass)
         return [mass, imbalance, highest, *place_numbers(places, case.speed)]
 

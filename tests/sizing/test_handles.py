@@ -29,7 +29,7 @@ def test_bands_hold_the_nominal_numbers(estimated: Design) -> None:
     assert bands is not None and bands.level is not None and estimated.speed_levels is not None
     low, high = bands.effective_mass
     assert low < case.body.effective_mass(estimated.autobalancer.mass) < high
-    assert bands.level[0] <= estimated.speed_levels.highest.level_after <= bands.level[1]
+    assert bands.level[0] <= estimated.speed_levels.highest.level_after_db <= bands.level[1]
     for place, band in zip(estimated.idle.places, bands.places, strict=True):
         assert band.before is not None and band.after is not None and band.total_after is not None
         assert place.levels.before is not None and place.levels.after is not None
@@ -62,7 +62,7 @@ def test_limit_in_the_band_warns_beside_a_level_that_passes() -> None:
     offset = {"autobalancer__plane_offset_mm": -20.0, **TRUE}
     design = size(without_inertia(**LENGTHS, **offset))
     assert design.bands is not None and design.bands.level is not None and design.speed_levels is not None
-    limit = (design.speed_levels.highest.level_after + design.bands.level[1]) / 2
+    limit = (design.speed_levels.highest.level_after_db + design.bands.level[1]) / 2
     check = check_of(size(without_inertia(**LENGTHS, **offset, limits={"vibration_level_db": limit})), "ABU401")
     assert check.status == "warn" and "estimated inertia" in check.message
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary
 from abu_calc.features.design.region import TrueRegion
 from abu_calc.features.grinding.lower_bound import LevelBound
 from abu_calc.features.grinding.outcomes import LoadedStarts
@@ -17,7 +18,7 @@ from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
-from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
+from abu_calc.simulation.records import finite
 from abu_calc.simulation.vibration_records import HandleLevels, position_mm
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import WHEEL_PLANE
@@ -32,7 +33,7 @@ from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels, idle_vibration
+from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevel, SpeedLevels, idle_speed_levels, idle_vibration
 
 
 @record
@@ -65,12 +66,11 @@ class Frequency(Record):
     @classmethod
     def of(cls, design: Design, region: TrueRegion) -> Self:
         """Record of a design."""
-        limits = region.boundaries
         return cls.read(
             design.frequency,
             region,
             region=design.frequency.region,
-            stability_boundaries_rpm=None if limits is None else stability_boundaries(limits),
+            stability_boundaries_rpm=region.boundaries,
             hanging_drag_per_s=finite(region.hanging.largest),
         )
 
@@ -224,14 +224,6 @@ def _g_mm(band: tuple[float, float]) -> tuple[float, float]:
 
 
 @record
-class SpeedLevel(Record):
-    """Level with the autobalancer at one speed, at the loudest place."""
-
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    level_after_db: Annotated[float, LEVEL_AFTER]
-
-
-@record
 class IdleSpeedLevels(Record):
     """Levels at the motor's idle speed, at the loudest place; None after: balls cannot balance."""
 
@@ -268,7 +260,7 @@ class FrictionBound(Record):
         """Record beside the levels [dB] of all simulated starts; None where balls cannot balance, or leave nothing."""
         if design.speed_levels is None:
             return None
-        bound, simulated = design.speed_levels.arranged.level_after, list(levels)
+        bound, simulated = design.speed_levels.arranged.level_after_db, list(levels)
         near = sum(level > bound - 1 for level in simulated)
         return cls(level_db=bound, reached_within_1_db=near, runs=len(simulated)) if math.isfinite(bound) else None
 
@@ -376,9 +368,9 @@ class Vibration(Record):
             ),
             place=vibration.judged,
             highest_level_band_db=None if bands is None else bands.level,
-            by_speed=None if levels is None else tuple(map(SpeedLevel.read, levels.by_speed)),
-            worst_arrangement=None if levels is None else SpeedLevel.read(levels.arranged),
-            worst_arrangement_vertical=None if levels is None else SpeedLevel.read(levels.upright or levels.arranged),
+            by_speed=None if levels is None else levels.by_speed,
+            worst_arrangement=None if levels is None else levels.arranged,
+            worst_arrangement_vertical=None if levels is None else levels.upright or levels.arranged,
         )
 
     @classmethod
@@ -392,15 +384,6 @@ class Vibration(Record):
         handles = tuple(HandleLevels.of(place, speed, hasty) for place, hasty in
                         zip(loaded.levels.places, loaded.hasty.places, strict=True))  # fmt: skip
         return replace(levels, handles=handles, level_at_once_db=loaded.hasty.worst.after, at_once_stays=loaded.stays)
-
-
-@record
-class DrawingLine(Record):
-    """One requirement for the drawing."""
-
-    feature: Annotated[str, Quantity("feature")]
-    requirement: Annotated[str, Quantity("requirement")]
-    cost_db: Annotated[float | None, Quantity("cost", "", 3, "what the level rises by when the tolerance is used up")]
 
 
 @record

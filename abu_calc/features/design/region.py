@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.boundaries import Boundary, excess_of, limits_of_all, quick
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary, excess_of, limits_of_all, quick
 from abu_calc.dynamics.stability.search import MARGIN, Search, searched
 from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.two_modes import LinearMotion
@@ -106,7 +106,7 @@ class TrueRegion:
     """
 
     stable: bool | None
-    boundaries: tuple[Boundary, ...] | None
+    boundaries: tuple[StabilityBoundary, ...] | None
     modes: tuple[FreeMode, ...]
     hanging: HangingBounds
     check: Check
@@ -119,7 +119,7 @@ class SpeedRange:
     `rated`: the growth rate at the rated speed.
     """
 
-    boundaries: tuple[Boundary, ...]
+    boundaries: tuple[StabilityBoundary, ...]
     worst_speed: float
     growth: float
     rated: float
@@ -170,7 +170,7 @@ def _speed_range(design: Design, *, with_boundaries: bool = True) -> SpeedRange 
     motions, search, rated = quick(listed), searched(listed, half), design.case.speed
     ends = tuple(dict.fromkeys((low, rated, high)))
     scanned = _scanned(motions, search, ends)
-    limits: tuple[Boundary, ...] = ()
+    limits: tuple[StabilityBoundary, ...] = ()
     if with_boundaries or low < high:
         first = min(low, *design.frequency.natural_frequencies) / 2
         scanned, limits = limits_of_all(scanned, search, scene, first, 2 * high, coarse=True)
@@ -246,7 +246,7 @@ ABOVE: Final = 1.02
 """Factor over a boundary of stability at which the lowest speed is tried."""
 
 
-def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object] | None:
+def steadier(design: Design, boundaries: Sequence[StabilityBoundary]) -> dict[str, object] | None:
     """The first change of the file, of those tried, that makes every speed of the range stable.
 
     If the last boundary is inside the range: speeds above it. Else other oils, the nearest first, and

@@ -16,7 +16,6 @@ from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
     BodyRecord,
-    DrawingLine,
     Eccentricity,
     Frequency,
     FrictionBound,
@@ -58,6 +57,7 @@ from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.start_cases import Member
 from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.drawing_requirements import DrawingLine
 from abu_calc.sizing.parts.housing_parts import HousingParts
 
 if TYPE_CHECKING:
@@ -318,7 +318,7 @@ def size(
         fits=tuple(seat for bearing in judged.seats for seat in bearing.seats),
         swing_arm=None if judged.arm is None else SwingArmRecord.of(judged.arm, step.entries),
         arm_motion=judged.arm_motion,
-        drawing=tuple(map(DrawingLine.read, design.drawing)),
+        drawing=design.drawing,
         idle_run=_view(design, judged.runs, "idle"),
         grinding_run=_view(design, judged.runs, "grinding"),
         starts=Starts(None if facts.ensemble is None else (design, facts.ensemble, accuracy), facts.searched),
