@@ -240,7 +240,7 @@ def _on_arm(subject: Subject) -> ArmAnswer:
     moved = arm_motion(subject.scene)
     if isinstance(moved, str):
         return ArmAnswer(advice, bounds, None, (f"No forced motion and no tongue: {moved}.",))
-    return ArmAnswer(advice, bounds, None if moved is None else ArmMotion.of(moved))
+    return ArmAnswer(advice, bounds, moved)
 
 
 def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
