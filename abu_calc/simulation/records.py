@@ -7,9 +7,9 @@ from typing import Annotated, Any, ClassVar, Self
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
-from abu_calc.foundation.units import from_si, wrapped_deg
+from abu_calc.foundation.units import from_si
 from abu_calc.simulation.effect_selection import Audit, EffectEntry, Ledger
-from abu_calc.simulation.response import FinalState
+from abu_calc.simulation.response import End
 from abu_calc.simulation.simulate import Cost, Simulation
 
 
@@ -68,47 +68,6 @@ def in_words(scene: Scene) -> str:
 def finite(value: float | None) -> float | None:
     """A number for a result: None where it is not finite."""
     return value if value is not None and math.isfinite(value) else None
-
-
-@record
-class End(Record):
-    """Final state of a run; ball angles in (−180, 180], in the order of the file."""
-
-    optional: ClassVar[frozenset[str]] = frozenset(
-        {"tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad", "bearing_amplitudes_mm"}
-    )
-
-    t_s: Annotated[float, Quantity("time", "t")]
-    x_mm: Annotated[float, Quantity("axis, along the work", "x", 3)]
-    y_mm: Annotated[float, Quantity("axis, away from the work", "y", 3)]
-    vx_mm_per_s: Annotated[float, Quantity("velocity along the work", "x'", 3)]
-    vy_mm_per_s: Annotated[float, Quantity("velocity away from the work", "y'", 3)]
-    ball_angles_deg: Annotated[tuple[float, ...], Quantity("ball angles", "θ", 5, "in the rotor, from its zero mark")]
-    ball_speeds_rpm: Annotated[
-        tuple[float, ...], Quantity("ball speeds", "θ'", 3, "relative to the race, mean over the amplitude window")
-    ]
-    ball_rates_rpm: Annotated[
-        tuple[float, ...], Quantity("ball speeds at the end", "θ'", 6, "relative to the race, at that very moment")
-    ]
-    rotor_speed_rpm: Annotated[float, Quantity("speed of the rotor", "", 6)]
-    tilt_x_mrad: Annotated[float | None, Quantity("tilt about x", "θ_x", 3)] = None
-    tilt_y_mrad: Annotated[float | None, Quantity("tilt about y", "θ_y", 3)] = None
-    arm_angle_mrad: Annotated[float | None, Quantity("angle of the arm", "φ")] = None
-    bearing_amplitudes_mm: Annotated[tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3)] = None
-
-    @classmethod
-    def of(cls, final: FinalState, bearings: tuple[float, ...]) -> Self:
-        """Record in user units."""
-        about_y, about_minus_x = final.tilt or (0.0, 0.0)
-        return cls.read(
-            final,
-            ball_angles_deg=tuple(wrapped_deg(angle) for angle in final.ball_angles),
-            rotor_speed_rpm=from_si(final.speed, "rpm"),
-            tilt_x_mrad=None if final.tilt is None else -1000 * about_minus_x,
-            tilt_y_mrad=None if final.tilt is None else 1000 * about_y,
-            arm_angle_mrad=None if final.arm_angle is None else 1000 * final.arm_angle,
-            bearing_amplitudes_mm=bearings or None,
-        )
 
 
 @record
@@ -182,7 +141,7 @@ class SimulatedScene(Record):
             response,
             simulation,
             scene=response.scene,
-            final=End.of(response.final, bearings),
+            final=response.final,
             effects=ledger.entries,
             error_estimate=simulation.error_estimate + ledger.spared,
             envelope=Envelope(error_estimate=finite(simulation.offered.error), why=simulation.offered.why),

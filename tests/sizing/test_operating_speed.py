@@ -58,7 +58,7 @@ def test_a_motor_settles_at_the_idle_speed(table: Any) -> None:
     no_load = to_si(motor.no_load_speed_rpm, "rpm")
     # Power c·|v|² of both axes over the speed: T (1 − Ω/Ω₀) = ½ c Ω w², here solved for Ω.
     balance = motor.stall_torque_N_m / (motor.stall_torque_N_m / no_load + damping * swing**2 / 2)
-    assert run.response.final.speed == pytest.approx(balance, rel=1e-4)
+    assert run.response.final.rotor_speed == pytest.approx(balance, rel=1e-4)
     assert speed == pytest.approx(balance, rel=5e-4)
 
 

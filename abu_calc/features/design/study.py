@@ -258,7 +258,7 @@ def size(
     remarks = (f"{run.ledger.scene.name}: {text}" for run in judged.runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
-    reached = next((run.simulation.response.final.ball_angles for run in judged.runs), None)
+    reached = next((run.simulation.response.ball_angles for run in judged.runs), None)
     checks = actions(judged, step) if whole else judged.checks
     return SizeResult(
         title=tables.machine.name,

@@ -286,7 +286,7 @@ def _level_at(subject: Subject, response: Response) -> str:
         return "race plane" if subject.design.case.race_offset else "wheel plane"
     if response.final.arm_angle is not None:
         return "end of the arm"
-    return "axis" if response.final.tilt is None else "axis, centre of mass"
+    return "axis" if response.final.tilt_x is None else "axis, centre of mass"
 
 
 def _measured(subject: Subject, response: Response, progress: Progress) -> MeasuredAfterRecord | None:

@@ -367,7 +367,7 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
         residual=max(_amplitude(scene, samples, window, place) for place in case.races),
         level=level_of(max(displacements), case.speed),
         slip=slip(response, case.speed),
-        ball_angles=response.final.ball_angles,
+        ball_angles=response.ball_angles,
         imbalance=left[farther],
         allowed=allowed[farther],
         work=work,

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -50,7 +51,7 @@ def test_a_motion_is_written_whole_in_pieces(rows: int) -> None:
 
 def test_many_balls_are_named_as_far_as_there_is_room(result: SimulateResult) -> None:
     many = tuple(float(k) for k in range(MOST_BALLS + 3))
-    final = replace(result.final, ball_angles_deg=many, ball_speeds_rpm=many)
+    final = replace(result.final, ball_angles=tuple(map(math.radians, many)), ball_speeds=many)
     text = " ".join(as_text(simulate_screen(replace(result, final=final)), 80).split())
     assert f"{MOST_BALLS - 1:.1f}°, … from the rotor's zero mark" in text and f"{MOST_BALLS:.1f}°" not in text
     full = as_text(simulate_blocks(replace(result, final=final)), 80)
