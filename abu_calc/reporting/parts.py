@@ -14,7 +14,8 @@ from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.text import shown as exact
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, level_text, number, shown, with_unit
 from abu_calc.simulation.result import Provenance, Result
-from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord
+from abu_calc.sizing.instruments import InstrumentReadings
 
 NOISE: Final = 1e-9
 """Values below which no digits are printed beside a limit of zero."""

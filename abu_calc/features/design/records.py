@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
 from abu_calc.dynamics.stability.boundaries import StabilityBoundary
-from abu_calc.features.design.region import TrueRegion
+from abu_calc.features.design.region import Mode, TrueRegion
 from abu_calc.features.grinding.lower_bound import LevelBound
 from abu_calc.features.grinding.outcomes import LoadedStarts
 from abu_calc.formulas.body_estimate import estimate_source
@@ -34,14 +34,6 @@ from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevel, SpeedLevels, idle_speed_levels, idle_vibration
-
-
-@record
-class Mode(Record):
-    """A free motion of the idle machine that swings, the mass of its balls on it."""
-
-    frequency_hz: Annotated[float, Quantity("frequency", "|λ|/2π")]
-    damping_ratio: Annotated[float, Quantity("damping ratio", "ζ", 3)]
 
 
 @record

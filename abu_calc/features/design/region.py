@@ -7,7 +7,7 @@ counts the start cases at whose end dry friction holds every ball at rest in its
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
 from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
@@ -88,12 +89,12 @@ NAMED: Final = 3
 """Boundaries that the check names, those nearest to the worst speed."""
 
 
-@dataclass(frozen=True)
-class FreeMode:
-    """A free motion of the idle machine with its balls: frequency |λ| [rad/s] and damping ratio −Re λ/|λ|."""
+@record
+class Mode(Record):
+    """A free motion of the idle machine that swings, the mass of its balls on it."""
 
-    frequency: float
-    damping_ratio: float
+    frequency: Annotated[float, Quantity("frequency", "|λ|/2π", unit="hz")]
+    damping_ratio: Annotated[float, Quantity("damping ratio", "ζ", 3)]
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ class TrueRegion:
 
     stable: bool | None
     boundaries: tuple[StabilityBoundary, ...] | None
-    modes: tuple[FreeMode, ...]
+    modes: tuple[Mode, ...]
     hanging: HangingBounds
     check: Check
 
@@ -278,8 +279,8 @@ def _rpm(speed: float) -> str:
     return f"{from_si(speed, 'rpm'):.6g} rpm"
 
 
-def _modes(scene: Scene) -> tuple[FreeMode, ...]:
+def _modes(scene: Scene) -> tuple[Mode, ...]:
     rates = np.linalg.eigvals(scene.small_motion.motion)
     swinging = rates[rates.imag > 0]
-    modes = (FreeMode(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging)
+    modes = (Mode(frequency=float(abs(rate)), damping_ratio=float(-rate.real / abs(rate))) for rate in swinging)
     return tuple(sorted(modes, key=lambda mode: mode.frequency))

@@ -27,7 +27,7 @@ from abu_calc.features.design.records import (
 from abu_calc.features.design.start_rules import FULL, STARTS
 from abu_calc.features.design.starts import EnsembleResult, Starts
 from abu_calc.features.design.verdict import Verdict, benefit
-from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
+from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
 from abu_calc.features.grinding.work import Work, loaded_levels
@@ -301,11 +301,10 @@ def size(
         else replace(
             Vibration.of_loaded(loaded, design.case.speed),
             starts=LoadedStarts.of(loads),
-            bound=None if bound is None else LevelBound.read(bound),
+            bound=bound,
         ),
-        measured_after=MeasuredAfterRecord.of(
-            compared_starts(design, facts.ensemble),
-            level_where_measured(design, work.moved) if isinstance(work, Work) else None,
+        measured_after=compared_starts(
+            design, facts.ensemble, level_where_measured(design, work.moved) if isinstance(work, Work) else None
         ),
         oil=OilRecord.of(design),
         friction_bound=FrictionBound.of(design, (outcome.level for outcome in judged.outcomes)),
@@ -394,7 +393,7 @@ def _pressed(
 
 
 def _under_load(
-    work: Work | SceneFailure | None, loads: GrindingOutcomes | None, bound: LowerBound | None
+    work: Work | SceneFailure | None, loads: GrindingOutcomes | None, bound: LevelBound | None
 ) -> Iterator[str]:
     """Warnings about the levels under load that a reader must know."""
     if bound is not None and bound.sentence:

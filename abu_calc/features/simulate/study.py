@@ -298,10 +298,8 @@ def _measured(subject: Subject, response: Response, progress: Progress) -> Measu
     if table is None or table.shown is None:
         return None
     level = level_at(design, response, measured_place(design.case, table.shown)[1])
-    comparison = compared_starts(design, starts_for_measurement(design, progress))
-    if response.scene == "idle":
-        return MeasuredAfterRecord.of(comparison, this_run=level)
-    return MeasuredAfterRecord.of(comparison, level)
+    levels = (None, level) if response.scene == "idle" else (level, None)
+    return compared_starts(design, starts_for_measurement(design, progress), *levels)
 
 
 def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
