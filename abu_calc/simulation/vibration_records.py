@@ -1,11 +1,12 @@
 """Levels as instruments show them, and the measurement with the autobalancer beside its prediction."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
 from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
-from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
+from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.case import WHEEL_PLANE, Case
@@ -60,6 +61,8 @@ class HandleLevels(Record):
         }
     )
 
+    decimals: ClassVar[Mapping[str, int]] = {"mm": 9}
+
     name: Annotated[str, Quantity("place")]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, LEVEL_AFTER]
@@ -68,7 +71,7 @@ class HandleLevels(Record):
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
     shown_before: InstrumentReadings | None = None
     shown_after: InstrumentReadings | None = None
-    position_mm: Annotated[tuple[float, float, float] | None, Quantity("from the centre of mass", "", 4)] = None
+    position: Annotated[tuple[float, float, float] | None, Quantity("from the centre of mass", "", 4, unit="mm")] = None
     axes: tuple[HandleAxis, ...] | None = None
     a_hv_before_m_per_s2: Annotated[float | None, Quantity("three axes, before", "a_hv", 3)] = None
     a_hv_after_m_per_s2: Annotated[float | None, Quantity("three axes, after", "a_hv", 3)] = None
@@ -99,7 +102,7 @@ class HandleLevels(Record):
             level_at_once_db=None if hasty is None else hasty.levels.after,
             shown_before=_shown(levels.before, speed, totals[0]),
             shown_after=_shown(levels.after, speed, totals[1]),
-            position_mm=None if place.place is None else position_mm(place.place),
+            position=place.place,
             axes=None if speed is None else _axes(place, speed),
             a_hv_before_m_per_s2=totals[0],
             a_hv_after_m_per_s2=totals[1],
@@ -116,12 +119,6 @@ def _shown(level: float | None, speed: float | None, total: float | None) -> Ins
         return None
     values = readings(velocity_from_level(level), speed)
     return values if total is None else replace(values, total=total)
-
-
-def position_mm(place: Vector) -> tuple[float, float, float]:
-    """A place [m] in millimetres, freed of the rounding of the conversion."""
-    x, y, z = (round(from_si(value, "mm"), 9) + 0.0 for value in place)
-    return x, y, z
 
 
 def _axes(place: LevelPlace, speed: float) -> tuple[HandleAxis, ...]:

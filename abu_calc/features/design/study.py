@@ -288,7 +288,7 @@ def size(
         section=Section.of(design),
         eccentricity=Eccentricity.of(design.eccentricity),
         alternatives=tuple(
-            AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why)
+            AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why_not=why)
             for (runner_up, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),

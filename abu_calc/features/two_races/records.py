@@ -23,30 +23,28 @@ class TwoRaceAutobalancer(AutobalancerRecord):
 
     schema_title: ClassVar[str] = "TwoRaceAutobalancer"
 
-    plane_mm: Annotated[float, Quantity("place along the spindle", "z_i")]
-    resultant_worst_g_mm: Annotated[float, Quantity("required capacity, worst phase", "V_i")]
-    resultant_typical_g_mm: Annotated[float, Quantity("required capacity, rms over all phases", "V_i")]
+    plane: Annotated[float, Quantity("place along the spindle", "z_i", unit="mm")]
+    resultant_worst: Annotated[float, Quantity("required capacity, worst phase", "V_i", unit="g_mm")]
+    resultant_typical: Annotated[float, Quantity("required capacity, rms over all phases", "V_i", unit="g_mm")]
     imbalance_shares: Annotated[tuple[float, ...], Quantity("shares of the imbalances", "s_ij", 4)]
-    drag_per_s: Annotated[float, Quantity("viscous drag rate", "h₀")]
+    drag: Annotated[float, Quantity("viscous drag rate", "h₀", unit="per_s")]
 
     @classmethod
     def of_race(cls, design: TwoRaceDesign, index: int) -> Self:
         """Record of a race."""
         race: SizedRace = design.races[index]
         table = design.case.table
-        one = AutobalancerRecord.of(table.autobalancer[index], race.design.autobalancer, race.track)
-        given = {name: getattr(one, name) for name in one.entries() if hasattr(one, name)}
-        given |= {
-            "capacity_ratio": None if not race.need else race.capacity_ratio,
-            "mass_fraction": race.design.autobalancer.mass / table.machine.mass_kg,
-        }
-        return cls(
-            **given,
-            plane_mm=from_si(race.place, "mm"),
-            resultant_worst_g_mm=from_si(race.need, "g_mm"),
-            resultant_typical_g_mm=from_si(race.typical, "g_mm"),
+        return cls.of(
+            table.autobalancer[index],
+            race.design.autobalancer,
+            race.track,
+            capacity_ratio=race.capacity_ratio if race.need else None,
+            mass_fraction=race.design.autobalancer.mass / table.machine.mass_kg,
+            plane=race.place,
+            resultant_worst=race.need,
+            resultant_typical=race.typical,
             imbalance_shares=race.shares,
-            drag_per_s=design.case.drags[index],
+            drag=design.case.drags[index],
         )
 
 
