@@ -190,11 +190,6 @@ class WorstMember(Record):
     speed_rpm: Annotated[float | None, Quantity("speed", "", 6)]
     race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
-    @classmethod
-    def of(cls, worst: StartOutcome) -> Self:
-        """A start at full speed has no run-up."""
-        return cls.read(worst.member, start=worst.member.way, run_up_s=worst.member.run_up or None)
-
 
 @record
 class SettlingOfStart(Record):
@@ -204,10 +199,10 @@ class SettlingOfStart(Record):
     """
 
     start: Annotated[str, Quantity("start")]
-    drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
-    quiet_time_s: Annotated[float | None, Quantity("quiet time", "t_q", 3)]
-    rest_time_s: Annotated[float | None, Quantity("rest time", "t_r", 3)]
-    settling_time_s: Annotated[float | None, Quantity("settling time", "t_s", 3)]
+    drag: Annotated[float, Quantity("drag", "h₀", 3, unit="per_s")]
+    quiet_time: Annotated[float | None, Quantity("quiet time", "t_q", 3, unit="s")]
+    rest_time: Annotated[float | None, Quantity("rest time", "t_r", 3, unit="s")]
+    settling_time: Annotated[float | None, Quantity("settling time", "t_s", 3, unit="s")]
     race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
     @classmethod
@@ -218,12 +213,9 @@ class SettlingOfStart(Record):
             key = outcome.member.name, outcome.member.drag
             slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("quiet_time_or_inf"))
         return tuple(
-            cls(
-                start=start, drag_per_s=drag, quiet_time_s=outcome.quiet_time, rest_time_s=outcome.rest_time,
-                settling_time_s=finite(outcome.settling_time_or_inf), race_centre_deg=outcome.member.race_centre_deg,
-            )
-            for (start, drag), outcome in slowest.items()
-        )  # fmt: skip
+            cls.read(outcome, outcome.member, start=start, settling_time=outcome.settling_time_or_inf)
+            for (start, _), outcome in slowest.items()
+        )
 
 
 @record
@@ -235,10 +227,10 @@ class FurtherStarts(Record):
     """
 
     members: Annotated[int, Quantity("further start cases")]
-    quiet_time_s: Annotated[float | None, Quantity("slowest of them", "t_q", 3)]
-    rest_time_s: Annotated[float | None, Quantity("longest rest time of them", "t_r", 3)]
-    settling_time_s: Annotated[float | None, Quantity("longest settling time of them", "t_s", 3)]
-    rare_quiet_time_s: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_q", 3)]
+    quiet_time: Annotated[float | None, Quantity("slowest of them", "t_q", 3, unit="s")]
+    rest_time: Annotated[float | None, Quantity("longest rest time of them", "t_r", 3, unit="s")]
+    settling_time: Annotated[float | None, Quantity("longest settling time of them", "t_s", 3, unit="s")]
+    rare_quiet_time: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_q", 3, unit="s")]
     level_db: Annotated[float, Quantity("loudest of them", "L")]
     repeats: tuple[RepeatedStart, ...] = ()
 
@@ -249,10 +241,10 @@ class FurtherStarts(Record):
             return None
         return cls(
             members=len(searched.outcomes),
-            quiet_time_s=finite(max(outcome.quiet_time_or_inf for outcome in searched.outcomes)),
-            rest_time_s=finite(max(outcome.rest_time_or_inf for outcome in searched.outcomes)),
-            settling_time_s=finite(max(outcome.settling_time_or_inf for outcome in searched.outcomes)),
-            rare_quiet_time_s=finite(searched.foreseen),
+            quiet_time=max(outcome.quiet_time_or_inf for outcome in searched.outcomes),
+            rest_time=max(outcome.rest_time_or_inf for outcome in searched.outcomes),
+            settling_time=max(outcome.settling_time_or_inf for outcome in searched.outcomes),
+            rare_quiet_time=searched.foreseen,
             level_db=max(outcome.loudest for outcome in searched.outcomes),
             repeats=tuple(worst_further(searched, design)),
         )
@@ -276,8 +268,7 @@ class DecisiveRun(Record):
         """Record of the decisive start case, with the options that `repeated` gives; None without any."""
         outcome = decisive(design, ensemble, searched)
         return None if outcome is None else cls.read(
-            outcome, start=outcome.member.name, promised=outcome.member.promised, level_db=outcome.level,
-            quiet_time_s=outcome.quiet_time, options=repeated(outcome, design),
+            outcome, outcome.member, start=outcome.member.name, options=repeated(outcome, design)
         )  # fmt: skip
 
 
@@ -312,6 +303,7 @@ class EnsembleResult(Record):
         searched: SearchResult | None = None,
     ) -> Self:
         """Record in user units; `predicted_level` [dB]: the one that measurements are compared with."""
+        worst = None if ensemble.worst is None else ensemble.worst.member
         return cls.read(
             ensemble,
             hanging=len(ensemble.hanging),
@@ -321,7 +313,9 @@ class EnsembleResult(Record):
             level_db=Spread.of(ensemble, lambda outcome: outcome.level),
             residual_um=Spread.of(ensemble, lambda outcome: from_si(outcome.residual, "um")),
             predicted_level_db=predicted_level,
-            worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
+            worst_member=None
+            if worst is None
+            else WorstMember.read(worst, start=worst.way, run_up_s=worst.run_up or None),
             settling_by_start=SettlingOfStart.all_of(ensemble),
             further_starts=FurtherStarts.of(searched, design),
             runs=ensemble.members + (0 if searched is None else len(searched.outcomes) + searched.lost),

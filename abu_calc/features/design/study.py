@@ -55,7 +55,7 @@ from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.start_cases import Member
-from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import DrawingLine
 from abu_calc.sizing.parts.housing_parts import HousingParts
@@ -123,18 +123,6 @@ class PlaceLevelRow(Record):
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")]
 
-    @classmethod
-    def of(cls, state: str, place: str, levels: Vibration | HandleLevels) -> Self:
-        """Row of the levels of a place."""
-        return cls(
-            state=state,
-            place=place,
-            level_before_db=levels.level_before_db,
-            level_after_db=levels.level_after_db,
-            reduction_db=levels.reduction_db,
-            level_at_once_db=levels.level_at_once_db,
-        )
-
 
 IDLE_START: Final = "bunched"
 """Start of the idle scene."""
@@ -154,11 +142,11 @@ class SizeResult(Result):
     effective_mass_kg: Annotated[float, Quantity("effective mass at the wheel", "m_eff")]
     body: BodyRecord
     frequency: Frequency
-    idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
-    imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
-    required_capacity_g_mm: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ")]
-    required_capacity_limit_g_mm: Annotated[float, Quantity("limit as published", "m₀e + Mε")]
-    required_capacity_compliant_g_mm: Annotated[float | None, Quantity("required by the compliant contact")]
+    idle_speed: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]", unit="rpm")]
+    imbalance: Annotated[float, Quantity("imbalance", "m₀e", unit="g_mm")]
+    required_capacity: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ", unit="g_mm")]
+    required_capacity_limit: Annotated[float, Quantity("limit as published", "m₀e + Mε", unit="g_mm")]
+    required_capacity_compliant: Annotated[float | None, Quantity("required by the compliant contact", unit="g_mm")]
     autobalancer: AutobalancerRecord
     section: Section
     eccentricity: Eccentricity
@@ -203,11 +191,11 @@ class SizeResult(Result):
     @property
     def levels(self) -> Rows[PlaceLevelRow]:
         """Levels before and after at each place, idle and under load, as a table."""
-        rows = [PlaceLevelRow.of("idle", self.vibration.place, self.vibration)]
-        rows += [PlaceLevelRow.of("idle", handle.name, handle) for handle in self.vibration.handles]
-        if (loaded := self.vibration_loaded) is not None:
-            rows.append(PlaceLevelRow.of("grinding", loaded.place, loaded))
-            rows += [PlaceLevelRow.of("grinding", handle.name, handle) for handle in loaded.handles]
+        rows = (
+            PlaceLevelRow.read(levels, state=state, place=place)
+            for state, whole in (("idle", self.vibration), ("grinding", self.vibration_loaded)) if whole is not None
+            for place, levels in ((whole.place, whole), *((handle.name, handle) for handle in whole.handles))
+        )  # fmt: skip
         # The limited place may be one of the handles.
         return Rows({(row.state, row.place): row for row in rows}.values())
 
@@ -279,11 +267,11 @@ def size(
         effective_mass_kg=need.effective_mass,
         body=BodyRecord.of(design),
         frequency=Frequency.of(design, judged.region),
-        idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
-        imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
-        required_capacity_g_mm=from_si(need.required, "g_mm"),
-        required_capacity_limit_g_mm=from_si(need.published_limit, "g_mm"),
-        required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
+        idle_speed=design.case.idle_speed,
+        imbalance=design.imbalance.value,
+        required_capacity=need.required,
+        required_capacity_limit=need.published_limit,
+        required_capacity_compliant=need.compliant,
         autobalancer=AutobalancerRecord.of(design.case.autobalancer, design.autobalancer, design.track),
         section=Section.of(design),
         eccentricity=Eccentricity.of(design.eccentricity),
