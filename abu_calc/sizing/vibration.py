@@ -153,12 +153,25 @@ def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible:
     return replace(levels, places=in_space(case, imbalance, candidate, budget.at_race if budget else None))
 
 
-def idle_speed_levels(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Levels | None:
+@record
+class IdleSpeedLevels(Record):
+    """Levels at the motor's idle speed, at the loudest place; None after: balls cannot balance."""
+
+    speed: Annotated[float, Quantity("idle speed of the motor", "Ω", 6, unit="rpm")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+
+
+def idle_speed_levels(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> IdleSpeedLevels | None:
     """Levels of `idle_vibration` at the loudest place at the motor's idle speed, where that is not the rated speed."""
     idle = case.idle_speed
     if idle is None or math.isclose(idle, case.speed, rel_tol=EQUAL_SPEEDS):
         return None
-    return idle_vibration(replace(case, speed=idle), imbalance, candidate, possible).worst
+    worst = idle_vibration(replace(case, speed=idle), imbalance, candidate, possible).worst
+    return IdleSpeedLevels(
+        speed=idle, level_before_db=worst.before, level_after_db=worst.after, reduction_db=worst.reduction
+    )
 
 
 def speed_levels(

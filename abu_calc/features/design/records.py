@@ -32,7 +32,7 @@ from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevel, SpeedLevels, idle_speed_levels, idle_vibration
+from abu_calc.sizing.vibration import IdleSpeedLevels, LevelsUnderLoad, SpeedLevel, SpeedLevels, idle_vibration
 
 
 @record
@@ -209,30 +209,6 @@ class BodyRecord(Record):
             effective_mass_band=None if bands is None else bands.effective_mass,
             imbalance_band=None if bands is None else bands.imbalance,
             estimate=None if body.estimate is None else estimate_source(),
-        )
-
-
-@record
-class IdleSpeedLevels(Record):
-    """Levels at the motor's idle speed, at the loudest place; None after: balls cannot balance."""
-
-    speed: Annotated[float, Quantity("idle speed of the motor", "Ω", 6, unit="rpm")]
-    level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, LEVEL_AFTER]
-    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
-
-    @classmethod
-    def of(cls, design: Design) -> Self | None:
-        """Record of a design; None without a motor, or if the motor idles at the rated speed."""
-        possible = design.frequency.balancing_possible
-        levels = idle_speed_levels(design.case, design.imbalance.value, design.autobalancer, possible)
-        if levels is None or design.case.idle_speed is None:
-            return None
-        return cls(
-            speed=design.case.idle_speed,
-            level_before_db=levels.before,
-            level_after_db=levels.after,
-            reduction_db=levels.reduction,
         )
 
 

@@ -12,7 +12,6 @@ from typing import Annotated, Any, Final, Self
 
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.features.design.band import BandRow, band
 from abu_calc.features.design.repeats import RepeatedStart, decisive, repeated, worst_further
 from abu_calc.features.design.start_search import SearchResult
@@ -30,16 +29,6 @@ from abu_calc.sizing.places import level_at_loudest
 MOST: Final = 12
 MOST_WORK, MOST_PLAIN = 400_000, 60_000
 """Work of all starts together, in compiled code and without: a second or two."""
-
-
-@dataclass(frozen=True)
-class ReplayedStart:
-    """A start case run again, its outcome, and why it is shown: "worst", "typical" or nothing."""
-
-    why: str
-    outcome: StartOutcome
-    scene: Scene
-    trajectory: Trajectory
 
 
 def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
@@ -64,38 +53,6 @@ def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
 
 def _slow(outcome: StartOutcome) -> tuple[bool, bool, float]:
     return outcome.hanging, not outcome.balanced, outcome.quiet_time_or_inf
-
-
-def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[ReplayedStart]:
-    """Repeat the chosen start cases, as far as the allowed work permits, each by the run of its outcome."""
-    left, first = MOST_WORK if installed() else MOST_PLAIN, first_tolerance(design)
-    for why, outcome in chosen_starts(ensemble):
-        if outcome.work > left:
-            continue
-        for tolerance in (TIGHTER * first, first) if outcome.confirmed else (first,):
-            try:
-                repeat, scene, trajectory = run_of_start(design, outcome.member, accuracy, tolerance)
-            except NotTrustworthyError:
-                left -= WORK
-                continue
-            left -= repeat.work
-            if (repeat.hanging, repeat.balanced) == (outcome.hanging, outcome.balanced):
-                yield ReplayedStart(why, outcome, scene, trajectory)
-                break
-
-
-def levels_of(design: Design, scene: Scene) -> Callable[[float], float]:
-    """Function from an rms velocity of the axis [m/s] to the level [dB] at the loudest place.
-
-    The level is that which an ensemble reports.
-    """
-
-    case = replace(design.case, speed=scene.speed)
-
-    def level(velocity: float) -> float:
-        return level_at_loudest(case, design.autobalancer, math.sqrt(2) * velocity / scene.speed)
-
-    return level
 
 
 SAMPLES: Final = 250
@@ -123,6 +80,52 @@ class StartView:
     scene: Scene | None = None
 
 
+def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[StartView]:
+    """Repeat the chosen start cases, as far as the allowed work permits, each by the run of its outcome."""
+    left, first = MOST_WORK if installed() else MOST_PLAIN, first_tolerance(design)
+    for why, outcome in chosen_starts(ensemble):
+        if outcome.work > left:
+            continue
+        for tolerance in (TIGHTER * first, first) if outcome.confirmed else (first,):
+            try:
+                repeat, scene, trajectory = run_of_start(design, outcome.member, accuracy, tolerance)
+            except NotTrustworthyError:
+                left -= WORK
+                continue
+            left -= repeat.work
+            if (repeat.hanging, repeat.balanced) == (outcome.hanging, outcome.balanced):
+                view = RotorView.of(scene, trajectory, levels_of(design, scene), SAMPLES)
+                if view is not None:
+                    yield StartView(
+                        why=why,
+                        start=outcome.member.name,
+                        drag_per_s=outcome.member.drag,
+                        race_centre_deg=outcome.member.race_centre_deg,
+                        angles_deg=tuple(from_si(angle, "deg") % 360 for angle in outcome.member.angles),
+                        quiet_time_s=outcome.quiet_time,
+                        level_db=outcome.level,
+                        balanced=outcome.balanced,
+                        stalled=outcome.hanging,
+                        view=view,
+                        scene=scene,
+                    )
+                break
+
+
+def levels_of(design: Design, scene: Scene) -> Callable[[float], float]:
+    """Function from an rms velocity of the axis [m/s] to the level [dB] at the loudest place.
+
+    The level is that which an ensemble reports.
+    """
+
+    case = replace(design.case, speed=scene.speed)
+
+    def level(velocity: float) -> float:
+        return level_at_loudest(case, design.autobalancer, math.sqrt(2) * velocity / scene.speed)
+
+    return level
+
+
 @dataclass(frozen=True)
 class Starts:
     """Start cases of an ensemble; `of`: design, ensemble and accuracy, None if there is no ensemble."""
@@ -141,29 +144,7 @@ class Starts:
         """The worst, a typical one, and each kind at the drag given: at most a dozen, run again at the first look."""
         if self.of is None:
             return ()
-        design, ensemble, accuracy = self.of
-        views = (_view(design, start) for start in starts_again(design, ensemble, accuracy))
-        return tuple(view for view in views if view is not None)
-
-
-def _view(design: Design, start: ReplayedStart) -> StartView | None:
-    view = RotorView.of(start.scene, start.trajectory, levels_of(design, start.scene), SAMPLES)
-    if view is None:
-        return None
-    outcome = start.outcome
-    return StartView(
-        why=start.why,
-        start=outcome.member.name,
-        drag_per_s=outcome.member.drag,
-        race_centre_deg=outcome.member.race_centre_deg,
-        angles_deg=tuple(from_si(angle, "deg") % 360 for angle in outcome.member.angles),
-        quiet_time_s=outcome.quiet_time,
-        level_db=outcome.level,
-        balanced=outcome.balanced,
-        stalled=outcome.hanging,
-        view=view,
-        scene=start.scene,
-    )
+        return tuple(starts_again(*self.of))
 
 
 @record

@@ -19,7 +19,6 @@ from abu_calc.features.design.records import (
     Eccentricity,
     Frequency,
     FrictionBound,
-    IdleSpeedLevels,
     NewWheel,
     Section,
     Vibration,
@@ -59,6 +58,7 @@ from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_whe
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import DrawingLine
 from abu_calc.sizing.parts.housing_parts import HousingParts
+from abu_calc.sizing.vibration import idle_speed_levels
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -282,7 +282,9 @@ def size(
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=replace(
             Vibration.of(design.idle, design.speed_levels, design.case.speed, design.bands),
-            at_idle_speed=IdleSpeedLevels.of(design),
+            at_idle_speed=idle_speed_levels(
+                design.case, design.imbalance.value, design.autobalancer, design.frequency.balancing_possible
+            ),
         ),
         vibration_loaded=None
         if loaded is None

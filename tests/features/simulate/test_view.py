@@ -62,11 +62,11 @@ def test_a_run_that_is_never_quiet_or_creeps_says_so(result: SimulateResult) -> 
     def shown(**changes: object) -> str:
         return " ".join(as_text(simulate_screen(replace(result, **changes)), 80).split())  # type: ignore[arg-type]
 
-    text = shown(quiet_time_s=None, rest_time_s=None, creeping=False)
+    text = shown(quiet_time=None, rest_time=None, creeping=False)
     assert "not quiet by the end." in text and "quiet time never" in text and "rest time not yet" in text
-    text = shown(quiet_time_s=1.5, rest_time_s=None, creeping=True)
+    text = shown(quiet_time=1.5, rest_time=None, creeping=True)
     assert "quiet after 1.5" in text and ", the balls still creep." in text and "rest time still creeping" in text
-    text = shown(quiet_time_s=2.5, rest_time_s=4.5, creeping=False, full_speed_s=3.0)
+    text = shown(quiet_time=2.5, rest_time=4.5, creeping=False, full_speed=3.0)
     assert "quiet after 2.5" in text and "at full speed, which is reached at 3" in text
     assert "quiet time, from full speed 2.5" in text and "rest time, from full speed 4.5" in text
     assert "creep" not in text
