@@ -255,7 +255,9 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
     steps = (scene.duration - scene.full_speed) * course.count / scene.duration
     creeping = drift(course.imbalances, steps) > SETTLED * reference_imbalance(scene)
     theta = states[balls, :][:, [-1 - window.whole, -1]]
-    bearings = _bearing_amplitudes(scene, states, whole)
+    bearings = tuple(
+        _largest_radius(scene.axis_place(states, z), _mean(scene.axis_place(whole, z))) for z in scene.support.bearings
+    )
     span = float(window.times[-1] - window.times[-1 - window.whole])
     return Response(
         scene=scene.name,
@@ -361,11 +363,6 @@ def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...], bearings: t
         arm_angle=None if turned is None else float(turned),
         bearing_amplitudes=bearings or None,
     )
-
-
-def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
-    places = scene.support.bearings
-    return tuple(_largest_radius(scene.axis_place(states, z), _mean(scene.axis_place(whole, z))) for z in places)
 
 
 def _mean(values: Array) -> Array:

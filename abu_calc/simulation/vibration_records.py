@@ -97,6 +97,7 @@ class HandleLevels(Record):
         return cls.read(
             place,
             levels,
+            *(() if band is None else (band,)),
             level_before_db=levels.before,
             level_after_db=levels.after,
             level_at_once_db=None if hasty is None else hasty.levels.after,
@@ -106,10 +107,6 @@ class HandleLevels(Record):
             axes=None if speed is None else _axes(place, speed),
             a_hv_before_m_per_s2=totals[0],
             a_hv_after_m_per_s2=totals[1],
-            level_before_band_db=None if band is None else band.before,
-            level_after_band_db=None if band is None else band.after,
-            a_hv_before_band_m_per_s2=None if band is None else band.total_before,
-            a_hv_after_band_m_per_s2=None if band is None else band.total_after,
         )
 
 
