@@ -24,9 +24,7 @@ from abu_calc.features.two_races.records import (
     TwoRaceSizeResult,
 )
 from abu_calc.features.two_races.start_cases import ACCURACY, FIRST_TOLERANCE, scene_of, start, start_once
-from abu_calc.formulas.two_races import (
-    two_races_balance,
-)
+from abu_calc.formulas.two_races import two_races_balance
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.parallel import processors
@@ -65,10 +63,8 @@ def size_two_races(
         step = next_step(machine, judged, proposals(judged), _judge(accuracy, threads), progress)
     design, ensemble, one, vibration = judged.facts.design, judged.facts.ensemble, judged.one_race, judged.vibration
     checks = actions(judged, step)
-    many, limit = (
-        None if ensemble is None else TwoRaceEnsemble.of(ensemble, design),
-        table.limits.vibration_level_db,
-    )
+    many = None if ensemble is None else TwoRaceEnsemble.of(ensemble, design)
+    limit = table.limits.vibration_level_db
     quiet = None if many is None else many.quiet_time_s.worst
     told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
     return TwoRaceSizeResult(
