@@ -21,6 +21,8 @@ LONGEST_FILE_NAME: Final = 1000
 
 
 _LONG_WORD: Final = re.compile(rf"\S{{{LONGEST_FOUND + 1},}}")
+_PROSE: Final = re.compile(r"(?!abu )[a-z](?=[a-z]*[ ,:](?!=))")
+"""First letter of advice that begins with a word, not with a key or a command."""
 
 
 @dataclass(frozen=True)
@@ -82,8 +84,13 @@ class InputError(AbuError):
 
 
 def _readable(text: str) -> str:
-    """Advice that repeats what a file has, cut where that is long."""
-    return shortened(_LONG_WORD.sub(lambda match: shortened(match[0]), text), LONGEST_FILE_NAME)
+    """Advice as a sentence; what it repeats of a file is cut where that is long.
+
+    >>> _readable("add mass_kg = 5.6"), _readable("mass_kg = 5.6 is meant"), _readable("abu init FILE writes one")
+    ('Add mass_kg = 5.6', 'mass_kg = 5.6 is meant', 'abu init FILE writes one')
+    """
+    sentence = _PROSE.sub(lambda match: match[0].upper(), text, count=1) if _PROSE.match(text) else text
+    return shortened(_LONG_WORD.sub(lambda match: shortened(match[0]), sentence), LONGEST_FILE_NAME)
 
 
 class RangeError(InputError):

@@ -100,7 +100,9 @@ _NEXT_SENTENCE: Final = re.compile(r"(?<=[.!?]) (?=[A-Z])")
 
 
 class SaidSentences:
-    """Sentences of the actions that stand on a screen, by their entries: another action with them repeats none."""
+    """Sentences of the actions that stand on a screen, by their entries: another action with them repeats none, and not
+    the change.
+    """
 
     def __init__(self) -> None:
         self._said = dict[tuple[str, ...], list[str]]()
@@ -111,29 +113,15 @@ class SaidSentences:
             return action
         said = self._said.setdefault(entries, [])
         new = [sentence for sentence in _NEXT_SENTENCE.split(action) if sentence not in said]
+        change = f"{said[0].partition(': ')[0]}: " if said else None
         said += new
-        return " ".join(new)
-
-
-PASTED: Final = 74
-"""Most letters of a line of options."""
+        return " ".join(new) if change is None else " ".join(new).replace(change, "The same change: ", 1)
 
 
 def paste_lines(overrides: Sequence[str]) -> list[Paragraph]:
-    """Entries as options of a command line that can be pasted: every line but the last goes on in the next.
-
-    Each option stands in the first line that has room for it, so that the lines are few.
-    """
-    lines = list[str]()
-    for entry in overrides:
-        option = f"--set {shell_word(entry)}"
-        for k, line in enumerate(lines):
-            if len(line) + len(option) < PASTED:
-                lines[k] += f" {option}"
-                break
-        else:
-            lines.append(option)
-    return [Paragraph(line if line is lines[-1] else f"{line} \\", indent=4) for line in lines]
+    """Entries as options of a command line, on one line that every shell takes, however long it is."""
+    options = " ".join(f"--set {shell_word(entry)}" for entry in overrides)
+    return [Paragraph(options, indent=4, whole=True)] if options else []
 
 
 def unlike(checks: Iterable[Check]) -> list[list[Check]]:
@@ -214,6 +202,12 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
         values = [f"{entry}: {key} = {written(value)}" for key, entry, value in provenance.converted]
         blocks += [Paragraph("Values written with a unit:"), *(Paragraph(value, indent=4) for value in values)]
     return blocks
+
+
+def contents(blocks: Iterable[Block]) -> list[Block]:
+    """Headings of a whole report, at its head."""
+    named = " · ".join(block.text for block in blocks if isinstance(block, Heading))
+    return [Heading("Contents", "contents"), Paragraph(named)]
 
 
 def options_of(provenance: Provenance) -> str:

@@ -23,7 +23,7 @@ STYLES = {
     "not-done": "bold magenta",
     "warning": "yellow",
 }
-WORDS = {"WARN": "warn", "FAIL": "fail", "NOT EVALUATED": "not-done"}
+WORDS = {"WARN": "warn", "FAIL": "fail", "NOT EVALUATED": "not-done", "LOUDER THAN WITHOUT": "warn"}
 """Cells of tables that are styled as these marks are."""
 WIDEST = 100
 MARGIN = 2
@@ -122,10 +122,10 @@ def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
 def grade_of(cell: str) -> str:
     """Grade that a cell of a table shows, with or without the number of its action.
 
-    >>> grade_of("WARN 2"), grade_of("pass")
+    >>> grade_of("WARN 2"), grade_of("pass, tightest")
     ('warn', 'pass')
     """
-    word = cell.rstrip("0123456789 ")
+    word = cell.rstrip("0123456789 ").removesuffix(", tightest")
     return WORDS.get(word, word)
 
 

@@ -24,7 +24,7 @@ def flat(text: str) -> str:
 @pytest.mark.parametrize(("grade", "nearest"), [("G17", "G16"), ("G1.1", "G1"), ("G90", "G100"), ("17", "G16")])
 def test_the_nearest_balance_grade_is_nearest_by_its_number(grade: str, nearest: str) -> None:
     told = abu("validate", "avtovaz-707-222", "--set", f'wheel.balance_grade="{grade}"')
-    assert told.status == 2 and f'the nearest is "{nearest}"' in told.err
+    assert told.status == 2 and f'The nearest is "{nearest}"' in told.err
 
 
 @pytest.mark.parametrize(("options", "added"), [

@@ -21,7 +21,7 @@ def test_an_error_says_place_fact_limit_and_remedy() -> None:
     error = InputError(
         "too fast", place=Place("m.toml", 3, "machine.speed_rpm"), found="9e9", allowed="at most 1", remedy="slow down"
     )
-    assert str(error) == "m.toml:3: machine.speed_rpm: too fast (found 9e9; allowed: at most 1)\n  slow down"
+    assert str(error) == "m.toml:3: machine.speed_rpm: too fast (found 9e9; allowed: at most 1)\n  Slow down"
     assert str(InputError("too fast")) == "too fast"
 
 

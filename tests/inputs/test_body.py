@@ -34,7 +34,7 @@ def test_a_range_holds_the_rated_speed_at_its_ends_too(tmp_path: Path) -> None:
 
 
 def test_a_range_that_falls_or_misses_the_rated_speed_is_refused(tmp_path: Path) -> None:
-    for written, remedy in (("[6000, 5000]", "write speed_range_rpm = [5000, 6000]"), ("[100, 200]", "widen")):
+    for written, remedy in (("[6000, 5000]", "Write speed_range_rpm = [5000, 6000]"), ("[100, 200]", "Widen")):
         error = refused(tmp_path, BASIC.replace("speed_rpm = 5800", f"speed_rpm = 5800\nspeed_range_rpm = {written}"))
         assert error.place.key == "machine.speed_range_rpm" and remedy in (error.remedy or "")
 

@@ -106,7 +106,7 @@ def test_a_measurement_is_above_or_below_the_prediction() -> None:
 def test_actions_with_the_same_entries_say_each_sentence_once() -> None:
     said = SaidSentences()
     assert said.unsaid("Set a = 1: b rises. All else holds.", ("a=1",)) == "Set a = 1: b rises. All else holds."
-    assert said.unsaid("Set a = 1: c falls. All else holds.", ("a=1",)) == "Set a = 1: c falls."
+    assert said.unsaid("Set a = 1: c falls. All else holds.", ("a=1",)) == "The same change: c falls."
     assert said.unsaid("Set a = 2: c falls. All else holds.", ("a=2",)) == "Set a = 2: c falls. All else holds."
     assert said.unsaid("All else holds.", ()) == said.unsaid("All else holds.", ()) == "All else holds."
 

@@ -23,7 +23,7 @@ def test_durations_are_bounded_by_work_and_run_up(tmp_path: Path) -> None:
     ramped = scene(tmp_path, f"{SCENE}[scene.effects]\nrun_up = {{ time_s = 100, run_down_s = 50 }}\n")
     assert lasting(ramped, 150.0, "--duration").duration == 150.0
     for wanted in (149.0, 1e9, math.nan, -1.0):
-        with pytest.raises(InputError, match="one revolution and the run-up") as caught:
+        with pytest.raises(InputError, match="One revolution and the run-up") as caught:
             lasting(ramped, wanted, "--duration")
         assert caught.value.place.key == "--duration"
     assert lasting(ramped, None, "x") == ramped

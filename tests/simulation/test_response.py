@@ -133,7 +133,7 @@ def test_samples_of_many_balls_are_refused_where_they_would_fill_the_memory() ->
     scene = replace(SCENE, races=(many,))
     assert scene.state_count == len(assemble(scene).states) == 124
     assert len(equally_spaced(SCENE, 1_000_000)) == 1_000_000
-    with pytest.raises(InputError, match=r"found 300000; allowed: 2 … 270000\)\n  ask for a number in this range"):
+    with pytest.raises(InputError, match=r"found 300000; allowed: 2 … 270000\)\n  Ask for a number in this range"):
         equally_spaced(scene, 300_000)
 
 

@@ -34,5 +34,5 @@ def test_an_unknown_name_is_answered_with_the_nearest() -> None:
     near = unknown("design", "one-peice", ["light", "one-piece"], "give any")
     assert (near.found, near.allowed) == ("one-peice", "light, one-piece") and "one-piece" in (near.remedy or "")
     far = unknown("design", "zzz", ["light", "one-piece"], "give any")
-    assert far.remedy == "give any"
+    assert far.remedy == "Give any"
     assert unknown("size", "zzz", map(str, range(51))).allowed is None

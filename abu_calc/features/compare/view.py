@@ -12,8 +12,9 @@ from typing import Any, Final, NamedTuple
 from abu_calc.features.compare.main_numbers import main_blocks
 from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part, checks_named
 from abu_calc.features.design.study import SizeResult
+from abu_calc.features.design.verdict import WORDS, in_capitals
 from abu_calc.features.seats.study import CheckFitResult
-from abu_calc.foundation.checks import RANK, Check
+from abu_calc.foundation.checks import RANK, Check, worst
 from abu_calc.foundation.checks import WORDS as VERDICTS
 from abu_calc.foundation.quantity import Record, hints, parts_of_type, quantities
 from abu_calc.foundation.units import quantity_and_unit
@@ -185,15 +186,22 @@ def about(result: CompareResult) -> list[Block]:
     first, *others = result.files
     of_one = all((file.title, file.file) == (first.title, first.file) for file in others)
     shared: list[Block] = [Paragraph(f"{first.title}, {first.file}")] if of_one else []
-    machines = (_machine(result, file, named=not of_one) for file in result.files)
-    return [Heading(result.title, "title"), verdict_line(result), *shared, *machines]
+    words = next((row.values for row in (*result.differences, *result.alike) if row.path == "verdict.word"), ())
+    own = [in_capitals(word or "") for word in words] or [""] * len(result.files)
+    machines = (_machine(result, *each, named=not of_one) for each in zip(result.files, own, strict=True))
+    whole = verdict_line(result)
+    if all(own):  # the worst machine has the worst check
+        word = in_capitals(WORDS[worst(result.checks)])
+        whole = whole._replace(text=f"{word}{whole.text[whole.text.index(':') :]}")
+    return [Heading(result.title, "title"), whole, *shared, *machines]
 
 
-def _machine(result: CompareResult, file: ComparedFile, *, named: bool) -> Paragraph:
+def _machine(result: CompareResult, file: ComparedFile, own: str, *, named: bool) -> Paragraph:
+    """Letter, verdict and what differs of a machine; `own`: its verdict where it has more than seats."""
     replaced = ", ".join(f"{key} = {exact(value)}" for key, value in file.overrides.items())
     warned = any(check.status == "warn" and check.name.endswith(f", {file.letter}") for check in result.checks)
     warns = file.status == "pass" and warned
-    word = "PASS WITH WARNINGS" if warns else VERDICTS[file.status]
+    word = own or ("PASS WITH WARNINGS" if warns else VERDICTS[file.status])
     text = f"{file.title}, {file.file}" + (f", with {replaced}" if replaced else "")
     return Paragraph(
         f"{file.letter}  {word}: {text if named else replaced or 'as the file stands'}",

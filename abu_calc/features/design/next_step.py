@@ -18,7 +18,7 @@ from abu_calc.features.design.region import steadier
 from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_rules import OF_STARTS as OF_BALANCE
 from abu_calc.features.design.start_search import loudness, slowness
-from abu_calc.features.design.verdict import WORDS
+from abu_calc.features.design.verdict import WORDS, creeps
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import RANK, Action, Check, worst
 from abu_calc.foundation.errors import AbuError
@@ -366,7 +366,7 @@ NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
                _number(lambda candidate: from_si(candidate.capacity, "g_mm"))),
     ),
     "ABU203": (
-        Number("autobalancer.mass_fraction", "the share of the mass", "", _number(attrgetter("mass_fraction")), 100.0),
+        Number("autobalancer.mass_fraction", "the share of the mass", "%", _number(attrgetter("mass_fraction")), 100.0),
     ),
     "ABU401": (
         Number("vibration.level_after_db", "the expected level", "dB", attrgetter("level_after")),
@@ -467,21 +467,34 @@ TOLD: Final = 6
 def _action(check: Check, before: Judged, best: Tried) -> Action:
     """The change with what it does to the number that decides this check, and to all other checks."""
     left = dict.fromkeys(each.code for each in best.after.checks if each.requested and each.status != "pass")
-    then = f"Then {' and '.join(left)} still warn{'s' * (len(left) == 1)}." if left else "All checks then pass."
+    then = f"Then {', '.join(left)} still warn{'s' * (len(left) == 1)}." if left else "All checks then pass."
     found, text = _moved(check, before, best.after), f"{check.name} then passes"
     now = next((each for each in best.after.checks if _key(each) == _key(check)), check)
     if check.code in left:
         text = f"{check.name} then warns"
+    elif creeps(check):
+        text = "the balls then come to rest"
     elif found is not None:
         number, old, new = found
-        text = Moved(number.name, math.inf if old is None else old, new, number.unit, check.limit).text
+        from_, to = (math.inf if value is None else value * number.per for value in (old, new))
+        text = Moved(number.name, from_, to, number.unit, check.limit).text
     elif check.code not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
-        text = Moved(f"the {check.name}", check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
-    design = before.facts.design
-    own = overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
-    change = in_words(best.entries, design.case.table, own)
+        text = Moved(f'"{check.name}"', check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
+    own = _own(before)
+    change = in_words(best.entries, before.facts.design.case.table, own)
     kept = " Keep balls and race." if own and set(own) <= set(best.entries) else ""
     return Action(f"{capitalised(change)}: {text} ({SIMULATED}).{kept} {then}", best.entries)
+
+
+def _own(before: Judged) -> Entries:
+    """Entries that pin the present balls and race; none of two races."""
+    design = before.facts.design
+    return overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
+
+
+def change_in_short(before: Judged, step: NextStep) -> str | None:
+    """The change that was tried, without what it replaces: balls come last."""
+    return in_words(step.entries, None, _own(before)).partition(" instead of ")[0] if step.entries else None
 
 
 def _apart(before: float | None, after: float | None) -> bool:

@@ -2,7 +2,8 @@
 
 import math
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.features.design.data_gaps import DRAG, DataGap
@@ -10,22 +11,23 @@ from abu_calc.features.design.judgement import SEARCHED_LESS
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.tables import (
     INERTIA,
-    LOUDER,
     SLIP,
     TENTH,
     highest_first,
     inch,
     level_in_digits,
+    louder,
     other_notes,
     title_with_speed,
     unusual_values,
 )
-from abu_calc.features.design.verdict import IN_VAIN, STARTS_UNIT, Verdict, faults, keeps_limit
+from abu_calc.features.design.verdict import STARTS_UNIT, Verdict, faults, in_capitals, keeps_limit
 from abu_calc.foundation.checks import RANK, Check, Grade, worst
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
-from abu_calc.reporting.parts import WORD, replaced_entries
+from abu_calc.reporting.parts import WORD, next_command, replaced_entries
 from abu_calc.reporting.screen import BLANK, many
+from abu_calc.reporting.text import TIE, height
 from abu_calc.simulation.result import Result
 
 LEAST_SHARE: Final = 1e-6
@@ -37,16 +39,18 @@ LABEL: Final = 9
 """Columns of the labels at the left."""
 MOST_FAULTS: Final = 3
 """Checks with a row of their own, beside those that the table shows."""
+MOST_OF_CHANGE: Final = 3
+"""Lines of a change beyond which what it replaces is left out."""
 NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU402", "ABU701"})
 """Checks without which no value of a table is a pass."""
 REPLACE: Final = {
     "autobalancer.race_eccentricity_mm": "Specify the run-out that the shop holds.",
-    "autobalancer.rolling_friction_mm": "Measure it: `abu measure-plan`, then `abu identify`.",
-    DRAG: "Name the oil: oil.grade, oil.viscosity_index, oil.fill_ml.",
+    "autobalancer.rolling_friction_mm": "Measure it: {}.",
+    DRAG: "Name grade, viscosity_index and fill_ml under [oil].",
     "suspension.natural_frequencies_hz": "Measure how the machine is held.",
     "suspension.damping_ratios": "Measure how the machine is held.",
 }
-"""How to replace an assumed value by a known one."""
+"""How to replace an assumed value by a known one; {}: the command that tells how to measure it."""
 RUN_NAMES: Final = {
     "autobalancer.race_eccentricity_mm": ("eccentricity", 1e3, "µm"),
     "wheel.imbalance_g_mm": ("imbalance", 1.0, "g·mm"),
@@ -77,22 +81,13 @@ def first_lines(result: SizeResult) -> tuple[Block, ...]:
         *(() if result.verdict.leave_out else
           (*labelled("Make" if result.status == "pass" else "Best", _make(result)), BLANK)),
         numbers(result), BLANK, *_runs(result), *_assumed(result), *_arm(result),
-        *replaced(result), *next_lines(result.verdict, result.checks, result.warnings),
+        *replaced(result), *(next_lines(result.verdict, result.checks, result.warnings) or _in_use(result)),
     )  # fmt: skip
-
-
-def verdict_words(verdict: Verdict) -> str:
-    """The verdict as its sentence begins, in capitals: no verdict is told by its colour alone.
-
-    >>> verdict_words(Verdict(word="does-not-suit", sentence="Does not suit: …", next=None, promise=None))
-    'DOES NOT SUIT'
-    """
-    return verdict.word.replace("-but", ", but").replace("-", " ").upper()
 
 
 def verdict_paragraph(verdict: Verdict, checks: Sequence[Check]) -> Paragraph:
     """The sentence, its first words in capitals."""
-    words = verdict_words(verdict)
+    words = in_capitals(verdict.word)
     return Paragraph(f"{words}{verdict.sentence[len(words) :]}", worst(checks))
 
 
@@ -108,9 +103,11 @@ def _make(result: SizeResult) -> list[str]:
         f", groove R {number(abu.groove_radius_mm, 4)} ± {number(section.groove_tolerance_mm, 1)} mm"
     )  # fmt: skip
     kind = f"{abu.ball_material} {abu.corrector}s"
+    arm = next((f", rolling {row.requirement.partition(':')[0]}" for row in result.drawing
+                if row.feature == "rolling friction"), "")  # fmt: skip
     first = (
         f"{abu.ball_count} {kind} Ø{round(abu.ball_diameter_mm, 3):g} mm{inch(abu)} in a race R "
-        f"{abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm{groove}, {section.hardness}"
+        f"{abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm{groove}, {section.hardness}{arm}"
     )
     if result.verdict.leave_out:
         return [first]
@@ -130,13 +127,14 @@ def _capacity(result: SizeResult) -> str:
     """What the balls carry and must carry, and why that is more than the imbalance."""
     bare, own, model = result.required_capacity_g_mm, result.autobalancer.capacity_g_mm, result.model
     limit = next((check.limit for check in result.checks if check.code == "ABU201"), None) or bare
+    if not bare:
+        return f"carries {number(own, 4)} g·mm"
     named = ("imbalance", result.imbalance_g_mm), ("wheel run-out", model.runout_part_g_mm)
     parts = [(name, part) for name, part in (*named, ("race", model.eccentricity_part_g_mm)) if part > LEAST_SHARE]
     needed = " + ".join(f"{name} {number(part, 3)}" for name, part in parts)
-    margin = f"{limit / bare:.3g} × ({needed})" if bare and limit > bare else needed
-    large = "; larger balls roll more easily" if own > AMPLE * limit else ""
-    sign = "≥" if own >= limit else "<"
-    return f"carries {number(own, 4)} {sign} {number(limit, 4)} g·mm = {margin}{large}"
+    least = "" if own >= limit else f", at least {limit / bare:.3g} ×"
+    large = "; larger balls roll more easily" if own > AMPLE * limit and result.status == "pass" else ""
+    return f"carries {number(own, 4)} g·mm, {own / bare:.3g} × what is needed: {needed}{least}{large}"
 
 
 def numbers(result: SizeResult) -> Grid:
@@ -144,7 +142,7 @@ def numbers(result: SizeResult) -> Grid:
     checks = {check.code: check for check in result.checks}
     many_starts, rows = result.ensemble, {
         "ABU401": [*_idle(result, checks.get("ABU401"))], "ABU404": [*_handles(result, checks.get("ABU404"))],
-        "": [*_other_speeds(result), *_grinding(result)],
+        "ABU104": [*_motor_idle(result, checks.get("ABU104"))], "": [*_grinding(result)],
     }  # fmt: skip
     if many_starts is not None:
         further = many_starts.further_starts
@@ -161,11 +159,27 @@ def number_table(rows: Mapping[str, Sequence[Row]], checks: Sequence[Check]) -> 
     then checks of which no row shows the grade.
     """
     shown = {code for code, its in rows.items() if any(row[4] not in ("", "pass") for row in its)}
-    every = [row for its in rows.values() for row in its]
-    if any(check.status == "fail" for check in checks if check.code in NOT_IN_BALANCE):
-        every = [(*row[:4], "" if row[4] == "pass" else row[4]) for row in every if row[0] != REST]
+    every = _tightest(rows, bad=any(check.status in ("warn", "fail") for check in checks if check.requested))
+    failed = {check.code for check in checks if check.status == "fail"}
+    if failed:
+        every = [row for row in every if row[0] != REST or row[4]]
+    if failed & NOT_IN_BALANCE:
+        every = [(*row[:4], "" if row[4].startswith("pass") else row[4]) for row in every if row[0] != REST]
     header = ("Vibration, dB", "without", "with", "limit", "")
     return Grid(header, (*every, *_fault_rows(checks, shown)), frozenset({1, 2, 3}))
+
+
+def _tightest(rows: Mapping[str, Sequence[Row]], *, bad: bool) -> list[Row]:
+    """All rows; if no check is `bad`, that with the largest share of its limit is marked."""
+    every = [row for its in rows.values() for row in its]
+    shares = {
+        row: 10 ** ((float(row[2]) - float(row[3])) / 20) if code == "ABU401" else float(row[2]) / float(row[3])
+        for code, its in rows.items() for row in its if row[4] == "pass"
+    }  # fmt: skip
+    if bad or len(shares) < 2:
+        return every
+    least = max(shares, key=lambda row: shares[row])
+    return [(*row[:4], f"{row[4]}, tightest") if row == least else row for row in every]
 
 
 def _idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
@@ -183,7 +197,7 @@ def _idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
     if many_starts is not None and loudest is not None and (expected is None or loudest > expected + TENTH):
         *cells, grade = level_row(f"  loudest of {many(many_starts.runs, 'start case')}", None, loudest, check)
         label, without, after, limit = cells
-        yield label, without, after, limit, _louder(loudest, before) or grade
+        yield label, without, after, limit, louder(loudest, before) or grade
 
 
 def level_row(label: str, before: float | None, after: float | None, check: Check | None) -> Row:
@@ -214,11 +228,15 @@ def _handles(result: SizeResult, check: Check | None) -> Iterator[Row]:
         yield f"  {many(more, 'more handle')}: --full", "", "", "", ""
 
 
-def _other_speeds(result: SizeResult) -> Iterator[Row]:
+def _motor_idle(result: SizeResult, check: Check | None) -> Iterator[Row]:
+    """Level at the motor's idle speed, and the speed it may have where that is lower."""
     idle = result.vibration.at_idle_speed
     if idle is not None:
         before, after = (level_in_digits(level) for level in (idle.level_before_db, idle.level_after_db))
-        yield f"Motor idle, {idle.speed_rpm:.0f} rpm, expected", before, after, "", ""
+        beyond, grade = "", ""
+        if check is not None and check.limit is not None and check.status != "pass":
+            beyond, grade = f" {'>' if check.bound == 'most' else '<'} {check.limit:.0f}", WORD[check.status]
+        yield f"Motor idle, {idle.speed_rpm:.0f}{beyond} rpm", before, after, "", grade
 
 
 def _grinding(result: SizeResult) -> Iterator[Row]:
@@ -229,13 +247,9 @@ def _grinding(result: SizeResult) -> Iterator[Row]:
     before, after, early = loaded.level_before_db, loaded.level_after_db, loaded.level_at_once_db
     without = "not known" if before is None else level_in_digits(before)
     settled = "not known" if after is None else level_in_digits(after)
-    yield "Grinding, pressed when quiet", without, settled, "", _louder(after, before)
+    yield "Grinding, pressed when quiet", without, settled, "", louder(after, before)
     if after is not None and early is not None and early > after + TENTH:
-        yield "  pressed earlier (not judged)", "", level_in_digits(early), "", _louder(early, before)
-
-
-def _louder(level: float | None, before: float | None) -> str:
-    return LOUDER if level is not None and before is not None and level > before else ""
+        yield "  pressed earlier (not judged)", "", level_in_digits(early), "", louder(early, before)
 
 
 def time_rows(
@@ -251,10 +265,9 @@ def time_rows(
     if late and rare is not None and limit is not None and rare > limit:
         slowest, label, late = rare, "Quiet after, s: one start of 1000", False
     creeps = WORD[check.status] if late and check is not None else ""
-    return [
-        (label, "", _seconds(slowest, limit), "" if limit is None else f"{limit:.2f}", _grade(slowest, check)),
-        (REST, "", _seconds(rested), "", creeps),
-    ]
+    first = label, "", _seconds(slowest, limit), "" if limit is None else f"{limit:.2f}", _grade(slowest, check)
+    never = math.isinf(slowest) and math.isinf(rested)  # once is enough
+    return [first] if never else [first, (REST, "", _seconds(rested), "", creeps)]
 
 
 def _seconds(time: float | None, limit: float | None = None) -> str:
@@ -274,10 +287,21 @@ def _digits(value: float, limit: float | None) -> str:
 def _fault_rows(checks: Sequence[Check], shown: Collection[str]) -> list[Row]:
     """Checks that are not passed and not `shown`, each in a row with its value and limit."""
     grades: tuple[Grade, ...] = ("fail", "not-done", "warn")
-    bad = [check for grade in grades for check in faults(checks, grade) if check.code not in shown]
-    rows = [_fault_row(check) for check in bad[:MOST_FAULTS]]
-    more = len(bad) - MOST_FAULTS
+    bad = _once(check for grade in grades for check in faults(checks, grade) if check.code not in shown)
+    told = ([check for check in bad if check.status == "fail"] or bad)[:MOST_FAULTS]
+    rows, more = [*map(_fault_row, told)], len(bad) - len(told)
     return rows + ([(f"{many(more, 'more check')}: --full", "", "", "", "")] if more > 0 else [])
+
+
+def _once(checks: Iterable[Check]) -> list[Check]:
+    """Checks that both races have alike as one, that of the worse race."""
+    worse = dict[tuple[str, ...], Check]()
+    for check in checks:
+        name, race, number = check.name.partition(", race ")
+        key = check.code, name, number if check.value is None else race, check.status
+        both = sorted((check, worse.get(key, check)), key=lambda each: abs((each.value or 0) / (each.limit or 1) - 1))
+        worse[key] = replace(both[1], name=name) if key in worse else check
+    return list(worse.values())
 
 
 def _fault_row(check: Check) -> Row:
@@ -326,18 +350,21 @@ def _assumed(result: SizeResult) -> list[Block]:
     if gap is None:
         return []
     limits = [check.limit for check in result.checks if check.code == "ABU401" and check.limit is not None]
-    return labelled("Assumed", [f"{_moves(gap, *limits)} {REPLACE.get(gap.key, '')}".rstrip()])
+    plan = f"`{next_command('abu measure-plan', result.provenance, ())}`".replace(" ", TIE)
+    return labelled("Assumed", [f"{_moves(gap, *limits)} {REPLACE.get(gap.key, '').format(plan)}".rstrip()])
 
 
 def _moves(gap: DataGap, limit: float = math.inf) -> str:
     """What both ends of the usual range give, beside the limit of the level [dB] where one exceeds it."""
     ends = [f"{level:.1f} dB" for level in gap.level_db]
     if gap.level_db[0] == gap.level_db[1]:  # an oil moves the times alone
-        ends = [f"quiet after {_seconds(time)} s" for time in gap.quiet_time_s or ()]
+        ends = [f"beyond these runs, quiet after {_seconds(time)} s" for time in gap.quiet_time_s or ()]
     given = ", ".join(f"{text} at {value:g}" for text, value in zip(ends, gap.usual_range, strict=False))
-    given = given.replace(", quiet after", ",")
+    given = given.replace(", beyond these runs, quiet after", ",")
     beyond = f", limit {limit:g} dB" if max(gap.level_db) > limit else ""
-    return f"{gap.key.rpartition('.')[2]} = {gap.value:g}; {given or 'no time was simulated'}{beyond}."
+    key = gap.key.rpartition(".")[2]
+    named = f"Drag rate {gap.value:g} 1/s" if gap.key == DRAG else f"{key} = {gap.value:g}"
+    return f"{named}; {given or 'no time was simulated'}{beyond}."
 
 
 def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str] = ()) -> list[Block]:
@@ -352,13 +379,24 @@ def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str
         if verdict.leave_out:
             unless = ", unless the value marked with ! is a slip" if slip else ""
             return labelled("Next", [f"leave the autobalancer out{unless}"])
-        if verdict.word == "suits" or IN_VAIN in verdict.sentence:
+        if verdict.word == "suits" or verdict.in_vain:
             return []
-        return labelled("Next", ["see what the checks ask for: --full, or --patience 300 for more changes"])
+        return labelled("Next", ["--full: what the checks ask for; --patience 300: more changes"])
     own = (check for grade in RANK for check in checks if check.status == grade and check.overrides
            and all(f"--set {shell_word(entry)}" in verdict.next for entry in check.overrides))  # fmt: skip
     promised = next((check.remedy for check in own), None) or ""
+    if verdict.change and height(labelled("Next", [promised])) > MOST_OF_CHANGE:
+        brief = re.sub(r" \(viscosity index[^)]*\)", "", capitalised(verdict.change))  # the command has it
+        promised = f"{brief}: {promised.partition(': ')[2].replace(' Keep balls and race.', '')}"
     return [*labelled("Next", [promised]), Paragraph(verdict.next, whole=True)]
+
+
+def _in_use(result: SizeResult) -> list[Block]:
+    """How to use what suits: pressed early, it may be louder than without."""
+    loaded = result.vibration_loaded
+    if result.verdict.word != "suits" or loaded is None or not louder(loaded.level_at_once_db, loaded.level_before_db):
+        return []
+    return labelled("Next", ["press only when it is quiet: before, it is louder than without"])
 
 
 def replaced(result: Result) -> list[Block]:
@@ -371,4 +409,4 @@ def last_lines(result: Result, verdict: Verdict, notes: int = 0) -> list[Block]:
     """The verdict once more, and where the rest stands."""
     more = f", {many(notes, 'note')}" if notes else ""
     commands = f"--full: all numbers{more}   -o report.html   -o section.svg"
-    return [Paragraph(f"{verdict_words(verdict)}   {commands}", worst(result.checks))]
+    return [Paragraph(f"{in_capitals(verdict.word)}   {commands}", worst(result.checks))]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, TrialWatcher, judge
-from abu_calc.features.design.next_step import Judge, NextStep, actions, next_step, promise, proposals
+from abu_calc.features.design.next_step import Judge, NextStep, actions, change_in_short, next_step, promise, proposals
 from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
@@ -345,6 +345,7 @@ def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading
         step.entries,
         promise(judged, step),
         incurable=sought and step.futile,
+        change=change_in_short(judged, step),
     )
 
 

@@ -280,7 +280,7 @@ def _at_idle_speed(result: SizeResult) -> list[TableCase]:
     idle = result.vibration.at_idle_speed
     if idle is None:
         return []
-    label = f"At the motor's idle speed, {idle.speed_rpm:.0f} rpm"
+    label = f"Motor idle, {idle.speed_rpm:.0f} rpm"
     return [
         TableCase(f"{label}, without", _db(idle.level_before_db)),
         TableCase(f"{label}, expected", _db(idle.level_after_db) or "none"),
@@ -306,21 +306,21 @@ def _under_load(loaded: Vibration | None) -> list[TableCase]:
     before, after, early = loaded.level_before_db, loaded.level_after_db, loaded.level_at_once_db
     cases = [
         TableCase("Grinding, without autobalancer", _db(before) or "not known"),
-        TableCase("Grinding, with: pressed after settling", _db(after) or "not known", "", _louder(after, before)),
+        TableCase("Grinding, with: pressed after settling", _db(after) or "not known", "", louder(after, before)),
     ]
     if after is not None and early is not None and early > after + TENTH:
-        cases.append(TableCase("  pressed earlier", _db(early), "", _louder(early, before)))
+        cases.append(TableCase("  pressed earlier", _db(early), "", louder(early, before)))
     starts = loaded.starts
     known = max((level for level in (after, early) if level is not None), default=None)
     if starts is not None and starts.worst_db is not None and known is not None and starts.worst_db > known + TENTH:
         label = f"  loudest of {many(starts.count, 'start case')}"
-        cases.append(TableCase(label, _db(starts.worst_db), "", _louder(starts.worst_db, before)))
+        cases.append(TableCase(label, _db(starts.worst_db), "", louder(starts.worst_db, before)))
     return cases
 
 
-def _louder(level: float | None, before: float | None) -> str:
-    louder = level is not None and before is not None and level > before
-    return LOUDER if louder else ""
+def louder(level: float | None, before: float | None) -> str:
+    """The grade of a level [dB] above that without the autobalancer; nothing for another one."""
+    return LOUDER if level is not None and before is not None and level > before else ""
 
 
 def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[TableCase]:

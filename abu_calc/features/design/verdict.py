@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Annotated, Final, Self
+from typing import Annotated, ClassVar, Final, Self
 
 from abu_calc.foundation.checks import CHECK_CODES, RANK, Check, Grade, worst
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -34,8 +34,6 @@ LEAST_BENEFIT: Final = 3.0
 """Reduction of the idle level [dB] below which the sentence says how little it is."""
 
 
-IN_VAIN: Final = "No change of the file was found that mends it."
-"""Last words of the sentence if all changes were tried in vain."""
 RARE: Final = "one of 1000 takes"
 """Words of a check that the time of rare starts decides."""
 LATER: Final = "Slowest at another drag rate"
@@ -48,6 +46,8 @@ STARTS_UNIT: Final = "start cases"
 class Verdict(Record):
     """Whether the machine suits an autobalancer, and the command of the change that was tried, if one mends it."""
 
+    left_out: ClassVar[frozenset[str]] = frozenset({"change", "in_vain"})
+
     word: Annotated[str, Quantity("verdict", "", 4, "suits, suits-but, does-not-suit or not-known")]
     sentence: Annotated[str, Quantity("in a sentence")]
     next: Annotated[str | None, Quantity("next command")]
@@ -55,32 +55,46 @@ class Verdict(Record):
         Mapping[str, str | float | None] | None, Quantity("what the next command moves: path of the result, from, to")
     ]
     leave_out: Annotated[bool, Quantity("no change of the file makes the balls help")] = False
+    change: Annotated[str | None, Quantity("the change that was tried, without what it replaces")] = None
+    in_vain: Annotated[bool, Quantity("no change of the file was found")] = False
 
     @classmethod
     def of(
         cls, checks: Sequence[Check], benefit: str, reading: Provenance, entries: Sequence[str] = (),
-        promise: Mapping[str, str | float | None] | None = None, *, incurable: bool = False,
+        promise: Mapping[str, str | float | None] | None = None, *, incurable: bool = False, change: str | None = None,
     ) -> Self:  # fmt: skip
         """Verdict of these checks: those of the worst grade decide; `benefit`: a sentence for those that suit.
 
         `reading`: the file, with the entries that a command replaces already, which the next one replaces, too.
 
-        `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: all were tried in vain.
+        `entries`: those of the change that was tried; `promise`: what it moves; `incurable`: all were tried in vain;
+        `change`: it in words.
         """
         grade = worst(checks)
         reasons = _once(map(_reason, faults(checks, grade)))
         more = len(reasons) - MOST_REASONS
         named = "; ".join(reasons[:MOST_REASONS]) + (f"; {more} more" if more > 0 else "")
-        sentence = " ".join([BEGINNINGS[grade], *([f"{named}."] if named else [])])
+        sentence = " ".join([BEGINNINGS[grade], *([f"{named}."] if named else []), *_following(checks, grade)])
         if grade in ("pass", "warn") and benefit:
             sentence += f" {benefit}"
         if grade == "pass":
             return cls(word=WORDS[grade], sentence=sentence, next=None, promise=None)
-        if incurable and grade != "not-done":
-            sentence += f" {IN_VAIN}"
+        in_vain = incurable and grade != "not-done"
+        if in_vain:
+            sentence += " No change of the file was found that mends it."
         step = next_command("abu size", reading, entries) if entries else None
         useless = incurable and any(check.status == "fail" and check.code in OF_BALANCING for check in checks)
-        return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise, leave_out=useless)
+        return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise, leave_out=useless, change=change,
+                   in_vain=in_vain)  # fmt: skip
+
+
+def in_capitals(word: str) -> str:
+    """The word of a verdict as its sentence begins: no verdict is told by its colour alone.
+
+    >>> in_capitals("does-not-suit"), in_capitals("suits-but")
+    ('DOES NOT SUIT', 'SUITS, BUT')
+    """
+    return word.replace("-but", ", but").replace("-", " ").upper()
 
 
 def faults(checks: Sequence[Check], grade: Grade) -> list[Check]:
@@ -89,6 +103,19 @@ def faults(checks: Sequence[Check], grade: Grade) -> list[Check]:
     causes = (check for check in bad if RANK.index(check.status) <= RANK.index(grade))
     following = {code for check in causes for code in FOLLOW.get(check.code, ())}
     return [check for check in bad if check.status == grade and check.code not in following]
+
+
+def _following(checks: Sequence[Check], grade: Grade) -> list[str]:
+    """A sentence on the checks that fail with another one; nothing if none does."""
+    counted = faults(checks, grade)
+    names = list(dict.fromkeys(
+        check.name.partition(", race ")[0] for check in checks
+        if grade == check.status == "fail" and check.requested and check not in counted
+    ))  # fmt: skip
+    if not names:
+        return []
+    told = " and ".join(names) if len(names) <= MOST_REASONS else many(len(names), "check")
+    return [f"With that, {told} fail{'s' * (len(names) == 1)}."]
 
 
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:
@@ -135,7 +162,7 @@ def _reason(check: Check) -> str:
     if value is None and limit is not None and of_time:
         return f"{fault}{where} (never, at most {limit:g} s)"
     if value is None or limit is None or keeps_limit(check):
-        if of_time and "creep" in check.message:
+        if creeps(check):
             return "the balls still creep at the end of some start cases"
         if where:
             return f"{fault}{where}"
@@ -143,6 +170,11 @@ def _reason(check: Check) -> str:
         last = check.status == "warn" or sentences[-1].startswith("Further start cases")
         return f"{fault} ({uncapitalised(sentences[-last].rstrip('.'))})"
     return f"{fault}{where} ({_beside(check, value, limit)})"
+
+
+def creeps(check: Check) -> bool:
+    """True if the balls still creep at the end of some start cases, which all are quiet in time."""
+    return check.unit == "s" and keeps_limit(check) and "creep" in check.message
 
 
 def keeps_limit(check: Check) -> bool:

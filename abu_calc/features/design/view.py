@@ -26,6 +26,7 @@ from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, nu
 from abu_calc.reporting.charts.characters import pictured
 from abu_calc.reporting.parts import (
     check_blocks,
+    contents,
     default_blocks,
     facts,
     file_of,
@@ -84,8 +85,7 @@ def size_blocks(result: SizeResult) -> tuple[Block, ...]:
 
 def _blocks(result: SizeResult) -> tuple[Block, ...]:
     details = _details(result)
-    contents = " · ".join(block.text for block in details if isinstance(block, Heading))
-    return *first_lines(result), Heading("Contents", "contents"), Paragraph(contents), *details
+    return *first_lines(result), *contents(details), *details
 
 
 def _details(result: SizeResult) -> tuple[Block, ...]:
@@ -99,6 +99,7 @@ def _details(result: SizeResult) -> tuple[Block, ...]:
         *warning_blocks(result.warnings),
         *_design(result),
         *_section(result),
+        *_drawing(result),
         *_need(result),
         *_vibration(result),
         *oil_blocks(result.oil, result.autobalancer.optimum_drag_per_s),
@@ -108,7 +109,6 @@ def _details(result: SizeResult) -> tuple[Block, ...]:
         *_alternatives(result.alternatives),
         *_swing_arm(result),
         *_seats(result),
-        *_drawing(result),
         Heading("Conventions", "conventions"),
         Paragraph(CONVENTIONS),
         *default_blocks(result.provenance.defaults),

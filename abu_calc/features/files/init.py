@@ -15,6 +15,7 @@ from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.write import Target, check_target
 
 MACHINE = "The machine"
+AXES = "Handle, mm from the centre of mass: x to the spindle, y across, z to the wheel; repeatable."
 
 
 def init(
@@ -26,9 +27,7 @@ def init(
     speed: Annotated[str | None, option("--speed RPM", "Rated speed of the spindle.", MACHINE)] = None,
     room: Annotated[str | None, option("--room ØxWIDTH", "Room for the autobalancer, mm.", MACHINE)] = None,
     level: Annotated[str | None, option("--level DB", "Idle level measured without it.", MACHINE)] = None,
-    handle: Annotated[
-        list[str] | None, option("--handle NAME=x,y,z", "Handle, from the centre of mass, mm; repeatable.", MACHINE)
-    ] = None,
+    handle: Annotated[list[str] | None, option("--handle NAME=x,y,z", AXES, MACHINE)] = None,
     all_keys: Annotated[bool, option("--all-keys", "Write every key with a comment instead.")] = False,
     preset: Annotated[str | None, option("--preset NAME", "Copy this preset.")] = None,
     scene: Annotated[bool, option("--scene", "Write a scene file for `abu simulate`.")] = False,

@@ -1,5 +1,6 @@
 """The report of `abu grinding`, on one screen and whole: verdict, levels, balls, contact, start cases, wear."""
 
+import re
 from typing import Final
 
 from abu_calc.features.grinding.curves import FrictionBand
@@ -250,11 +251,15 @@ LEFT_OUT = (
     *("wear-without", "wear-with"),
 )
 """Ids of the sections that are left to the whole report."""
+MOST_SENTENCES: Final = 3
+"""Sentences of the verdict on one screen; the checks tell the first change."""
 
 
 def grinding_screen(result: GrindingResult) -> tuple[Block, ...]:
     """Verdict, numbers that matter, balls, contact, wear, friction; curves are left to the whole report."""
-    return shortened(result, grinding_blocks(result), *LEFT_OUT, head=3)
+    title, grades, _, *others = grinding_blocks(result)
+    told = Paragraph(" ".join(re.split(r"(?<=\.) (?=[A-Z])", result.verdict)[:MOST_SENTENCES]), _mark(result))
+    return shortened(result, (title, grades, told, *others), *LEFT_OUT, head=3)
 
 
 def start_blocks(starts: LoadedStarts | None) -> list[Block]:

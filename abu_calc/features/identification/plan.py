@@ -49,6 +49,7 @@ class MeasurePlanResult(Result):
     """What to record, and what it will tell."""
 
     command: ClassVar[str] = "measure-plan"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"run_up_s"}
 
     model: SceneModel
     runs: Annotated[int, Quantity("starts to record")]
@@ -56,8 +57,9 @@ class MeasurePlanResult(Result):
     length_s: Annotated[float, Quantity("length of a recording", "", 3)]
     noise_um: Annotated[float, Quantity("noise assumed", "σ", 3)]
     largest_velocity_mm_per_s: Annotated[float, Quantity("largest velocity without balls", "v", 3)]
-    trial_mass_g_mm: Annotated[float, Quantity("imbalance of a trial mass for the run that calibrates lengths", "", 3)]
+    trial_mass_g_mm: Annotated[float, Quantity("imbalance of the trial mass", "", 3)]
     expected: ExpectedValues
+    run_up_s: Annotated[float | None, Quantity("run-up time in place of the file's")] = None
 
     @property
     def status(self) -> "str":  # type: ignore[override]
@@ -99,6 +101,7 @@ def measure_plan(
         rate_hz=float(f"{math.ceil(PER_REVOLUTION * scene.speed / 2 / math.pi / 100) * 100:g}"),
         length_s=scene.duration,
         noise_um=noise_um,
+        run_up_s=run_up_s,
         largest_velocity_mm_per_s=reading.amplitude * scene.speed * 1e3,
         trial_mass_g_mm=from_si(scene.imbalance / 2, "g_mm"),
         expected=ExpectedValues(

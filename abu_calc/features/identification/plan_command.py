@@ -35,9 +35,9 @@ def measure_plan(
 
 def outcome_of(result: "MeasurePlanResult") -> Outcome:
     """Outcome of a result: how it is shown and written."""
-    from abu_calc.features.identification.view import plan_blocks
+    from abu_calc.features.identification.view import plan_blocks, plan_screen
 
-    return Outcome.of(result, lambda: plan_blocks(result))
+    return Outcome.of(result, lambda: plan_blocks(result), lambda: plan_screen(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -83,7 +83,7 @@ class IdentifyResult(Result):
     friction_number: Annotated[
         float | None, Quantity("friction over gravity", "Λ", 3, "below 1 gravity shakes friction out")
     ]
-    residual_um: Annotated[float, Quantity("mean distance of the ends from the axis", "", 3)]
+    residual_um: Annotated[float, Quantity("mean distance of ends from the axis", "", 3)]
     fits_worse_share: Annotated[float | None, Quantity("simulated sets that fit worse", "", 2, percent=True)]
     run_up_s: Annotated[float, Quantity("run-up time", "", 3)]
     measured_run_up_s: Annotated[float | None, Quantity("run-up time by the mark", "", 3)]

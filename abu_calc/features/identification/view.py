@@ -9,8 +9,8 @@ from abu_calc.features.identification.results import IdentifiedValue, IdentifyRe
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.parts import check_blocks, facts, notices, provenance_blocks
-from abu_calc.reporting.screen import one_screen, verdict_line
+from abu_calc.reporting.parts import check_blocks, facts, next_command, notices, provenance_blocks
+from abu_calc.reporting.screen import one_screen, shortened, verdict_line
 
 NAMES: Final = {
     "rolling_drag_per_s": ("viscous drag rate", "1/s"),
@@ -28,8 +28,7 @@ def identify_blocks(result: IdentifyResult) -> tuple[Block, ...]:
         Heading("Starts", "starts"),
         _starts(result),
         *check_blocks(result.checks),
-        Heading("Assumptions", "assumptions"),
-        *(Paragraph(text) for text in result.assumed),
+        *_assumptions(result),
         *notices(result),
         *provenance_blocks(result.provenance),
     )
@@ -38,7 +37,7 @@ def identify_blocks(result: IdentifyResult) -> tuple[Block, ...]:
 def identify_screen(result: IdentifyResult) -> tuple[Block, ...]:
     """The values, the block to paste, and what they rest on."""
     answer = _answer(result)
-    return one_screen(result, answer[:2], [*answer[2:], *_block(result), *(Paragraph(text) for text in result.assumed)])
+    return one_screen(result, answer[:2], [*answer[2:], *_block(result), *_assumptions(result)])
 
 
 def _answer(result: IdentifyResult) -> list[Block]:
@@ -75,6 +74,10 @@ def _block(result: IdentifyResult) -> list[Block]:
     return [Heading("Lines for the machine file", "lines"), *(Paragraph(line) for line in result.toml.splitlines())]
 
 
+def _assumptions(result: IdentifyResult) -> list[Block]:
+    return [Heading("Assumptions", "assumptions"), *map(Paragraph, result.assumed)]
+
+
 def _starts(result: IdentifyResult) -> Grid:
     rows = tuple(
         (course.file, f"{course.end_um[0]:.2f}", f"{course.end_um[1]:.2f}", f"{course.distance_um[0]:.1f}")
@@ -88,7 +91,7 @@ PLACES: Final = (
     "Fix a velocity or acceleration sensor across the spindle, near the race.",
     "Put a mark on the heavy spot of the rotor, and a pick-up where the sensor points.",
     "Record each start from the switching-on until the balls rest, in a CSV with t_s, vx_mm_per_s and mark.",
-    "Record one more start with the balls taken out, for --without.",
+    "Record one more start with the balls taken out: no-balls.csv.",
     "If the sensor sits away from the race, repeat that run with the trial mass: the change calibrates lengths.",
 )
 """What to do at the rig."""
@@ -96,16 +99,25 @@ PLACES: Final = (
 
 def plan_blocks(result: MeasurePlanResult) -> tuple[Block, ...]:
     """What to record, and what it will tell."""
+    run_up = () if result.run_up_s is None else (f"--run-up {result.run_up_s:g}",)
+    options = "start*.csv", "--without no-balls.csv", *run_up
     return (
         Heading(f"{result.title}: recordings for abu identify"),
         facts(result, "runs", "rate_hz", "length_s", "noise_um", "largest_velocity_mm_per_s", "trial_mass_g_mm"),
         Heading("Expected values", "expected"),
         _values(result.expected, "expected"),
         Heading("At the rig", "rig"),
-        *(Paragraph(text) for text in PLACES),
+        *(Paragraph(f"{k}. {text}", hang=3) for k, text in enumerate(PLACES, 1)),
+        Paragraph(f"{len(PLACES) + 1}. Then:", hang=3),
+        Paragraph(next_command("abu identify", result.provenance, (), *options), whole=True),
         *notices(result),
         *provenance_blocks(result.provenance),
     )
+
+
+def plan_screen(result: MeasurePlanResult) -> tuple[Block, ...]:
+    """One screen of it."""
+    return shortened(result, plan_blocks(result))
 
 
 def identify_extras(result: IdentifyResult) -> Extras:

@@ -10,7 +10,7 @@ from abu_calc.inputs.reading.text import shown_short
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.parts import check_blocks, file_of, notices, provenance_blocks
+from abu_calc.reporting.parts import check_blocks, file_of, notices, options_of, provenance_blocks
 from abu_calc.reporting.screen import one_screen
 from abu_calc.sizing.actions import set_options
 
@@ -74,7 +74,7 @@ def _about(result: OptimiseResult) -> list[Block]:
     least = " of the machine that meets them least" if len(result.files) > 1 else ""
     lines: list[Block] = [
         Heading(f"{result.title}: optimum of a series"),
-        Paragraph(f"Cost {recommended.cost:.3f}: {share}{least}.", result.status),
+        Paragraph(f"Cost {recommended.cost:.3f} (1: a usual housing with its race): {share}{least}.", result.status),
     ]
     if len(result.files) > 1:
         parts = ", ".join(result.share_parts) or "nothing"
@@ -108,7 +108,8 @@ def _design(result: OptimiseResult) -> list[Block]:
         if len(result.files) > 1:
             blocks.append(Paragraph(f"{name}:"))
         blocks.append(Facts(_values(values)))
-        blocks.append(Paragraph(set_options(values)))
+        command = f"abu size {name}{options_of(result.provenance)} {set_options(values)}"
+        blocks.append(Paragraph(command, indent=2, whole=True))
     return blocks
 
 

@@ -39,10 +39,11 @@ ON_A_GRID = (
 def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
     """The whole report."""
     word, check = {True: "STABLE", False: "NOT STABLE", None: "NOT EVALUATED"}[result.stable], result.checks[0]
+    mark = "warn" if _elsewhere(result) and check.status == "pass" else check.status
     rest = ("resting_angles_deg",) if result.resting_angles_deg else ()
     return (
         Heading(f"{result.title}: stability of the balanced state"),
-        Paragraph(f"{word} at {value_of(result, 'speed_rpm')}: {check.message}.", check.status),
+        Paragraph(f"{word} at {value_of(result, 'speed_rpm')}{_elsewhere(result)}: {check.message}.", mark),
         *([Paragraph(result.consequence.text)] if result.consequence else []),
         *arm_line(result.arm_advice),
         facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
@@ -62,6 +63,14 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
         *(printed_otherwise() if result.arm_motion else []),
         *provenance_blocks(result.provenance),
     )
+
+
+def _elsewhere(result: StabilityResult) -> str:
+    """Number of the drawn starts that do not end balanced; nothing if all do, or none was drawn."""
+    other = sum(group.drawn_starts for group in result.attractors or () if group.kind != "balanced")
+    if not other or result.attractor_search is None:
+        return ""
+    return f", but {other} of {result.attractor_search.drawn_starts} drawn starts end elsewhere"
 
 
 def hanging_word(stall: Hanging) -> str:

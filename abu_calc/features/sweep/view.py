@@ -182,9 +182,8 @@ def _about(result: SweepResult) -> list[Block]:
         verb = does.replace("meet", "meets").replace("balance", "balances") if met.share else f"does not {does}"
         text = f"1 {singular} {verb} ({confidence})."
     kept = f" Samples: {result.store}." if result.store else ""
-    varied = many(len(result.varied), "value varies", "values vary")
-    if len(result.varied) <= NAMED:
-        varied += f": {', '.join(value.key for value in result.varied)}"
+    keys = dict.fromkeys("the start" if value.key.startswith("start.") else value.key for value in result.varied)
+    varied = f"varied: {', '.join(keys)}" if len(keys) <= NAMED else f"{len(keys)} values vary"
     return [
         Heading(f"{result.title}: sweep"),
         Paragraph(text, _mark(result)),

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.features.design.judgement import TrialWatcher
-from abu_calc.features.design.next_step import Judge, actions, next_step, promise
+from abu_calc.features.design.next_step import Judge, actions, change_in_short, next_step, promise
 from abu_calc.features.design.records import Eccentricity, Section
 from abu_calc.features.design.verdict import Verdict, benefit
 from abu_calc.features.two_races.advice import proposals
@@ -76,6 +76,7 @@ def size_two_races(
             () if step.best is None else step.best.entries,
             promise(judged, step),
             incurable=step.futile and not patience.over(),
+            change=change_in_short(judged, step),
         ),
         checks=checks,
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),

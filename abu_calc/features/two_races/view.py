@@ -1,5 +1,7 @@
 """The screen and the whole report of `abu size` for a machine with two races."""
 
+from typing import Final
+
 from abu_calc.features.design.screen import (
     Row,
     labelled,
@@ -17,13 +19,17 @@ from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.parts import (
     check_blocks,
+    contents,
     default_blocks,
     facts,
-    limit_in_file,
     provenance_blocks,
     warning_blocks,
 )
 from abu_calc.reporting.screen import BLANK, many
+
+MEANT: Final = (
+    "Levels above: without autobalancers at the worst phase; with them median and loudest start case, any oil."
+)
 
 
 def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
@@ -49,7 +55,7 @@ def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
 
 def _first_lines(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     many_starts = result.ensemble
-    covered = "over all phases of the imbalances; usual oil, friction, speed"
+    covered = "over all imbalance phases; usual oil, friction, speed"
     runs = [] if many_starts is None else labelled("Runs", [f"{many(many_starts.runs, 'start case')} {covered}"])
     return (
         Heading(result.title), verdict_paragraph(result.verdict, result.checks), BLANK, *_make(result), BLANK,
@@ -74,8 +80,13 @@ def _table(result: TwoRaceSizeResult) -> Grid:
 
 def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     """The whole report."""
+    details = _details(result)
+    return *_first_lines(result), *contents(details), *details
+
+
+def _details(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+    """From the decision to the reasons."""
     return (
-        *_first_lines(result),
         Heading("Vibration and quiet time", "vibration"),
         *_numbers(result),
         *(block for index in range(len(result.autobalancers)) for block in _race(result, index)),
@@ -91,16 +102,18 @@ def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
 
 def _make(result: TwoRaceSizeResult) -> list[Block]:
     rows = (
-        ("Place along the axis, mm", lambda race: number(race.plane_mm, 4)),
         ("Balls", lambda race: f"{race.ball_count} × Ø{round(race.ball_diameter_mm, 3):g} mm"),
         ("Race R, groove R, mm", _radii),
         ("Housing", lambda race: f"Ø{number(race.outer_diameter_mm, 4)} × {number(race.width_mm, 3)} mm"),
-        ("Capacity, g·mm", lambda race: number(race.capacity_g_mm, 4)),
-        ("  required, worst phase", lambda race: number(race.resultant_worst_g_mm, 4)),
+        (
+            "Carries, must carry, g·mm",
+            lambda race: f"{number(race.capacity_g_mm, 4)}, {number(race.resultant_worst_g_mm, 4)}",
+        ),
         ("Mass with balls, g", lambda race: number(race.mass_g, 4)),
     )
     cells = tuple((label, *(show(race) for race in result.autobalancers)) for label, show in rows)
-    return [Grid(("Make" if result.status == "pass" else "Best", "race 1", "race 2"), cells, frozenset({1, 2}))]
+    places = (f"race {k}, at {number(race.plane_mm, 4)} mm" for k, race in enumerate(result.autobalancers, 1))
+    return [Grid(("Make" if result.status == "pass" else "Best", *places), cells, frozenset({1, 2}))]
 
 
 def _radii(race: TwoRaceAutobalancer) -> str:
@@ -109,24 +122,12 @@ def _radii(race: TwoRaceAutobalancer) -> str:
 
 
 def _numbers(result: TwoRaceSizeResult) -> list[Block]:
-    vibration, ensemble = result.vibration, result.ensemble
-    cells = tuple(
-        (
-            place.name, number(place.level_before_db, 4), _or_dash(place.level_after_db),
-            _or_dash(place.level_after_worst_db),
-        )
-        for place in vibration.handles
-    )  # fmt: skip
-    heading = "Vibration, dB re 5e-8 m/s", "without", "median", "loudest"
-    blocks: list[Block] = [Paragraph(""), Grid(heading, cells, frozenset({1, 2, 3}))]
-    limit = limit_in_file(next((check for check in result.checks if check.code == "ABU401"), None))
-    meant = "Without autobalancers: worst phase. With them: median and loudest start case, any oil."
-    blocks.append(Paragraph(f"{meant} Limit: {limit}." if limit else meant))
+    ensemble = result.ensemble
+    blocks: list[Block] = [Paragraph(MEANT)]
     if ensemble is not None:
         spread = ensemble.quiet_time_s
         unanswered = f"; {ensemble.lost} more gave no answer" if ensemble.lost else ""
         blocks += [
-            Paragraph(""),
             Paragraph(
                 f"{ensemble.balanced} of {ensemble.members - ensemble.lost} start cases balance, over all phases of "
                 f"the imbalances, in hot and cold oil{unanswered}. Quiet time: median "

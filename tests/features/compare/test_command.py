@@ -70,7 +70,7 @@ def test_three_and_more_machines_fit_the_screen() -> None:
         (("msh-230", "msh-230", "--variant", "wheel.mass_kg=1"), "variants are of one machine"),
         (("msh-230", "--variant", "wheel.mas_kg=1"), "--variant wheel.mas_kg: unknown key"),
         (("msh-230", "--variant", "wheel.mass_kg"), "--variant: not an override"),
-        (("msh-230", "--variant", "wheel.mass_kg=0,5"), "write 0.5"),
+        (("msh-230", "--variant", "wheel.mass_kg=0,5"), "Write 0.5"),
         (("msh-230", "--variant", ""), "not an override"),
         (("msh-230", "--variant", "wheel.mass_kg=-1,machine.mass_kg=5"), "--variant wheel.mass_kg: out of range"),
         (("msh-230", "--variant", "wheel.mass_kg=[1,2"), "not a TOML value"),

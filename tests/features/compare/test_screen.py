@@ -42,6 +42,15 @@ def test_levels_and_quiet_times_stand_first_case_by_case_with_their_limits() -> 
     assert line_of(screen, "bound of friction").split()[-2:] == ["105.4", "105.4"]  # equal ones stand there, too
 
 
+def test_machines_have_the_words_of_their_verdicts() -> None:
+    machine = abu_calc.read("msh-230")
+    loud = machine.changed({"limits.vibration_level_db": 90.0})
+    with remembered():
+        lines = as_text(compare_screen(abu_calc.compare([machine, loud]))).splitlines()
+    assert lines[1].startswith("  DOES NOT SUIT: ") and " checks pass" in lines[1]
+    assert [line.partition(":")[0].strip() for line in lines[3:5]] == ["A  SUITS", "B  DOES NOT SUIT"]
+
+
 @pytest.mark.hard
 def test_a_machine_without_an_autobalancer_has_no_level() -> None:
     with remembered():

@@ -78,7 +78,7 @@ def test_checks_stand_side_by_side_and_the_worst_is_the_status(
 def test_one_screen_has_the_differences_and_the_whole_report_all(compared: CompareResult) -> None:
     screen, whole = as_text(compare_screen(compared)), as_text(compare_blocks(compared))
     assert len(screen.splitlines()) <= 40 and max(map(len, screen.splitlines())) <= 80
-    assert screen.splitlines()[1].startswith("  FAIL") and "ABU201 capacity" in whole
+    assert screen.splitlines()[1].startswith("  DOES NOT SUIT") and "ABU201 capacity" in whole
     assert "Number of balls" in screen and "autobalancer.ball_count" not in screen and "more that differ" in screen
     assert "Suspension" not in screen and "Left out because equal: " in screen
     assert "    suspension.model" in whole and "≠ autobalancer.max_outer_diameter_mm" in whole

@@ -84,16 +84,17 @@ def untrue(check: Check, machine: Machine, before: SizeResult, after: SizeResult
     if words[:1].upper() + words[1:] != action["entries"]:
         yield f"names other entries than {check.overrides}"
     left = [each.code for each in after.checks if each.requested and each.status != "pass"]
-    if sorted({*left}) != sorted((action["left"] or "").split(" and ") if action["left"] else []):
+    if sorted({*left}) != sorted((action["left"] or "").split(", ") if action["left"] else []):
         yield f"leaves {left}"
     if action["verb"] and action["verb"] != ("warns" if check.code in left else "passes"):
         yield "the check does not"
     if action["what"]:
-        places = {number.name: number.path for number in NUMBERS.get(check.code, ())}
-        path = places.get(action["what"], "")
+        places = {number.name: (number.path, number.per) for number in NUMBERS.get(check.code, ())}
+        path, per = places.get(action["what"], ("", 1.0))
         for result, printed in ((before, action["before"]), (after, action["after"])):
             own = next(each for each in result.checks if (each.code, each.name) == (check.code, check.name))
-            value = at(result.to_dict(), path) if path else own.value
+            number = at(result.to_dict(), path) if path else own.value
+            value = None if number is None else number * per
             if (value is None) is not (printed == "never") or (value is not None and not as_printed(value, printed)):
                 yield f"{path} is {value}, not {printed}"
 

@@ -219,7 +219,7 @@ def test_an_action_tells_its_number_and_what_still_warns() -> None:
     some = judged(dict(zip(codes, ("pass", "pass", "warn", "warn"), strict=True)), level=100.0, quiet=0.5)
     entries = ("oil.grade=VG 100", "autobalancer.ball_count=5")
     level, time, balance, stable = actions(before, NextStep(Tried(entries, some)))
-    then = "(simulated). Then ABU701 and ABU103 still warn."
+    then = "(simulated). Then ABU701, ABU103 still warn."
     oil = "Oil VG 100 instead of the assumed one"
     assert level.remedy == f"{oil}: the expected level falls from 112.0 to 100.0 dB {then}"
     assert time.remedy == f"{oil}: the slowest listed start case falls from never to 0.500 s {then}"
@@ -234,7 +234,7 @@ def test_the_value_of_a_check_without_a_number_of_its_own_is_told() -> None:
     before, after = judged({"ABU303": "fail"}), judged({"ABU303": "pass"})
     (check,) = before.checks
     for value, text in (
-        (150.0, "the name of ABU303 falls from 300 to 150 MPa"),
+        (150.0, '"name of ABU303" falls from 300 to 150 MPa'),
         (300.0, "name of ABU303 then passes"),
     ):
         before.checks = (replace(check, value=300.0, limit=200.0, unit="MPa"),)

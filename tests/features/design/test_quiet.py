@@ -207,7 +207,7 @@ def test_each_name_of_the_limit_is_judged(name: str) -> None:
 def test_two_names_of_one_limit_are_refused() -> None:
     with pytest.raises(abu_calc.InputError) as refused:
         abu_calc.read(GRINDER + "[limits]\nquiet_time_s = 1.0\nsettling_time_s = 1.0\n").whole("size")
-    assert "settling_time_s" in str(refused.value) and "keep quiet_time_s" in str(refused.value)
+    assert "settling_time_s" in str(refused.value) and "Keep quiet_time_s" in str(refused.value)
 
 
 @pytest.mark.parametrize(("old", "new"), [("quiet_time_s", "settling_time_s"), ("settling_time_s", "quiet_time_s")])

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.design.screen import size_screen
+from abu_calc.features.design.screen import number_table, size_screen
 from abu_calc.features.design.starts import FurtherStarts
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.tables import action_groups, make, numbers_that_matter
@@ -98,7 +98,7 @@ def test_rows_of_the_screen_are_numbers_of_the_result(sized: SizeResult) -> None
     loudest = max(many.level_db.worst or 0.0, further.level_db)
     assert row_of(text, f"loudest of {many.runs} start cases").split() == [f"{loudest:.1f}", "109", "pass"]
     quiet = max(many.quiet_time_s.worst or 0.0, further.quiet_time_s or 0.0)
-    assert row_of(text, "Quiet after, s: slowest start").split() == [f"{quiet:.2f}", "1.00", "pass"]
+    assert row_of(text, "Quiet after, s: slowest start").split() == [f"{quiet:.2f}", "1.00", "pass,", "tightest"]
     assert f"{sized.autobalancer.mass_g:.0f} g," in flat(text) and "Assumed Point mass. Measure" in flat(text)
 
 
@@ -127,6 +127,28 @@ def test_what_the_next_command_does_is_told_by_its_own_action(sized: SizeResult)
     verdict = Verdict.of([seat, own], "", sized.provenance, own.overrides)
     text = flat(as_text(size_screen(replace(sized, checks=(seat, own), verdict=verdict))))
     assert "Next Set c = 1: b. abu size" in text and "Specify m6" not in text
+
+
+def test_the_tightest_limit_is_marked_where_all_are_kept(sized: SizeResult) -> None:
+    marked = [line for line in as_text(size_screen(sized)).splitlines() if line.endswith("pass, tightest")]
+    assert len(marked) == 1 and "Quiet after" in marked[0]
+    warned = replace(sized, checks=(*sized.checks, Check("ABU203", "mass", "warn", "why", 9.0, 8.0, "%")))
+    assert "tightest" not in as_text(size_screen(warned))
+
+
+def test_a_fault_of_both_races_has_one_row_that_of_the_worse() -> None:
+    races = [Check("ABU304", f"round, race {k}", "fail", "why", 10.0 * k, 5.0, "µm") for k in (1, 2)]
+    assert [row[:4] for row in number_table({}, races).rows] == [("Round, µm", "", "20.00", "5.000")]
+    assert len(number_table({}, [races[0], replace(races[1], status="warn")]).rows) == 2  # the warning is counted
+
+
+def test_a_long_change_is_told_without_what_it_replaces(sized: SizeResult) -> None:
+    brief = "oil VG 46 (viscosity index 120, 1 ml) and min wall 3 mm"
+    told = f"{brief} instead of {'2.5 ' * 70}mm: b falls. Keep balls and race. All checks then pass."
+    own = Check("ABU701", "starts", "warn", "why", 1.0, 2.0, "g·mm", told, overrides=("oil.grade=VG 46",))
+    verdict = Verdict.of([own], "", sized.provenance, own.overrides, change=brief)
+    text = flat(as_text(size_screen(replace(sized, checks=(own,), verdict=verdict))))
+    assert "Next Oil VG 46 and min wall 3 mm: b falls. All checks then pass. abu size" in text
 
 
 def test_a_start_case_louder_than_without_is_told_so(sized: SizeResult) -> None:

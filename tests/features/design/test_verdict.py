@@ -1,6 +1,7 @@
 """The verdict in a word: by the worst grade, with what decides it and the command of a change that was tried."""
 
 import shlex
+from dataclasses import replace
 
 import pytest
 
@@ -42,6 +43,20 @@ def of_grades(*grades: Grade) -> Verdict:
 def test_the_worst_grade_decides(grades: tuple[Grade, ...], word: str, sentence: str) -> None:
     verdict = of_grades(*grades)
     assert (verdict.word, verdict.sentence, verdict.next) == (word, sentence, None)
+
+
+@pytest.mark.parametrize(
+    ("late", "words"),
+    [
+        (["ABU702"], "at most 109.0). With that, name ABU702 fails."),
+        (["ABU402", "ABU702"], "at most 96.7). With that, name ABU402 and name ABU702 fail."),
+    ],
+)
+def test_checks_that_fail_with_another_are_named(late: list[str], words: str) -> None:
+    cause = LEVEL if len(late) == 1 else replace(LEVEL, code="ABU701", limit=96.7, unit="g·mm")
+    failed = [replace(cause, status="fail", value=110.0), *(Check(code, f"name {code}", "fail", "no") for code in late)]
+    sentence = Verdict.of(failed, "", Provenance.today()).sentence
+    assert sentence.endswith(words) and sentence.count("name ABU702") == 1
 
 
 def test_a_check_that_nobody_asked_for_decides_nothing() -> None:

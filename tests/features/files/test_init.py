@@ -110,3 +110,8 @@ def test_a_terminal_asks_again_and_takes_usual_answers() -> None:
     assert usual == {"mass", "speed", "room"} and "level" not in given
     # 72 m/s at the rim of the wheel.
     assert given["speed"] == pytest.approx(72 / (math.pi * 0.18) * 60, abs=50)
+
+
+def test_help_names_the_axes_of_a_handle() -> None:
+    told = " ".join(abu("init", "--help").out.split())
+    assert "mm from the centre of mass: x to the spindle, y across, z to the wheel" in told

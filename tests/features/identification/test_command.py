@@ -53,3 +53,10 @@ def test_values_are_written_into_scene_and_machine(tmp_path: Path) -> None:
     copy.write_text(machine.replace("rolling_drag_per_s = 12.34", "rolling_drag_per_s = 20.0"), encoding="utf-8")
     seen = abu("validate", str(copy))
     assert seen.status == 0 and "does not hold autobalancer.rolling_drag_per_s = 20" in " ".join(seen.out.split())
+
+
+def test_a_plan_stands_on_one_screen_and_gives_the_command_that_follows() -> None:
+    seen = abu("measure-plan", "avtovaz-707-222", "--run-up", "0.5")
+    lines = seen.out.splitlines()
+    assert seen.status == 0 and len(lines) <= 40 and seen.width <= 80
+    assert "  abu identify avtovaz-707-222 start*.csv --without no-balls.csv --run-up 0.5" in lines

@@ -146,6 +146,8 @@ def test_shares_add_up_and_a_printed_command_ends_the_same_way() -> None:
     assert sum(group.share for group in groups) + searched.undecided_share == pytest.approx(1.0)
     assert {group.kind for group in groups} == {"balanced", "stuck"}
     assert "attractors" in result.figures and "attractors" in {known("stability", name).name for name in result.figures}
+    elsewhere = sum(group.drawn_starts for group in groups or () if group.kind != "balanced")
+    assert f", but {elsewhere} of 12 drawn starts end elsewhere:" in " ".join(result.text().split())
     assert "Attractors: where starts end" in result.text() and "Criterion of attractors" in result.text(full=True)
     for group in groups:
         assert group.low <= group.share <= group.high

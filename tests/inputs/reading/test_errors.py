@@ -162,7 +162,7 @@ def test_a_wrong_file_is_told_with_line_key_and_remedy(
     assert (error.place.line, error.place.key) == (line, key), str(error)
     assert error.place.file == str(tmp_path / "m.toml")
     for word in words:
-        assert word in str(error), str(error)
+        assert word.casefold() in str(error).casefold(), str(error)
     assert len(str(error).splitlines()) <= 2
 
 
@@ -201,7 +201,7 @@ def test_a_misspelt_key_is_not_reported_missing_too(tmp_path: Path) -> None:
 
 def test_bearings_alone_know_only_their_tables(tmp_path: Path) -> None:
     error = refused(tmp_path, BEARINGS + "[grinding]\n")
-    assert error.place.key == "grinding" and "known tables: machine, bearing, limits, expected" in str(error)
+    assert error.place.key == "grinding" and "Known tables: machine, bearing, limits, expected" in str(error)
     assert refused(tmp_path, BEARINGS.replace("[machine]", "[mashine]")).place.key == "mashine"
 
 

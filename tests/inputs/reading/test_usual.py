@@ -136,9 +136,9 @@ def test_the_likeliest_unit_comes_first(tmp_path: Path, override: str, first: st
 
 
 @pytest.mark.parametrize(("override", "remedy"), [
-    ("wheel.diameter_mm=0.15", "meant in m (150 mm)?"),
-    ("autobalancer.race_eccentricity_mm=15", "meant in µm (0.015 mm)?"),
-    ("wheel.mass_kg=6000", "meant in g (6 kg)?"), ("suspension.damping_ratios=[0.5, 50]", "meant in % (0.5)?"),
+    ("wheel.diameter_mm=0.15", "Meant in m (150 mm)?"),
+    ("autobalancer.race_eccentricity_mm=15", "Meant in µm (0.015 mm)?"),
+    ("wheel.mass_kg=6000", "Meant in g (6 kg)?"), ("suspension.damping_ratios=[0.5, 50]", "Meant in % (0.5)?"),
     ("wheel.diameter_mm=-15", None), ("machine.mass_kg=0", None), (f"machine.mass_kg=1{'0' * 400}", None),
     ("machine.speed_rpm=400000", None),
 ])  # fmt: skip
