@@ -267,7 +267,7 @@ def _conversion(kind: type[Record], field: "Field[Any]", unit: str) -> Callable[
         if not isinstance(value, (float, int)) or isinstance(value, bool):
             return value
         if factor != 1:
-            value = value / factor if decimals is None else round(value / factor, decimals)
+            value = value / factor if decimals is None else round(value / factor, decimals) + 0.0
         return value if math.isfinite(value) or not optional else None
 
     return converted

@@ -25,7 +25,8 @@ from abu_calc.reporting.blocks import (
     with_unit,
 )
 from abu_calc.simulation.result import Provenance, Result
-from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord
+from abu_calc.sizing.instruments import InstrumentReadings
 
 NOISE: Final = 1e-9
 """Values below which no digits are printed beside a limit of zero."""

@@ -402,7 +402,7 @@ def every_start(
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> StartOutcome:
     """Return the outcome that the response of a start case's scene gives."""
-    speed = abs(response.final.speed) or scene.speed
+    speed = abs(response.final.rotor_speed) or scene.speed
     case = replace(design.case, speed=speed)
     return StartOutcome(
         member=member,
@@ -415,7 +415,7 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         slip=slip(response, speed),
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, max(scene.imbalance, scene.largest_imbalance), felt_mass(design, scene)),
-        ball_angles=response.final.ball_angles,
+        ball_angles=response.ball_angles,
         moved=design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio),
         velocity=response.velocity_rms,
     )

@@ -7,7 +7,7 @@ from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.simulation.ensemble import simulate_members
 from abu_calc.simulation.ensemble_results import Ensemble
-from abu_calc.simulation.vibration_records import Compared, compared, measured_place
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared, measured_place
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.place_response import place_response
@@ -31,10 +31,12 @@ def predicted_level(design: Design, ensemble: Ensemble | None) -> float | None:
     return None if moved is None else level_at_loudest(design.case, design.autobalancer, moved)
 
 
-def compared_starts(design: Design, ensemble: Ensemble | None) -> Compared | None:
-    """[measured_after] beside the predicted level at its place; None without a measurement."""
+def compared_starts(
+    design: Design, ensemble: Ensemble | None, loaded: float | None = None, this_run: float | None = None
+) -> MeasuredAfterRecord | None:
+    """[measured_after] beside the predicted level at its place, see `compared`; None without a measurement."""
     moved = None if ensemble is None else predicted_displacement(design, ensemble)
-    return compared(design.case, _level_where_measured(design, moved))
+    return compared(design.case, _level_where_measured(design, moved), loaded, this_run)
 
 
 def _level_where_measured(design: Design, at_race: float | None) -> float | None:

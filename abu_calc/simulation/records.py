@@ -1,16 +1,14 @@
 """One simulated scene as results hold it: its numbers in SI and states, and the scene in words."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.boundaries import Boundary
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
-from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.simulation.effect_selection import Audit, EffectEntry, Ledger
-from abu_calc.simulation.response import FinalState
+from abu_calc.simulation.response import End
 from abu_calc.simulation.simulate import Cost, Simulation
 
 
@@ -72,47 +70,6 @@ def finite(value: float | None) -> float | None:
 
 
 @record
-class End(Record):
-    """Final state of a run; ball angles in (−180, 180], in the order of the file."""
-
-    optional: ClassVar[frozenset[str]] = frozenset(
-        {"tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad", "bearing_amplitudes_mm"}
-    )
-
-    t_s: Annotated[float, Quantity("time", "t")]
-    x_mm: Annotated[float, Quantity("axis, along the work", "x", 3)]
-    y_mm: Annotated[float, Quantity("axis, away from the work", "y", 3)]
-    vx_mm_per_s: Annotated[float, Quantity("velocity along the work", "x'", 3)]
-    vy_mm_per_s: Annotated[float, Quantity("velocity away from the work", "y'", 3)]
-    ball_angles_deg: Annotated[tuple[float, ...], Quantity("ball angles", "θ", 5, "in the rotor, from its zero mark")]
-    ball_speeds_rpm: Annotated[
-        tuple[float, ...], Quantity("ball speeds", "θ'", 3, "relative to the race, mean over the amplitude window")
-    ]
-    ball_rates_rpm: Annotated[
-        tuple[float, ...], Quantity("ball speeds at the end", "θ'", 6, "relative to the race, at that very moment")
-    ]
-    rotor_speed_rpm: Annotated[float, Quantity("speed of the rotor", "", 6)]
-    tilt_x_mrad: Annotated[float | None, Quantity("tilt about x", "θ_x", 3)] = None
-    tilt_y_mrad: Annotated[float | None, Quantity("tilt about y", "θ_y", 3)] = None
-    arm_angle_mrad: Annotated[float | None, Quantity("angle of the arm", "φ")] = None
-    bearing_amplitudes_mm: Annotated[tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3)] = None
-
-    @classmethod
-    def of(cls, final: FinalState, bearings: tuple[float, ...]) -> Self:
-        """Record in user units."""
-        about_y, about_minus_x = final.tilt or (0.0, 0.0)
-        return cls.read(
-            final,
-            ball_angles_deg=tuple(wrapped_deg(angle) for angle in final.ball_angles),
-            rotor_speed_rpm=from_si(final.speed, "rpm"),
-            tilt_x_mrad=None if final.tilt is None else -1000 * about_minus_x,
-            tilt_y_mrad=None if final.tilt is None else 1000 * about_y,
-            arm_angle_mrad=None if final.arm_angle is None else 1000 * final.arm_angle,
-            bearing_amplitudes_mm=bearings or None,
-        )
-
-
-@record
 class Envelope(Record):
     """Usability of the averaged slow motion: its error estimate, and why it was taken or not."""
 
@@ -130,27 +87,41 @@ class SimulatedScene(Record):
     )  # fmt: skip
 
     scene: Annotated[str, Quantity("scene")]
-    duration_s: Annotated[float, Quantity("simulated time", "", 3)]
-    quiet_time_s: Annotated[
+    duration: Annotated[float, Quantity("simulated time", "", 3, unit="s")]
+    quiet_time: Annotated[
         float | None,
-        Quantity("quiet time", "", 3, "from full speed until the level stays low; None if later than 95 % of the run"),
+        Quantity(
+            "quiet time",
+            "",
+            3,
+            "from full speed until the level stays low; None if later than 95 % of the run",
+            unit="s",
+        ),
     ]
-    rest_time_s: Annotated[
+    rest_time: Annotated[
         float | None,
-        Quantity("rest time", "", 3, "from full speed until the balls keep their places; None if they still creep"),
+        Quantity(
+            "rest time", "", 3, "from full speed until the balls keep their places; None if they still creep", unit="s"
+        ),
     ]
     creeping: Annotated[bool, Quantity("balls still creep at the end")]
-    settling_time_s: Annotated[
-        float | None, Quantity("settling time", "", 3, "as it is published: until |imbalance| stays near its end")
+    settling_time: Annotated[
+        float | None,
+        Quantity("settling time", "", 3, "as it is published: until |imbalance| stays near its end", unit="s"),
     ]
-    residual_imbalance_g_mm: Annotated[float, Quantity("imbalance left", "", 3, "|m₀e + Σ m·R_p·e^{iθ}| at the end")]
-    axis_amplitude_mm: Annotated[
-        float, Quantity("axis amplitude 0–peak", "", 3, "largest √(x² + y²) about the mean place in the window")
+    residual_imbalance: Annotated[
+        float, Quantity("imbalance left", "", 3, "|m₀e + Σ m·R_p·e^{iθ}| at the end", unit="g_mm")
     ]
-    velocity_rms_mm_per_s: Annotated[float, Quantity("velocity rms", "v", 3, "of the larger of x', y' in the window")]
+    axis_amplitude: Annotated[
+        float,
+        Quantity("axis amplitude 0–peak", "", 3, "largest √(x² + y²) about the mean place in the window", unit="mm"),
+    ]
+    velocity_rms: Annotated[
+        float, Quantity("velocity rms", "v", 3, "of the larger of x', y' in the window", unit="mm_per_s")
+    ]
     level_db: Annotated[float | None, Quantity("level", "L", 4, "20 lg(v/5e-8 m/s)")]
-    unbalanced_amplitude_mm: Annotated[float, Quantity("axis amplitude without balls", "A₀", 3)]
-    largest_amplitude_mm: Annotated[float, Quantity("largest since the start", "", 3)]
+    unbalanced_amplitude: Annotated[float, Quantity("axis amplitude without balls", "A₀", 3, unit="mm")]
+    largest_amplitude: Annotated[float, Quantity("largest since the start", "", 3, unit="mm")]
     final: End
     effects: tuple[EffectEntry, ...]
     cost: Cost
@@ -159,14 +130,20 @@ class SimulatedScene(Record):
     ]
     rung: Annotated[str, Quantity("computed by", "", 4, "envelope: averaged slow motion; equations: of motion")]
     envelope: Envelope
-    bearing_amplitudes_mm: Annotated[tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3)] = None
-    full_speed_s: Annotated[float | None, Quantity("full speed reached after", "", 3, "None: at the start")] = None
-    audit: Audit | None = None
-    quiet_time_range_s: Annotated[
-        tuple[float | None, float | None] | None, Quantity("quiet time, with a threshold that is grazed", "", 3)
+    bearing_amplitudes: Annotated[
+        tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3, unit="mm")
     ] = None
-    rest_time_range_s: Annotated[
-        tuple[float | None, float | None] | None, Quantity("rest time, with a threshold that is grazed", "", 3)
+    full_speed: Annotated[float | None, Quantity("full speed reached after", "", 3, "None: at the start", unit="s")] = (
+        None
+    )
+    audit: Audit | None = None
+    quiet_time_range: Annotated[
+        tuple[float | None, float | None] | None,
+        Quantity("quiet time, with a threshold that is grazed", "", 3, unit="s"),
+    ] = None
+    rest_time_range: Annotated[
+        tuple[float | None, float | None] | None,
+        Quantity("rest time, with a threshold that is grazed", "", 3, unit="s"),
     ] = None
 
     @classmethod
@@ -178,31 +155,17 @@ class SimulatedScene(Record):
     ) -> Self:
         """Record in user units."""
         response = simulation.response
-        bearings = tuple(from_si(value, "mm") for value in response.bearing_amplitudes)
         return cls.read(
             response,
             simulation,
             scene=response.scene,
-            final=End.of(response.final, bearings),
+            final=response.final,
             effects=ledger.entries,
             error_estimate=simulation.error_estimate + ledger.spared,
             envelope=Envelope(error_estimate=finite(simulation.offered.error), why=simulation.offered.why),
-            bearing_amplitudes_mm=bearings or None,
-            full_speed_s=response.full_speed or None,
+            bearing_amplitudes=response.bearing_amplitudes or None,
+            full_speed=response.full_speed or None,
             audit=audit,
-            quiet_time_range_s=response.quiet.grazed(simulation.scene.revolution),
-            rest_time_range_s=response.rest.grazed(simulation.scene.revolution),
+            quiet_time_range=response.quiet.grazed(simulation.scene.revolution),
+            rest_time_range=response.rest.grazed(simulation.scene.revolution),
         )
-
-
-@record
-class StabilityBoundary(Record):
-    """A speed at which the balanced state gains or loses its stability."""
-
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    stable_above: Annotated[bool, Quantity("stable above it")]
-
-
-def stability_boundaries(limits: Sequence[Boundary]) -> tuple[StabilityBoundary, ...]:
-    """Speeds where stability changes."""
-    return tuple(map(StabilityBoundary.read, limits))

@@ -7,6 +7,7 @@ largest amplitude need.
 import math
 from copy import copy
 from dataclasses import replace
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from abu_calc.dynamics.trajectory import Array, Samples, Sampling, merged
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import level_from_velocity
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import level_from_velocity, to_si, wrapped_deg
 from abu_calc.simulation.quiet import PER_TURN, TimeRange, last_crossing, range_of, turn_velocities
 
 ABOVE_END = 10 ** (1 / 20)
@@ -117,25 +119,37 @@ class Window:
     whole: int
 
 
-@dataclass(frozen=True)
-class FinalState:
-    """Final state of a run: axis [m, m/s], ball angles [rad] unwrapped, and their speeds.
+@record
+class End(Record):
+    """Final state of a run; ball angles in (−180, 180], in the order of the file."""
 
-    The speeds are means over the window, and those at the end. `tilt` [rad]: θ_y, −θ_x on a support that
-    tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s] of the rotor.
-    """
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad", "bearing_amplitudes_mm"}
+    )
 
-    t: float
-    x: float
-    y: float
-    vx: float
-    vy: float
-    ball_angles: tuple[float, ...]
-    ball_speeds: tuple[float, ...]
-    ball_rates: tuple[float, ...]
-    tilt: tuple[float, float] | None
-    arm_angle: float | None
-    speed: float
+    t: Annotated[float, Quantity("time", "t", unit="s")]
+    x: Annotated[float, Quantity("axis, along the work", "x", 3, unit="mm")]
+    y: Annotated[float, Quantity("axis, away from the work", "y", 3, unit="mm")]
+    vx: Annotated[float, Quantity("velocity along the work", "x'", 3, unit="mm_per_s")]
+    vy: Annotated[float, Quantity("velocity away from the work", "y'", 3, unit="mm_per_s")]
+    ball_angles: Annotated[
+        tuple[float, ...], Quantity("ball angles", "θ", 5, "in the rotor, from its zero mark", unit="deg")
+    ]
+    ball_speeds: Annotated[
+        tuple[float, ...],
+        Quantity("ball speeds", "θ'", 3, "relative to the race, mean over the amplitude window", unit="rpm"),
+    ]
+    ball_rates: Annotated[
+        tuple[float, ...],
+        Quantity("ball speeds at the end", "θ'", 6, "relative to the race, at that very moment", unit="rpm"),
+    ]
+    rotor_speed: Annotated[float, Quantity("speed of the rotor", "", 6, unit="rpm")]
+    tilt_x: Annotated[float | None, Quantity("tilt about x", "θ_x", 3, unit="mrad")] = None
+    tilt_y: Annotated[float | None, Quantity("tilt about y", "θ_y", 3, unit="mrad")] = None
+    arm_angle: Annotated[float | None, Quantity("angle of the arm", "φ", unit="mrad")] = None
+    bearing_amplitudes: Annotated[
+        tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3, unit="mm")
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -162,7 +176,9 @@ class Response:
     """Largest amplitude of the axis over the whole run, about its mean place in the window [m]."""
     bearing_amplitudes: tuple[float, ...]
     """Amplitudes, defined like `axis_amplitude`, at each bearing of a support that tilts."""
-    final: FinalState
+    ball_angles: tuple[float, ...]
+    """At the end [rad], unwrapped."""
+    final: End
     quiet: TimeRange
     """From when the level stays at or below the one that is asked for, see `Scene.quiet_velocity`."""
     rest: TimeRange
@@ -180,11 +196,6 @@ class Response:
     def rest_time(self) -> float | None:
         """Rest time [s] from full speed; None: the balls still creep, or come to rest too late."""
         return self.rest.time
-
-    @property
-    def ball_angles(self) -> tuple[float, ...]:
-        """Ball angles at the end [rad], unwrapped."""
-        return self.final.ball_angles
 
 
 def amplitude_window(scene: Scene) -> Window:
@@ -244,6 +255,9 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
     steps = (scene.duration - scene.full_speed) * course.count / scene.duration
     creeping = drift(course.imbalances, steps) > SETTLED * reference_imbalance(scene)
     theta = states[balls, :][:, [-1 - window.whole, -1]]
+    bearings = tuple(
+        _largest_radius(scene.axis_place(states, z), _mean(scene.axis_place(whole, z))) for z in scene.support.bearings
+    )
     span = float(window.times[-1] - window.times[-1 - window.whole])
     return Response(
         scene=scene.name,
@@ -257,9 +271,10 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
         level=level_from_velocity(rms) if rms > 0 else None,
         unbalanced_amplitude=unbalanced_amplitude(scene),
         largest_amplitude=_largest_radius(course.places, mean),
-        bearing_amplitudes=_bearing_amplitudes(scene, states, whole),
+        bearing_amplitudes=bearings,
+        ball_angles=tuple(states[balls, -1].tolist()),
         # The mean of a speed is the way made; exact, whatever the samples.
-        final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
+        final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist()), bearings),
         # Where nothing says how loud a machine may be, one whose balls still creep is not quiet.
         quiet=NEVER if creeping and scene.quiet_velocity is None else _quiet_in(scene, course),
         rest=NEVER if creeping else _rest_in(scene, course, end, 0.0),
@@ -328,29 +343,26 @@ def _settled_in(scene: Scene, course: Course, settled: float) -> float | None:
     return None if time is None else max(time - scene.full_speed, 0.0)
 
 
-def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalState:
-    first = 2 * len(scene.support.names)
+def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...], bearings: tuple[float, ...]) -> End:
+    first, count = 2 * len(scene.support.names), len(scene.ball_masses)
     x, y = scene.axis_place(end[:, None])[:, 0].tolist()
     vx, vy = scene.axis_velocity(end[:, None])[:, 0].tolist()
-    q, turned, count = end[: first // 2], scene.support.turned(end), len(scene.ball_masses)
-    return FinalState(
+    tilt, turned = scene.support.tilt(end[: first // 2]), scene.support.turned(end)
+    return End(
         t=scene.duration,
         x=x,
         y=y,
         vx=vx,
         vy=vy,
-        ball_angles=tuple(end[first : first + count].tolist()),
+        ball_angles=tuple(to_si(wrapped_deg(angle), "deg") for angle in end[first : first + count].tolist()),
         ball_speeds=ball_speeds,
         ball_rates=tuple(end[first + count : first + 2 * count].tolist()),
-        tilt=scene.support.tilt(q),
+        rotor_speed=float(scene.rotor.turning(scene.duration, end, scene.speed)[1]),
+        tilt_x=None if tilt is None else -tilt[1],
+        tilt_y=None if tilt is None else tilt[0],
         arm_angle=None if turned is None else float(turned),
-        speed=float(scene.rotor.turning(scene.duration, end, scene.speed)[1]),
+        bearing_amplitudes=bearings or None,
     )
-
-
-def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
-    places = scene.support.bearings
-    return tuple(_largest_radius(scene.axis_place(states, z), _mean(scene.axis_place(whole, z))) for z in places)
 
 
 def _mean(values: Array) -> Array:

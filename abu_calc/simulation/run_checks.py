@@ -68,7 +68,7 @@ def level_at(design: Design, response: Response, place: Vector) -> float:
 
 def _level_of(design: Design, response: Response, place: Vector) -> Level:
     """The level of the loudest axis at a place [m] at the speed that the run ends with."""
-    case, added, speed = design.case, design.autobalancer.mass, abs(response.final.speed) or design.case.speed
+    case, added, speed = design.case, design.autobalancer.mass, abs(response.final.rotor_speed) or design.case.speed
     body, race = case.body, case.race_place
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
     held = body.inertance(race, race, added)
@@ -121,7 +121,7 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
             coded(code, "not-done", reason, remedy="Add balls or specify larger ones.") for code in ("ABU701", "ABU702")
         )
     left, allowed = response.residual_imbalance, allowed_imbalance(design, moved)
-    slipping = slip(response, abs(response.final.speed) or design.case.speed)
+    slipping = slip(response, abs(response.final.rotor_speed) or design.case.speed)
     balanced = balances(left, allowed, slipping)
     message = "The balls end opposite the imbalance"
     if slipping > SLIPPING:

@@ -1,56 +1,25 @@
 """Levels as instruments show them, and the measurement with the autobalancer beside its prediction."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
 from abu_calc.formulas.rigid_body import Vector
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
-from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
+from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.case import WHEEL_PLANE, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.imbalance import measured_velocity
-from abu_calc.sizing.instruments import UNITS, as_shown, in_words, readings
+from abu_calc.sizing.instruments import UNITS, InstrumentReadings, as_shown, in_words, readings
 from abu_calc.sizing.places import AXES, LevelPlace, PlaceBand, weighted_axes
-
-
-@dataclass(frozen=True)
-class Compared:
-    """A measured and a predicted rms velocity of one axis [m/s] at a place; no `predicted` where balls cannot balance.
-
-    `shown`: as the instrument showed it; `speed` [rad/s]: of the spindle, by which it is converted.
-    """
-
-    shown: Shown
-    place: str
-    speed: float
-    measured: float
-    predicted: float | None
-
-    @property
-    def difference(self) -> float | None:
-        """measured − predicted [dB]."""
-        if not self.predicted:
-            return None
-        return level_from_velocity(self.measured) - level_from_velocity(self.predicted)
 
 
 def measured_place(case: Case, shown: Shown) -> tuple[str, Vector]:
     """Name and place [m] from the centre of mass of where it was measured."""
     named_handle = next((handle for handle in case.handles if handle.name == shown.at), None)
     return (WHEEL_PLANE, case.body.wheel) if named_handle is None else (named_handle.name, named_handle.place)
-
-
-def compared(case: Case, level: float | None) -> Compared | None:
-    """[measured_after] against a predicted level [dB] at its place; None without the table."""
-    table = case.table.measured_after
-    if table is None or table.shown is None:
-        return None
-    shown = table.shown
-    measured = measured_velocity(shown, case.speed, "measured_after")
-    predicted = None if level is None else velocity_from_level(level)
-    return Compared(shown, measured_place(case, shown)[0], case.speed, measured, predicted)
 
 
 def level_where_measured(design: Design, moved: float | None) -> float | None:
@@ -60,30 +29,6 @@ def level_where_measured(design: Design, moved: float | None) -> float | None:
         return None
     there = moved * case.body.transmission(measured_place(case, table.shown)[1], design.autobalancer.mass)
     return displacement_level(there, case.speed, case.background_level) if there else None
-
-
-@record
-class InstrumentReadings(Record):
-    """One level as instruments show it, all rms; weighted values are null where W_h is not defined."""
-
-    schema_title: ClassVar[str] = "Readings"
-
-    velocity_mm_per_s: Annotated[float, Quantity("velocity", "v")]
-    displacement_um: Annotated[float, Quantity("displacement", "s_v")]
-    acceleration_m_per_s2: Annotated[float, Quantity("acceleration", "a")]
-    weighted_m_per_s2: Annotated[float | None, Quantity("weighted, one axis", "a_h", 3)]
-    total_m_per_s2: Annotated[float | None, Quantity("weighted, three axes", "a_hv", 3)]
-
-    @classmethod
-    def of(cls, level: float | None, speed: float, total: float | None = None) -> Self | None:
-        """Readings of a level [dB] at a speed [rad/s]; None without a level.
-
-        `total`: vector total a_hv of three axes [m/s²]; None: two axes move alike.
-        """
-        if level is None:
-            return None
-        values = readings(velocity_from_level(level), speed)
-        return cls.read(values) if total is None else cls.read(values, total_m_per_s2=total)
 
 
 @record
@@ -116,6 +61,8 @@ class HandleLevels(Record):
         }
     )
 
+    decimals: ClassVar[Mapping[str, int]] = {"mm": 9}
+
     name: Annotated[str, Quantity("place")]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, LEVEL_AFTER]
@@ -124,7 +71,7 @@ class HandleLevels(Record):
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
     shown_before: InstrumentReadings | None = None
     shown_after: InstrumentReadings | None = None
-    position_mm: Annotated[tuple[float, float, float] | None, Quantity("from the centre of mass", "", 4)] = None
+    position: Annotated[tuple[float, float, float] | None, Quantity("from the centre of mass", "", 4, unit="mm")] = None
     axes: tuple[HandleAxis, ...] | None = None
     a_hv_before_m_per_s2: Annotated[float | None, Quantity("three axes, before", "a_hv", 3)] = None
     a_hv_after_m_per_s2: Annotated[float | None, Quantity("three axes, after", "a_hv", 3)] = None
@@ -150,26 +97,25 @@ class HandleLevels(Record):
         return cls.read(
             place,
             levels,
+            *(() if band is None else (band,)),
             level_before_db=levels.before,
             level_after_db=levels.after,
             level_at_once_db=None if hasty is None else hasty.levels.after,
-            shown_before=None if speed is None else InstrumentReadings.of(levels.before, speed, totals[0]),
-            shown_after=None if speed is None else InstrumentReadings.of(levels.after, speed, totals[1]),
-            position_mm=None if place.place is None else position_mm(place.place),
+            shown_before=_shown(levels.before, speed, totals[0]),
+            shown_after=_shown(levels.after, speed, totals[1]),
+            position=place.place,
             axes=None if speed is None else _axes(place, speed),
             a_hv_before_m_per_s2=totals[0],
             a_hv_after_m_per_s2=totals[1],
-            level_before_band_db=None if band is None else band.before,
-            level_after_band_db=None if band is None else band.after,
-            a_hv_before_band_m_per_s2=None if band is None else band.total_before,
-            a_hv_after_band_m_per_s2=None if band is None else band.total_after,
         )
 
 
-def position_mm(place: Vector) -> tuple[float, float, float]:
-    """A place [m] in millimetres, freed of the rounding of the conversion."""
-    x, y, z = (round(from_si(value, "mm"), 9) + 0.0 for value in place)
-    return x, y, z
+def _shown(level: float | None, speed: float | None, total: float | None) -> InstrumentReadings | None:
+    """Readings of a level [dB] at a speed [rad/s]; without a vector total a_hv [m/s²] two axes move alike."""
+    if level is None or speed is None:
+        return None
+    values = readings(velocity_from_level(level), speed)
+    return values if total is None else replace(values, total=total)
 
 
 def _axes(place: LevelPlace, speed: float) -> tuple[HandleAxis, ...]:
@@ -210,19 +156,27 @@ class MeasuredAfterRecord(Record):
     predicted_loaded_db: Annotated[float | None, Quantity("predicted under load", "L")] = None
     this_run_db: Annotated[float | None, Quantity("level of this run", "L")] = None
 
-    @classmethod
-    def of(cls, comparison: Compared | None, loaded: float | None = None, this_run: float | None = None) -> Self | None:
-        """None without a measured value; levels [dB]: `loaded` predicted under load, `this_run` of an idle run."""
-        if comparison is None:
-            return None
-        predicted = comparison.predicted
-        return cls.read(
-            comparison,
-            measured=in_words(comparison.shown),
-            measured_level_db=level_from_velocity(comparison.measured),
-            predicted_level_db=level_from_velocity(predicted) if predicted else None,
-            predicted_value=as_shown(comparison.shown, predicted, comparison.speed) if predicted else None,
-            unit=UNITS[comparison.shown.key],
-            predicted_loaded_db=loaded,
-            this_run_db=this_run,
-        )
+
+def compared(
+    case: Case, level: float | None, loaded: float | None = None, this_run: float | None = None
+) -> MeasuredAfterRecord | None:
+    """[measured_after] beside a predicted level [dB] at its place; None without the table.
+
+    `loaded`: predicted under load, `this_run`: of an idle run, both [dB].
+    """
+    table = case.table.measured_after
+    if table is None or table.shown is None:
+        return None
+    shown = table.shown
+    measured = level_from_velocity(measured_velocity(shown, case.speed, "measured_after"))
+    return MeasuredAfterRecord(
+        place=measured_place(case, shown)[0],
+        measured=in_words(shown),
+        measured_level_db=measured,
+        predicted_level_db=level,
+        difference_db=None if level is None else measured - level,
+        predicted_value=None if level is None else as_shown(shown, velocity_from_level(level), case.speed),
+        unit=UNITS[shown.key],
+        predicted_loaded_db=loaded,
+        this_run_db=this_run,
+    )

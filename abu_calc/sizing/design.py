@@ -12,7 +12,7 @@ from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.sizing.drawing_requirements import DrawingRequirement
+from abu_calc.sizing.drawing_requirements import DrawingLine
 from abu_calc.sizing.handles import BodyBands, HighestTotal
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.manufacture.construction import Construction
@@ -44,7 +44,7 @@ class Design:
     """None without a limit of a_hv, or if the balls cannot balance."""
     loaded: LevelsUnderLoad | None
     swing_arm: "SwingArmBounds | None"
-    drawing: tuple[DrawingRequirement, ...]
+    drawing: tuple[DrawingLine, ...]
     checks_before: tuple[Check, ...]
     level: Finding | None
     """The idle level as expected, which start cases judge, too; None if the design was built as one machine."""

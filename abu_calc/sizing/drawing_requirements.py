@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Iterator
+from typing import Annotated
 
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.oil import oil_name
 from abu_calc.sizing.balls import Candidate
@@ -24,13 +25,17 @@ SOFT_ARM = to_si(10, "um")
 """Lever arm of rolling friction on a soft race (assumed; 10–50 µm)."""
 
 
-@dataclass(frozen=True)
-class DrawingRequirement:
-    """One line of the drawing: feature, requirement, and the cost in dB when the tolerance is used up (or none)."""
+@record
+class DrawingLine(Record):
+    """One requirement for the drawing."""
 
-    feature: str
-    requirement: str
-    cost_db: float | None = None
+    feature: Annotated[str, Quantity("feature")]
+    requirement: Annotated[str, Quantity("requirement")]
+    cost_db: Annotated[float | None, Quantity("cost", "", 3, "what the level rises by when the tolerance is used up")]
+
+
+def _line(feature: str, requirement: str, cost: float | None = None) -> DrawingLine:
+    return DrawingLine(feature=feature, requirement=requirement, cost_db=cost)
 
 
 @formula(
@@ -51,7 +56,7 @@ def extra_level(residual: float, part: float) -> float:
 
 def drawing(
     case: Case, candidate: Candidate, track: Track, split: EccentricitySplit, construction: Construction
-) -> tuple[DrawingRequirement, ...]:
+) -> tuple[DrawingLine, ...]:
     """Advice for the drawing; requirements are engineering practice (assumed), costs are computed from the budget.
 
     What only changes the capacity, or what the balls themselves balance, costs nothing.
@@ -66,25 +71,25 @@ def drawing(
     )
 
 
-def _eccentricity(case: Case, candidate: Candidate, split: EccentricitySplit) -> tuple[DrawingRequirement, ...]:
+def _eccentricity(case: Case, candidate: Candidate, split: EccentricitySplit) -> tuple[DrawingLine, ...]:
     """The total, and the run-outs of race and spindle that it is split into."""
     budget = candidate.budget
     others = math.hypot(budget.rolling_friction, budget.race_ovality, budget.plane_offset)
     fit = "the fit" if split.fit is None else split.fit.named
     whole = "worst case" if split.rule == "worst-case" else "root of the sum of squares"
     return (
-        DrawingRequirement(
+        _line(
             "race to bore, total",
             f"eccentricity {_um(split.total)} µm at most, {whole} of race {_um(split.race)}, {fit} "
             f"{_um(split.clearance)}, spindle {_um(split.spindle)}, imbalance of the housing {_um(split.housing)} µm",
             _cost(others, case.race_eccentricity),
         ),
-        DrawingRequirement(
+        _line(
             "race run-out",
             f"{_um(2 * split.race)} µm TIR to the bore; {_how_round(split)}",
             _cost(others, split.race),
         ),
-        DrawingRequirement(
+        _line(
             "spindle run-out", f"{_um(2 * split.spindle)} µm TIR at the seat, on its own bearings",
             _cost(others, split.spindle),
         ),
@@ -98,14 +103,14 @@ def _how_round(split: EccentricitySplit) -> str:
     return f"a ring of class {split.ring_class} (ISO 492) has {_um(split.ring_run_out)} µm of it, its seat the rest"
 
 
-def _construction(case: Case, construction: Construction) -> Iterator[DrawingRequirement]:
+def _construction(case: Case, construction: Construction) -> Iterator[DrawingLine]:
     """Closure with the way of the balls, fastening, seat of the ring."""
     parts, seat, abu = construction.parts, construction.seat, case.autobalancer
-    yield DrawingRequirement(
+    yield _line(
         "closure", f"cover {parts.closure}, {seat_name(parts, construction.cover)}, after balls and oil; it holds "
         f"{construction.cover.held:.3g} N, needed {construction.cover.needed:.3g} N",
     )  # fmt: skip
-    yield DrawingRequirement(
+    yield _line(
         "filling", "balls go in one by one between hub and edge of the race on the cover's side; gap beside a ball "
         f"{_mm(filling_gap_of(parts))} mm",
     )  # fmt: skip
@@ -115,52 +120,50 @@ def _construction(case: Case, construction: Construction) -> Iterator[DrawingReq
         "shrunk": "shrunk on the spindle, no nut",
         "flange": f"part of the wheel's flange, clamped by its nut{force}",
     }
-    yield DrawingRequirement("fastening", ways[parts.fastening])
+    yield _line("fastening", ways[parts.fastening])
     if seat is not None:
         named = f"{seat.seat_class} " if seat.seat_class else ""
         upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
         low, high = abu.temperature_range_C
-        yield DrawingRequirement(
+        yield _line(
             "seat of the ring",
             f"{named}{upper}/{lower} µm, ring {seat.ring_class}; {_um(seat.left)} µm of interference left at least at "
             f"{low:g} … {high:g} °C; join with the body at {seat.joining:.0f} °C",
         )
 
 
-def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) -> tuple[DrawingRequirement, ...]:
+def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) -> tuple[DrawingLine, ...]:
     budget, abu = candidate.budget, case.autobalancer
     smooth = math.hypot(budget.race_eccentricity, budget.race_ovality, budget.plane_offset)
     arm = case.friction_arm or SOFT_ARM
     race = f"R {from_si(candidate.race_radius, 'mm'):.2f} ± {_mm(RACE_TOLERANCE)} mm"
     return (
-        DrawingRequirement("race", f"{race} at the bottom (affects the capacity only)", 0.0),
-        DrawingRequirement(
-            "groove", f"{_across(track.groove_radius)} (helps to shake out friction; no effect on the level)", 0.0
-        ),
-        DrawingRequirement(
+        _line("race", f"{race} at the bottom (affects the capacity only)", 0.0),
+        _line("groove", f"{_across(track.groove_radius)} (helps to shake out friction; no effect on the level)", 0.0),
+        _line(
             "race circularity",
             f"{_um(quality.circularity)} µm; two lobes of {_um(quality.circularity / 2)} µm leave "
             f"{_um(quality.circularity)} µm",
             _cost(budget.residual, quality.circularity),
         ),
-        DrawingRequirement(
+        _line(
             "race waviness",
             f"n_k lobes of amplitude a_k leave n_k·a_k: {_um(quality.waviness)} µm at most, such as 5 × "
             f"{_um(quality.waviness / 5)} µm",
             _cost(budget.residual, quality.waviness),
         ),
-        DrawingRequirement(
+        _line(
             "race surface",
             f"Ra ≤ {_um(quality.roughness)} µm, no dents: a dent {_um(quality.dent)} µm deep holds a ball",
             _cost(budget.residual, quality.dent * candidate.pitch_radius / _dent_half_width(candidate, quality.dent)),
         ),
-        DrawingRequirement(
+        _line(
             "race hardness",
             f"{hardness_text(quality)}, through-hardened (given: {abu.race_hardness_HRC:g}); a soft race has a lever "
             f"arm of {_um(SOFT_ARM)} µm",
             _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction),
         ),
-        DrawingRequirement(
+        _line(
             "rolling friction",
             f"lever arm ≤ {1e3 * abu.rolling_friction_mm:g} µm: hard, ground, clean, oiled",
             _cost(smooth, budget.rolling_friction),
@@ -180,7 +183,7 @@ def hardness_text(quality: RaceQuality) -> str:
 
 def _seat_and_balls(
     candidate: Candidate, split: EccentricitySplit, quality: RaceQuality, bore: str
-) -> tuple[DrawingRequirement, ...]:
+) -> tuple[DrawingLine, ...]:
     rest = math.hypot(candidate.budget.rolling_friction, candidate.budget.race_ovality, candidate.budget.plane_offset)
     fit = split.fit
     named = "no standard fit" if fit is None else (
@@ -189,12 +192,12 @@ def _seat_and_balls(
         f"{_um(split.clearance)} µm of the eccentricity"
     )  # fmt: skip
     return (
-        DrawingRequirement("bore and spindle", named, None if fit is None else _cost(rest, split.clearance)),
-        DrawingRequirement(
+        _line("bore and spindle", named, None if fit is None else _cost(rest, split.clearance)),
+        _line(
             "balls", f"of one lot, grade {quality.ball_grade} (ISO 3290-1); the balls balance the differences of their "
             "diameters", 0.0,
         ),
-        DrawingRequirement(
+        _line(
             "housing without balls",
             f"balanced to {split.balance_grade} (ISO 21940-11); the balls balance the static rest, the couple counts "
             f"as {_um(split.housing)} µm of the eccentricity",
@@ -217,10 +220,10 @@ def _clearance(fit: Fit) -> str:
     return f"clearance {_um(-fit.loosest)} to interference {_um(fit.tightest)} µm"
 
 
-def _running(case: Case, candidate: Candidate) -> tuple[DrawingRequirement, ...]:
+def _running(case: Case, candidate: Candidate) -> tuple[DrawingLine, ...]:
     oval, overspeed = candidate.roundness, 1.2 * from_si(case.speed_range[1], "rpm")
     return (
-        DrawingRequirement(
+        _line(
             "oil",
             f"one that gives a viscous drag rate of {case.drag:g} 1/s, which the design assumes. Specify "
             "grade and volume under [oil], or identify the rate from recorded starts"
@@ -228,13 +231,13 @@ def _running(case: Case, candidate: Candidate) -> tuple[DrawingRequirement, ...]
             else f"{case.table.oil.fill_ml:g} ml of {oil_name(case.table.oil)}, for a viscous drag rate of about "
             f"{case.drag:.3g} 1/s at {case.table.oil.temperature_C:g} °C",
         ),
-        DrawingRequirement(
+        _line(
             "web and cover",
             "both must carry the wall, the cover without clearance: two-lobe ovality then leaves "
             f"{_um(ovality_residual(oval.lobes))} µm, with one web alone {_um(ovality_residual(oval.unaided))} µm; "
             f"the diameter of a free ring would grow by {_um(oval.free_ring)} µm",
         ),
-        DrawingRequirement("proof", f"cover and seal; overspeed test at {overspeed:.0f} rpm, 1.2 × the highest speed"),
+        _line("proof", f"cover and seal; overspeed test at {overspeed:.0f} rpm, 1.2 × the highest speed"),
     )
 
 

@@ -54,7 +54,7 @@ def body_bands(case: Case, candidate: Candidate, possible: bool) -> BodyBands | 
             return [math.nan] * (3 + 4 * len(case.places))
         levels = speed_levels(other, imbalance, candidate, (), possible)
         places = idle_vibration(other, imbalance, candidate, possible).places
-        highest = math.nan if levels is None else levels.highest.level_after
+        highest = math.nan if levels is None else levels.highest.level_after_db
         mass = other.body.effective_mass(candidate.mass)
         return [mass, imbalance, highest, *place_numbers(places, case.speed)]
 
@@ -135,8 +135,8 @@ def band_end(expected: HighestTotal, bands: BodyBands | None, case: Case) -> flo
     if bands is None:
         return None
     ends = [
-        (band.total_after[1], held.name) for band, held in zip(bands.places, case.places, strict=True)
-        if band.total_after is not None
+        (band.a_hv_after_band[1], held.name) for band, held in zip(bands.places, case.places, strict=True)
+        if band.a_hv_after_band is not None
     ]  # fmt: skip
     share = expected.speed / case.speed
     return max((end * share for end, _ in ends), default=None)

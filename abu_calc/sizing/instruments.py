@@ -2,10 +2,11 @@
 
 import math
 from statistics import fmean
+from typing import Annotated, ClassVar
 
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, level_from_velocity, to_si, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.standards.vibration import hand_arm_weight
@@ -19,19 +20,17 @@ UNITS = {
 """Units of instrument readings, as shown."""
 
 
-@dataclass(frozen=True)
-class InstrumentValues:
-    """Instrument readings of an rms velocity [m/s] at one frequency, all rms; without W_h no `weighted`.
+@record
+class InstrumentReadings(Record):
+    """One level as instruments show it, all rms; weighted values are null where W_h is not defined."""
 
-    `weighted`: a_h of one axis; `total`: a_hv [m/s²], the vector sum of the two axes that an imbalance moves
-    alike.
-    """
+    schema_title: ClassVar[str] = "Readings"
 
-    velocity: float
-    displacement: float
-    acceleration: float
-    weighted: float | None
-    total: float | None
+    velocity: Annotated[float, Quantity("velocity", "v", unit="mm_per_s")]
+    displacement: Annotated[float, Quantity("displacement", "s_v", unit="um")]
+    acceleration: Annotated[float, Quantity("acceleration", "a", unit="m_per_s2")]
+    weighted: Annotated[float | None, Quantity("weighted, one axis", "a_h", 3, unit="m_per_s2")]
+    total: Annotated[float | None, Quantity("weighted, three axes", "a_hv", 3, unit="m_per_s2")]
 
 
 @formula(
@@ -43,7 +42,7 @@ class InstrumentValues:
     assumed="one harmonic at Ω; two axes alike",
     source="ISO 5349-1:2001 for W_h",
 )
-def readings(velocity: float, speed: float) -> InstrumentValues:
+def readings(velocity: float, speed: float) -> InstrumentReadings:
     """
     >>> found = readings(velocity_from_level(111), to_si(5800, "rpm"))
     >>> [round(each, 2) for each in (1e6 * found.displacement, found.acceleration, found.weighted, found.total)]
@@ -54,8 +53,13 @@ def readings(velocity: float, speed: float) -> InstrumentValues:
         weighted = acceleration * hand_arm_weight(speed)
     except InputError:
         weighted = None
-    total = None if weighted is None else math.sqrt(2) * weighted
-    return InstrumentValues(velocity, velocity / speed, acceleration, weighted, total)
+    return InstrumentReadings(
+        velocity=velocity,
+        displacement=velocity / speed,
+        acceleration=acceleration,
+        weighted=weighted,
+        total=None if weighted is None else math.sqrt(2) * weighted,
+    )
 
 
 @formula(

@@ -206,10 +206,10 @@ def body_suspension(case: Case, *, carrying: bool = False) -> BodySuspension | N
 class PlaceBand:
     """Bands [low, high] of one place: levels [dB] and vector totals a_hv [m/s²], None if the number is not known."""
 
-    before: tuple[float, float] | None
-    after: tuple[float, float] | None
-    total_before: tuple[float, float] | None
-    total_after: tuple[float, float] | None
+    level_before_band: tuple[float, float] | None
+    level_after_band: tuple[float, float] | None
+    a_hv_before_band: tuple[float, float] | None
+    a_hv_after_band: tuple[float, float] | None
 
 
 def place_numbers(places: Iterable[LevelPlace], speed: float) -> list[float]:

@@ -57,7 +57,7 @@ def _requirements(design: Design) -> Iterator[tuple[str, bool]]:
 def _vibration(design: Design) -> Iterator[tuple[str, bool]]:
     levels, total, bands, limit = design.speed_levels, design.highest_total, design.bands, design.case.level_limit
     if levels is not None:
-        yield LEVEL, levels.highest.level_after <= limit
+        yield LEVEL, levels.highest.level_after_db <= limit
         yield LEVEL + INERTIA, bands is None or bands.level is None or bands.level[1] <= limit
     permitted = design.case.table.limits.a_hv_m_per_s2
     if permitted is not None and total is not None:

@@ -9,7 +9,8 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Final
+from operator import attrgetter
+from typing import Annotated, Final
 
 from abu_calc.formulas.friction_band import worst_friction
 from abu_calc.formulas.shaken_friction import remaining_band
@@ -17,6 +18,7 @@ from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
 from abu_calc.foundation.checks import Check, Finding, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing.actions import Followed
 from abu_calc.sizing.balls import Candidate
@@ -95,12 +97,12 @@ CURVE_STEPS = 6
 """Steps of the speed range in the curve of level against speed."""
 
 
-@dataclass(frozen=True)
-class LevelAtSpeed:
-    """Level with the autobalancer [dB] at the loudest place, at a speed [rad/s]."""
+@record
+class SpeedLevel(Record):
+    """Level with the autobalancer at one speed, at the loudest place."""
 
-    speed: float
-    level_after: float
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    level_after_db: Annotated[float, LEVEL_AFTER]
 
 
 @dataclass(frozen=True)
@@ -112,16 +114,16 @@ class SpeedLevels:
     the file's spindle is vertical.
     """
 
-    by_speed: tuple[LevelAtSpeed, ...]
-    highest: LevelAtSpeed
-    arranged: LevelAtSpeed
-    upright: LevelAtSpeed | None = None
+    by_speed: tuple[SpeedLevel, ...]
+    highest: SpeedLevel
+    arranged: SpeedLevel
+    upright: SpeedLevel | None = None
 
     @property
-    def louder_upright(self) -> LevelAtSpeed | None:
+    def louder_upright(self) -> SpeedLevel | None:
         """Worst friction case with the spindle held vertical, if that is louder by what is shown."""
         upright = self.upright
-        louder = upright is not None and upright.level_after >= self.arranged.level_after + SHOWN
+        louder = upright is not None and upright.level_after_db >= self.arranged.level_after_db + SHOWN
         return upright if louder else None
 
 
@@ -151,12 +153,25 @@ def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible:
     return replace(levels, places=in_space(case, imbalance, candidate, budget.at_race if budget else None))
 
 
-def idle_speed_levels(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Levels | None:
+@record
+class IdleSpeedLevels(Record):
+    """Levels at the motor's idle speed, at the loudest place; None after: balls cannot balance."""
+
+    speed: Annotated[float, Quantity("idle speed of the motor", "Ω", 6, unit="rpm")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, LEVEL_AFTER]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+
+
+def idle_speed_levels(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> IdleSpeedLevels | None:
     """Levels of `idle_vibration` at the loudest place at the motor's idle speed, where that is not the rated speed."""
     idle = case.idle_speed
     if idle is None or math.isclose(idle, case.speed, rel_tol=EQUAL_SPEEDS):
         return None
-    return idle_vibration(replace(case, speed=idle), imbalance, candidate, possible).worst
+    worst = idle_vibration(replace(case, speed=idle), imbalance, candidate, possible).worst
+    return IdleSpeedLevels(
+        speed=idle, level_before_db=worst.before, level_after_db=worst.after, reduction_db=worst.reduction
+    )
 
 
 def speed_levels(
@@ -167,23 +182,22 @@ def speed_levels(
         return None
     transmission = loudest_transmission(case, candidate.mass)
 
-    def at(speed: float, residual: float) -> LevelAtSpeed:
-        return LevelAtSpeed(speed, displacement_level(residual * transmission, speed, case.background_level))
+    def at(speed: float, residual: float) -> SpeedLevel:
+        return SpeedLevel(
+            speed=speed, level_after_db=displacement_level(residual * transmission, speed, case.background_level)
+        )
 
     low, high = case.speed_range
     steps = {low + (high - low) * step / CURVE_STEPS for step in range(CURVE_STEPS)}
     curve = tuple(
         at(speed, _residual(case, imbalance, candidate, speed)) for speed in sorted({*steps, *judged_speeds(case)})
     )
-    highest = max(curve, key=_after)
-    arranged = max((at(each.speed, each.residual) for each in worst), key=_after, default=highest)
+    after = attrgetter("level_after_db")
+    highest = max(curve, key=after)
+    arranged = max((at(each.speed, each.residual) for each in worst), key=after, default=highest)
     turned = (each.vertical for each in worst if each.vertical is not None)
-    upright = max((at(each.speed, each.residual) for each in turned), key=_after, default=None)
+    upright = max((at(each.speed, each.residual) for each in turned), key=after, default=None)
     return SpeedLevels(curve, highest, arranged, upright)
-
-
-def _after(level: LevelAtSpeed) -> float:
-    return level.level_after
 
 
 def _residual(case: Case, imbalance: float, candidate: Candidate, speed: float) -> float:
@@ -325,16 +339,16 @@ def _level(case: Case, levels: SpeedLevels, place: str, band: tuple[float, float
     gives the bound with the spindle vertical, too.
     """
     limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
-    kept = highest.level_after <= limit
+    kept = highest.level_after_db <= limit
     of_range = "" if len(levels.by_speed) == 1 else ", the loudest speed of the range"
     there = "" if arranged.speed == highest.speed else f" at {_rpm(arranged)}"
     message = (
-        f"{place}, {_rpm(highest)}{of_range}: expected {decibels(highest.level_after, limit)} (limit {limit:g} dB). "
-        f"Bound of friction{there}: {decibels(arranged.level_after, limit)}"
+        f"{place}, {_rpm(highest)}{of_range}: expected {decibels(highest.level_after_db, limit)} (limit {limit:g} dB). "
+        f"Bound of friction{there}: {decibels(arranged.level_after_db, limit)}"
     )
     upright = levels.louder_upright
     if upright is not None:
-        message += f". With the spindle held vertical: {decibels(upright.level_after, limit)}"
+        message += f". With the spindle held vertical: {decibels(upright.level_after_db, limit)}"
     background, action = case.background_level, None
     if background is not None and background >= limit:
         action = (
@@ -347,13 +361,13 @@ def _level(case: Case, levels: SpeedLevels, place: str, band: tuple[float, float
         message += f". The estimated inertia leaves {low.removesuffix(' dB')} … {high} as expected"
     if kept and not within:
         action = "Measure the inertia: the band of the estimate crosses the limit."
-    return Finding(verdict(kept, within), message, highest.level_after, limit, "dB", action)
+    return Finding(verdict(kept, within), message, highest.level_after_db, limit, "dB", action)
 
 
 def level_of(after: Followed) -> float:
     """Highest expected level [dB] over the speed range."""
     levels = speed_levels(*after, (), possible=True)
-    return math.inf if levels is None else levels.highest.level_after
+    return math.inf if levels is None else levels.highest.level_after_db
 
 
 LEAST_FRICTION_MM: Final = 0.0005
@@ -404,5 +418,5 @@ def _rounded(value: float) -> float:
     return float(f"{value:.3g}")
 
 
-def _rpm(level: LevelAtSpeed) -> str:
-    return f"{from_si(level.speed, 'rpm'):.6g} rpm"
+def _rpm(level: SpeedLevel) -> str:
+    return f"{level.speed_rpm:.6g} rpm"

@@ -73,7 +73,7 @@ def test_a_dip_by_other_equations(up: float) -> None:
     course = [(up, FULL), (up + 0.1, LOW), (up + 0.15, LOW), (up + 0.3, FULL), (up + 0.4, FULL)]
     expected = own([(0.0, 0.0), *course] if up else course, 1e-9)
     found = simulate(scene(effect, up + 0.4), accuracy=1e-5, integrator="scipy")
-    assert found.response.final.speed == pytest.approx(FULL, rel=1e-9)
+    assert found.response.final.rotor_speed == pytest.approx(FULL, rel=1e-9)
     assert found.trajectory.y[:8, -1] == pytest.approx(expected, rel=1e-3, abs=1e-7)
     assert effect.at_speed == pytest.approx(up + 0.3)
 

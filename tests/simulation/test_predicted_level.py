@@ -48,7 +48,7 @@ def test_no_start_case_is_simulated_without_a_measurement() -> None:
     weak = size(machine(**PINNED, wheel__imbalance_g_mm=5000.0, measured_after={"measured_level_db": 100.0}))
     assert starts_for_measurement(weak) is None
     compared = compared_starts(weak, None)
-    assert compared is not None and compared.predicted is None and predicted_level(weak, None) is None
+    assert compared is not None and compared.predicted_level_db is None and predicted_level(weak, None) is None
 
 
 @pytest.mark.slow
@@ -61,5 +61,5 @@ def test_a_place_elsewhere_has_its_own_level() -> None:
     design = size(machine(**PINNED, **body, measured_after={"measured_level_db": 100.0, "measured_at": "rear"}))
     ensemble = simulate_members(design, shares=(1.0,))
     compared, loudest = compared_starts(design, ensemble), predicted_level(design, ensemble)
-    assert compared is not None and compared.predicted is not None and loudest is not None
-    assert compared.place == "rear" and 20 * math.log10(compared.predicted / 5e-8) <= loudest + 1e-9
+    assert compared is not None and compared.predicted_level_db is not None and loudest is not None
+    assert compared.place == "rear" and compared.predicted_level_db <= loudest + 1e-9

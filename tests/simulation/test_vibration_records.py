@@ -6,8 +6,6 @@ import pytest
 
 from abu_calc.simulation.vibration_records import (
     HandleLevels,
-    InstrumentReadings,
-    MeasuredAfterRecord,
     compared,
     level_where_measured,
     measured_place,
@@ -25,36 +23,20 @@ BODY = {
 }
 
 
-def test_readings_of_100_db_are_those_of_one_velocity() -> None:
-    """5e-8 m/s · 10⁵ = 5 mm/s."""
-    shown = InstrumentReadings.of(100.0, SPEED)
-    assert shown is not None and shown.velocity_mm_per_s == pytest.approx(5.0)
-    assert shown.displacement_um == pytest.approx(5000.0 / SPEED)
-    assert shown.acceleration_m_per_s2 == pytest.approx(5e-3 * SPEED)
-    assert InstrumentReadings.of(None, SPEED) is None
-
-
 def test_nothing_is_compared_without_a_measurement() -> None:
     design = size(machine(**PINNED))
-    assert compared(design.case, 100.0) is None
-    assert level_where_measured(design, 1e-5) is None
-    assert MeasuredAfterRecord.of(None) is None
+    assert compared(design.case, 100.0) is level_where_measured(design, 1e-5) is None
 
 
 def test_a_measurement_above_the_prediction_has_a_positive_difference() -> None:
-    case = read_case(machine(measured_after={"measured_level_db": 103.0}))
-    comparison = compared(case, 100.0)
-    assert comparison is not None and comparison.difference == pytest.approx(3.0)
-    record = MeasuredAfterRecord.of(comparison, 105.0)
+    record = compared(read_case(machine(measured_after={"measured_level_db": 103.0})), 100.0, 105.0)
     assert record is not None and (record.unit, record.place) == ("dB", "wheel plane")
     assert (record.measured_level_db, record.predicted_level_db) == pytest.approx((103.0, 100.0))
-    assert record.predicted_loaded_db == 105.0
+    assert (record.difference_db, record.predicted_loaded_db) == (pytest.approx(3.0), 105.0)
 
 
 def test_without_a_prediction_there_is_no_difference() -> None:
-    comparison = compared(read_case(machine(measured_after={"measured_level_db": 103.0})), None)
-    assert comparison is not None and comparison.difference is None
-    record = MeasuredAfterRecord.of(comparison)
+    record = compared(read_case(machine(measured_after={"measured_level_db": 103.0})), None)
     assert record is not None and record.predicted_level_db is record.difference_db is record.predicted_value is None
 
 
@@ -74,4 +56,7 @@ def test_a_place_pressed_at_once_stands_beside_the_settled_one() -> None:
     settled, hasty = (LevelPlace("rear", 3.0, Levels(110.0, after)) for after in (101.0, 115.0))
     levels = HandleLevels.of(settled, hasty=hasty)
     assert (levels.reduction_db, levels.level_at_once_db) == (pytest.approx(9.0), 115.0)
-    assert levels.shown_before is None and HandleLevels.of(settled, SPEED).shown_before is not None
+    shown = HandleLevels.of(settled, SPEED).shown_before
+    assert levels.shown_before is None and shown is not None
+    assert shown.velocity_mm_per_s == pytest.approx(5e-5 * 10 ** (110 / 20))
+    assert shown.displacement_um == pytest.approx(1e3 * shown.velocity_mm_per_s / SPEED)

@@ -29,12 +29,16 @@ def test_bands_hold_the_nominal_numbers(estimated: Design) -> None:
     assert bands is not None and bands.level is not None and estimated.speed_levels is not None
     low, high = bands.effective_mass
     assert low < case.body.effective_mass(estimated.autobalancer.mass) < high
-    assert bands.level[0] <= estimated.speed_levels.highest.level_after <= bands.level[1]
+    assert bands.level[0] <= estimated.speed_levels.highest.level_after_db <= bands.level[1]
     for place, band in zip(estimated.idle.places, bands.places, strict=True):
-        assert band.before is not None and band.after is not None and band.total_after is not None
+        assert (
+            band.level_before_band is not None
+            and band.level_after_band is not None
+            and band.a_hv_after_band is not None
+        )
         assert place.levels.before is not None and place.levels.after is not None
-        assert band.before[0] < place.levels.before < band.before[1]
-        assert band.after[0] < place.levels.after < band.after[1]
+        assert band.level_before_band[0] < place.levels.before < band.level_before_band[1]
+        assert band.level_after_band[0] < place.levels.after < band.level_after_band[1]
 
 
 def test_level_of_a_known_imbalance_is_known_to_two_decibels(estimated: Design) -> None:
@@ -43,7 +47,7 @@ def test_level_of_a_known_imbalance_is_known_to_two_decibels(estimated: Design) 
     The rear handle of this machine lies beside the centre of mass, so that the inertia hardly matters there.
     """
     assert estimated.bands is not None
-    rear, side = (band.before for band in estimated.bands.places)
+    rear, side = (band.level_before_band for band in estimated.bands.places)
     assert rear is not None and side is not None
     assert (rear[1] - rear[0]) / 2 < 1.5
     assert (side[1] - side[0]) / 2 == pytest.approx(2.0, abs=1.0)
@@ -62,7 +66,7 @@ def test_limit_in_the_band_warns_beside_a_level_that_passes() -> None:
     offset = {"autobalancer__plane_offset_mm": -20.0, **TRUE}
     design = size(without_inertia(**LENGTHS, **offset))
     assert design.bands is not None and design.bands.level is not None and design.speed_levels is not None
-    limit = (design.speed_levels.highest.level_after + design.bands.level[1]) / 2
+    limit = (design.speed_levels.highest.level_after_db + design.bands.level[1]) / 2
     check = check_of(size(without_inertia(**LENGTHS, **offset, limits={"vibration_level_db": limit})), "ABU401")
     assert check.status == "warn" and "estimated inertia" in check.message
 

@@ -93,7 +93,7 @@ def test_what_was_measured_after_stands_beside_the_prediction_alike(values: dict
     predicted = level_where_measured(design, 1e-5)
     found = compared(design.case, predicted)
     assert found is not None and predicted is not None
-    assert found.difference == pytest.approx(level - predicted, abs=1e-9)
+    assert found.difference_db == pytest.approx(level - predicted, abs=1e-9)
 
 
 def test_readings_of_111_db() -> None:

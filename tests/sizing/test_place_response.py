@@ -58,7 +58,7 @@ def test_levels_of_handles(offset: float, eccentricity: float) -> None:
     assert {place.name: place.levels.after for place in found.idle.places} == pytest.approx(expected, abs=1e-6)
     assert found.idle.worst.after == pytest.approx(max(expected.values()), abs=1e-6)
     assert found.speed_levels is not None
-    assert found.speed_levels.highest.level_after == pytest.approx(max(expected.values()), abs=1e-6)
+    assert found.speed_levels.highest.level_after_db == pytest.approx(max(expected.values()), abs=1e-6)
 
 
 @pytest.mark.parametrize("offset", OFFSETS)

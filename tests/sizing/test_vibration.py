@@ -30,13 +30,15 @@ def test_the_curve_of_level_against_speed_is_that_of_the_displacement() -> None:
     assert speeds == sorted(speeds) and {2500, 5000, 12000} <= {round(speed) for speed in speeds}
     residual = design.autobalancer.budget.residual
     for each in levels.by_speed:
-        assert each.level_after == pytest.approx(20 * math.log10(residual * each.speed / math.sqrt(2) / 5e-8), abs=0.02)
+        assert each.level_after_db == pytest.approx(
+            20 * math.log10(residual * each.speed / math.sqrt(2) / 5e-8), abs=0.02
+        )
 
 
 def test_the_bound_of_friction_is_told_and_decides_nothing() -> None:
     typical = ranged(130.0)
     assert typical.speed_levels is not None
-    expected, worst = typical.speed_levels.highest.level_after, typical.speed_levels.arranged.level_after
+    expected, worst = typical.speed_levels.highest.level_after_db, typical.speed_levels.arranged.level_after_db
     assert worst > expected + 3
     checks = [check_of(ranged(limit), "ABU401") for limit in (worst + 0.1, worst - 0.1, expected + 0.1, expected - 0.1)]
     assert [check.status for check in checks] == ["pass", "pass", "pass", "fail"]

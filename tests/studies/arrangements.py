@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.stability.boundaries import Boundary, boundaries
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary, boundaries
 from abu_calc.dynamics.supports.planar import planar
 from tests.benchmarks.measuring import keep, machine
 
@@ -211,13 +211,13 @@ def _highest(case: Case, rows: Array, grid: list[float], rates: list[Array], uns
     return low
 
 
-def stable_at(limits: tuple[Boundary, ...], speed: float, first: bool) -> bool:
+def stable_at(limits: tuple[StabilityBoundary, ...], speed: float, first: bool) -> bool:
     """Whether abu-calc calls a speed stable; `first`: whether the lowest speed is."""
     below = [limit for limit in limits if limit.speed <= speed]
     return below[-1].stable_above if below else first
 
 
-def _first(limits: tuple[Boundary, ...], case: Case) -> bool:
+def _first(limits: tuple[StabilityBoundary, ...], case: Case) -> bool:
     if limits:
         return not limits[0].stable_above
     from abu_calc.dynamics.stability.verdict import stability
@@ -225,13 +225,13 @@ def _first(limits: tuple[Boundary, ...], case: Case) -> bool:
     return bool(stability(case.scene, case.half_angle).stable)
 
 
-def grows_unseen(limits: tuple[Boundary, ...], speed: float, low: float, case: Case) -> bool:
+def grows_unseen(limits: tuple[StabilityBoundary, ...], speed: float, low: float, case: Case) -> bool:
     """Whether abu-calc calls a speed stable, and none of its boundaries is near."""
     near = any(abs(limit.speed / speed - 1) <= ALLOWED for limit in limits)
     return stable_at(limits, speed, _first(limits, case)) and not near and speed > low
 
 
-def _unstable_up_to(limits: tuple[Boundary, ...], low: float, high: float, case: Case) -> float | None:
+def _unstable_up_to(limits: tuple[StabilityBoundary, ...], low: float, high: float, case: Case) -> float | None:
     if not stable_at(limits, high, _first(limits, case)):
         return high
     return limits[-1].speed if limits else None

@@ -18,7 +18,6 @@ from abu_calc.dynamics.stability.resting import still_axis
 from abu_calc.dynamics.stability.search import MARGIN, Search, at_speed, decided, searched, worst
 from abu_calc.dynamics.stability.two_modes import LinearMotion, two_modes
 from abu_calc.dynamics.stability.verdict import judged
-from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.roots import root
 from abu_calc.foundation.validity import Range
@@ -234,18 +233,18 @@ ROUNDS: Final = 6
 """Most rounds in which arrangements that are worse at a boundary are added."""
 
 
-@dataclass(frozen=True)
-class Boundary:
-    """A speed [rad/s] at which the balanced state gains or loses its stability."""
+@record
+class StabilityBoundary(Record):
+    """A speed at which the balanced state gains or loses its stability."""
 
-    speed: float
-    stable_above: bool
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    stable_above: Annotated[bool, Quantity("stable above it")]
 
 
 def boundaries(
     scene: Scene, low: float, high: float, half_angle: float = 0.0, arrangement: Arrangement = "worst",
     *, coarse: bool = False,
-) -> tuple[Boundary, ...]:  # fmt: skip
+) -> tuple[StabilityBoundary, ...]:  # fmt: skip
     """Every speed from `low` to `high` [rad/s] at which the balanced state of a scene gains or loses its stability.
 
     Isotropic support, axis still, up to 16 states: all of them, see `crossings`. Elsewhere the changes of sign of the
@@ -316,7 +315,7 @@ def limits_of_all(
     high: float,
     *,
     coarse: bool = False,
-) -> tuple[tuple[LinearMotion, ...], tuple[Boundary, ...]]:
+) -> tuple[tuple[LinearMotion, ...], tuple[StabilityBoundary, ...]]:
     """Motions that decide where all arrangements are stable, and every speed at which that changes.
 
     Added to those given: some that grow where these do not, by a grid of speeds unless `coarse`, then the worst at each
@@ -337,7 +336,7 @@ def limits_of_all(
 
 def limits_of(
     motions: Sequence[LinearMotion], scene: Scene, low: float, high: float, *, coarse: bool = False
-) -> tuple[Boundary, ...]:
+) -> tuple[StabilityBoundary, ...]:
     """The same of motions about a still axis that must all be stable."""
 
     def excess(speed: float) -> float:
@@ -352,15 +351,15 @@ def limits_of(
 
 def _on_grid(
     excess: Callable[[float], float], scene: Scene, low: float, high: float, *, coarse: bool
-) -> tuple[Boundary, ...]:
+) -> tuple[StabilityBoundary, ...]:
     if coarse:
         points = [(speed, excess(speed)) for speed in grid_of(scene, low, high, COARSE, FEW)]
         return _found(changes(excess, points, ROUGH))
     return _found(changes(excess, refined(excess, grid_of(scene, low, high, GRID, MANY))))
 
 
-def _found(zeros: Sequence[tuple[float, bool]]) -> tuple[Boundary, ...]:
-    return tuple(Boundary(speed, stable_above=below_zero) for speed, below_zero in zeros)
+def _found(zeros: Sequence[tuple[float, bool]]) -> tuple[StabilityBoundary, ...]:
+    return tuple(StabilityBoundary(speed=speed, stable_above=below_zero) for speed, below_zero in zeros)
 
 
 def quick(motions: Sequence[BalancedMotion]) -> tuple[LinearMotion, ...]:

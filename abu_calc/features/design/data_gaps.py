@@ -157,7 +157,7 @@ def _end(design: Design, slowest: Sequence[StartOutcome], key: str, value: float
     if after is None:
         return None
     levels, moves = design.speed_levels, RANGES[key].moves_levels
-    level = level_of(after) if moves or levels is None else levels.highest.level_after
+    level = level_of(after) if moves or levels is None else levels.highest.level_after_db
     if RANGES[key].moves_times:
         times = [quiet_time_with(design, each, entries, accuracy) for each in slowest]
         time = max((each for each in times if not math.isnan(each)), default=math.nan)

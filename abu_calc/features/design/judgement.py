@@ -256,14 +256,14 @@ def _motion(design: Design) -> ArmMotion | None:
     """Motion of the arm at the work; None without an arm, or if it does not stand or does not reach the work."""
     if design.swing_arm is None:
         return None
-    from abu_calc.features.swing_arm.motion import ForcedArmMotion, arm_motion
+    from abu_calc.features.swing_arm.motion import arm_motion
     from abu_calc.simulation.scene_of_design import scene_of_design
 
     try:
         moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
     except NotTrustworthyError:  # checks say so
         return None
-    return ArmMotion.of(moved) if isinstance(moved, ForcedArmMotion) else None
+    return None if isinstance(moved, str) else moved
 
 
 def _on_work(design: Design, runs: Sequence[SceneRun]) -> tuple[Check, ...]:

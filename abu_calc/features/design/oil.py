@@ -5,7 +5,6 @@ from typing import Annotated, Final, Self
 
 from abu_calc.formulas.oil import GRADES, SLIPS, OilState
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
 from abu_calc.inputs.oil import oil_name
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.sizing.design import Design
@@ -47,7 +46,7 @@ class OilRecord(Record):
 
     oil: Annotated[str, Quantity("oil")]
     fill_ml: Annotated[float, Quantity("fill", "V_o", 3)]
-    depth_mm: Annotated[float, Quantity("depth of the ring of oil", "δ_o", 3)]
+    depth: Annotated[float, Quantity("depth of the ring of oil", "δ_o", 3, unit="mm")]
     wetted_share: Annotated[float, Quantity("depth over the diameter of a ball", "", 2, percent=True)]
     slip_m_per_s: Annotated[float, Quantity("slip for which the rate is taken", "", 3)]
     uncertainty_factor: Annotated[float, Quantity("factor by which the rate is uncertain", "", 2)]
@@ -64,7 +63,7 @@ class OilRecord(Record):
             return None
         states = (("cold", drag.cold), ("at work", drag.working), ("hot", drag.hot))
         return cls(
-            oil=oil_name(table), fill_ml=table.fill_ml, depth_mm=from_si(drag.depth, "mm"),
+            oil=oil_name(table), fill_ml=table.fill_ml, depth=drag.depth,
             wetted_share=drag.wetted_share, slip_m_per_s=table.slip_m_per_s, uncertainty_factor=FACTOR,
             overridden=drag.overridden, source=drag_source(design.case),
             temperatures=tuple(OilAtTemperature.of(name, state) for name, state in states),

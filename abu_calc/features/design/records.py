@@ -8,7 +8,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
-from abu_calc.features.design.region import TrueRegion
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary
+from abu_calc.features.design.region import Mode, TrueRegion
 from abu_calc.features.grinding.lower_bound import LevelBound
 from abu_calc.features.grinding.outcomes import LoadedStarts
 from abu_calc.formulas.body_estimate import estimate_source
@@ -17,8 +18,7 @@ from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
-from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
-from abu_calc.simulation.vibration_records import HandleLevels, position_mm
+from abu_calc.simulation.vibration_records import HandleLevels
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import WHEEL_PLANE
 from abu_calc.sizing.design import Design, RaceDesign
@@ -32,23 +32,15 @@ from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels, idle_vibration
-
-
-@record
-class Mode(Record):
-    """A free motion of the idle machine that swings, the mass of its balls on it."""
-
-    frequency_hz: Annotated[float, Quantity("frequency", "|λ|/2π")]
-    damping_ratio: Annotated[float, Quantity("damping ratio", "ζ", 3)]
+from abu_calc.sizing.vibration import IdleSpeedLevels, LevelsUnderLoad, SpeedLevel, SpeedLevels, idle_vibration
 
 
 @record
 class Frequency(Record):
     """Region of the working speeds, by the simple rule and by the eigenvalues."""
 
-    speed_hz: Annotated[float, Quantity("rated speed", "Ω/2π")]
-    natural_frequencies_hz: Annotated[tuple[float, ...], Quantity("natural frequencies x, y", "ω/2π")]
+    speed: Annotated[float, Quantity("rated speed", "Ω/2π", unit="hz")]
+    natural_frequencies: Annotated[tuple[float, ...], Quantity("natural frequencies x, y", "ω/2π", unit="hz")]
     region: Annotated[str, Quantity("region")]
     balancing_possible: Annotated[bool, Quantity("balancing possible")]
     finite_mass_gap: Annotated[float, Quantity("finite-mass gap", "(2m/JM)^⅓", 3)]
@@ -58,20 +50,20 @@ class Frequency(Record):
     ]
     stability_boundaries_rpm: tuple[StabilityBoundary, ...] | None
     modes: tuple[Mode, ...]
-    hanging_drag_per_s: Annotated[
-        float | None, Quantity("drag rate above which no ball stalls", "", 4, "null: no drag rate is enough")
+    hanging_drag: Annotated[
+        float | None,
+        Quantity("drag rate above which no ball stalls", "", 4, "null: no drag rate is enough", unit="per_s"),
     ]
 
     @classmethod
     def of(cls, design: Design, region: TrueRegion) -> Self:
         """Record of a design."""
-        limits = region.boundaries
         return cls.read(
             design.frequency,
             region,
             region=design.frequency.region,
-            stability_boundaries_rpm=None if limits is None else stability_boundaries(limits),
-            hanging_drag_per_s=finite(region.hanging.largest),
+            stability_boundaries_rpm=region.boundaries,
+            hanging_drag=region.hanging.largest,
         )
 
 
@@ -82,24 +74,26 @@ class AutobalancerRecord(Record):
     schema_title: ClassVar[str] = "Autobalancer"
 
     ball_count: Annotated[int, Quantity("number of balls", "n")]
-    ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
-    ball_mass_g: Annotated[float, Quantity("mass of one ball", "m")]
-    race_radius_mm: Annotated[float, Quantity("race radius", "R")]
-    pitch_radius_mm: Annotated[float, Quantity("pitch radius", "R − r")]
-    groove_radius_mm: Annotated[float | None, Quantity("groove radius (± 0.2)", "R_g")]
-    capacity_g_mm: Annotated[float, Quantity("capacity, balls touching", "mR_p·sin nβ/sin β")]
+    ball_diameter: Annotated[float, Quantity("ball diameter", "2r", 5, unit="mm")]
+    ball_mass: Annotated[float, Quantity("mass of one ball", "m", unit="g")]
+    race_radius: Annotated[float, Quantity("race radius", "R", unit="mm")]
+    pitch_radius: Annotated[float, Quantity("pitch radius", "R − r", unit="mm")]
+    groove_radius: Annotated[float | None, Quantity("groove radius (± 0.2)", "R_g", unit="mm")]
+    capacity: Annotated[float, Quantity("capacity, balls touching", "mR_p·sin nβ/sin β", unit="g_mm")]
     capacity_ratio: Annotated[float | None, Quantity("capacity over required capacity", "", 3)]
-    outer_diameter_mm: Annotated[float, Quantity("outer diameter")]
-    width_mm: Annotated[float, Quantity("width")]
-    mass_g: Annotated[float, Quantity("mass with balls")]
+    outer_diameter: Annotated[float, Quantity("outer diameter", unit="mm")]
+    width: Annotated[float, Quantity("width", unit="mm")]
+    mass: Annotated[float, Quantity("mass with balls", unit="g")]
     mass_fraction: Annotated[float, Quantity("share of the machine's mass", "", 3, percent=True)]
-    ball_force_N: Annotated[float, Quantity("force of one ball at top speed", "F", 3)]
-    contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
-    hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρ(ΩR_o)²", 3)]
-    optimum_drag_per_s: Annotated[float | None, Quantity("drag rate of the fastest decay", "2√(Jκ_s)", 3)]
-    slowest_decay_per_s: Annotated[float, Quantity("slowest decay rate of the balls", "", 3, "at the given drag rate")]
-    carry_over_rpm: Annotated[float, Quantity("carry-over speed of the balls", "√(g/R_p)", 3)]
-    residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
+    ball_force: Annotated[float, Quantity("force of one ball at top speed", "F", 3, unit="N")]
+    contact_pressure: Annotated[float, Quantity("Hertz pressure", "p₀", unit="MPa")]
+    hoop_stress: Annotated[float, Quantity("hoop stress", "ρ(ΩR_o)²", 3, unit="MPa")]
+    optimum_drag: Annotated[float | None, Quantity("drag rate of the fastest decay", "2√(Jκ_s)", 3, unit="per_s")]
+    slowest_decay: Annotated[
+        float, Quantity("slowest decay rate of the balls", "", 3, "at the given drag rate", unit="per_s")
+    ]
+    carry_over: Annotated[float, Quantity("carry-over speed of the balls", "√(g/R_p)", 3, unit="rpm")]
+    residual: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3, unit="um")]
     corrector: Annotated[str, Quantity("kind of corrector")]
     ball_material: Annotated[str, Quantity("material of the balls")]
     housing: Annotated[str, Quantity("housing")]
@@ -108,20 +102,20 @@ class AutobalancerRecord(Record):
     optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
 
     @classmethod
-    def of(cls, table: AutobalancerTable, candidate: Candidate, race: Track, why_not: str | None = None) -> Self:
-        """Record of a candidate and its race; `table`: the file's demands on it."""
+    def of(cls, table: AutobalancerTable, candidate: Candidate, race: Track, **given: object) -> Self:
+        """Record of a candidate and its race; `table`: the file's demands on it; `given`: fields of their own."""
         return cls.read(
             candidate,
             candidate.strength,
             candidate.budget,
             race,
-            outer_diameter_mm=from_si(candidate.housing.outer_diameter, "mm"),
-            width_mm=from_si(candidate.housing.width, "mm"),
-            slowest_decay_per_s=race.decay_rates[0][1],
+            outer_diameter=candidate.housing.outer_diameter,
+            width=candidate.housing.width,
+            slowest_decay=race.decay_rates[0][1],
             corrector=table.corrector,
             ball_material=table.ball_material,
             housing=RULES[table.design].text,
-            why_not=why_not,
+            **given,
         )
 
 
@@ -131,51 +125,47 @@ class AccuracyBudget(Record):
 
     optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
 
-    race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
-    speed_rpm: Annotated[float, Quantity("at the least favourable speed", "Ω", 6)]
-    rolling_friction_um: Annotated[float | None, Quantity("dry friction, balls evenly spread", "w_f/cos(γ_g/2)", 3)]
-    rolling_friction_worst_um: Annotated[
-        float | None, Quantity("dry friction, bound", "", 3, "over all arrangements of the balls")
+    race_eccentricity: Annotated[float | None, Quantity("race eccentricity", "Δ", 3, unit="um")]
+    speed: Annotated[float, Quantity("at the least favourable speed", "Ω", 6, unit="rpm")]
+    rolling_friction: Annotated[
+        float | None, Quantity("dry friction, balls evenly spread", "w_f/cos(γ_g/2)", 3, unit="um")
     ]
-    rolling_friction_vertical_um: Annotated[
+    rolling_friction_worst: Annotated[
+        float | None, Quantity("dry friction, bound", "", 3, "over all arrangements of the balls", unit="um")
+    ]
+    rolling_friction_vertical: Annotated[
         float | None,
-        Quantity("the same with the spindle vertical", "", 3, "without gravity along the race"),
+        Quantity("the same with the spindle vertical", "", 3, "without gravity along the race", unit="um"),
     ]
     friction_number: Annotated[
         float | None, Quantity("friction over gravity", "Λ", 3, "below 1 gravity shakes friction out")
     ]
-    race_ovality_um: Annotated[float | None, Quantity("two-lobe ovality of the race", "2a_k", 3)]
-    plane_offset_um: Annotated[float | None, Quantity("race off the wheel's plane", "", 3)]
-    capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
-    residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
-    worst_um: Annotated[float | None, Quantity("largest residual (plain sum)", "", 3)]
-    worst_vertical_um: Annotated[float | None, Quantity("largest residual with the spindle vertical", "", 3)]
-    permitted_um: Annotated[float | None, Quantity("permitted by the limit", "", 3)]
-    rolling_friction_reached_um: Annotated[float | None, Quantity("friction band of simulated balls", "", 3)] = None
+    race_ovality: Annotated[float | None, Quantity("two-lobe ovality of the race", "2a_k", 3, unit="um")]
+    plane_offset: Annotated[float | None, Quantity("race off the wheel's plane", "", 3, unit="um")]
+    capacity_shortfall: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3, unit="um")]
+    residual: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3, unit="um")]
+    worst: Annotated[float | None, Quantity("largest residual (plain sum)", "", 3, unit="um")]
+    worst_vertical: Annotated[float | None, Quantity("largest residual with the spindle vertical", "", 3, unit="um")]
+    permitted: Annotated[float | None, Quantity("permitted by the limit", "", 3, unit="um")]
+    rolling_friction_reached: Annotated[
+        float | None, Quantity("friction band of simulated balls", "", 3, unit="um")
+    ] = None
 
     @classmethod
     def of(cls, design: Design, reached: tuple[float, ...] | None) -> Self:
         """Record of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
         candidate, budget = design.autobalancer, design.autobalancer.budget
         worst = next(each for each in design.worst if each.speed == budget.speed)
-        band, geometry = None, (candidate.pitch_radius, candidate.ball_diameter / 2)
-        if reached is not None:
-            band = friction_band(design.case.friction_arm, *geometry, reached)
-        horizontal, upright = worst.vertical is not None, worst.upright
-        number = friction_number(design.case.friction_arm, *geometry, budget.speed) if horizontal else None
+        friction = design.case.friction_arm, candidate.pitch_radius, candidate.ball_diameter / 2
         return cls.read(
             budget,
-            rolling_friction_worst_um=_um(worst.rolling_friction),
-            rolling_friction_vertical_um=_um(upright.rolling_friction),
-            friction_number=number,
-            worst_um=_um(worst.residual),
-            worst_vertical_um=_um(upright.residual),
-            rolling_friction_reached_um=None if band is None else _um(band),
+            rolling_friction_worst=worst.rolling_friction,
+            rolling_friction_vertical=worst.upright.rolling_friction,
+            friction_number=None if worst.vertical is None else friction_number(*friction, budget.speed),
+            worst=worst.residual,
+            worst_vertical=worst.upright.residual,
+            rolling_friction_reached=None if reached is None else friction_band(*friction, reached),
         )
-
-
-def _um(length: float) -> float | None:
-    return finite(from_si(length, "um"))
 
 
 @record
@@ -190,14 +180,18 @@ class BodyRecord(Record):
         {"estimate", "effective_mass_band_kg", "imbalance_band_g_mm", "rotor_polar_inertia_kg_m2"}
     )
 
+    decimals: ClassVar[Mapping[str, int]] = {"mm": 9}
+
     kind: Annotated[str, Quantity("body")]
     estimated: Annotated[bool, Quantity("inertia estimated")]
-    center_of_mass_from_wheel_mm: Annotated[tuple[float, float, float] | None, Quantity("wheel to centre of mass")]
-    inertia_kg_m2: Annotated[tuple[float, float, float] | None, Quantity("inertia", "J_x, J_y, J_z", 3)]
-    inertia_xz_kg_m2: Annotated[float | None, Quantity("product of inertia", "J_xz", 3)]
-    rotor_polar_inertia_kg_m2: Annotated[float | None, Quantity("polar inertia of the rotor", "J_p", 3)]
-    effective_mass_band_kg: Annotated[tuple[float, float] | None, Quantity("band of the effective mass", "", 3)]
-    imbalance_band_g_mm: Annotated[tuple[float, float] | None, Quantity("band of the imbalance", "", 3)]
+    center_of_mass_from_wheel: Annotated[
+        tuple[float, float, float] | None, Quantity("wheel to centre of mass", unit="mm")
+    ]
+    inertia: Annotated[tuple[float, float, float] | None, Quantity("inertia", "J_x, J_y, J_z", 3, unit="kg_m2")]
+    inertia_xz: Annotated[float | None, Quantity("product of inertia", "J_xz", 3, unit="kg_m2")]
+    rotor_polar_inertia: Annotated[float | None, Quantity("polar inertia of the rotor", "J_p", 3, unit="kg_m2")]
+    effective_mass_band: Annotated[tuple[float, float] | None, Quantity("band of the effective mass", "", 3, unit="kg")]
+    imbalance_band: Annotated[tuple[float, float] | None, Quantity("band of the imbalance", "", 3, unit="g_mm")]
     estimate: Annotated[str | None, Quantity("estimate by")]
 
     @classmethod
@@ -208,50 +202,13 @@ class BodyRecord(Record):
         return cls(
             kind="point mass" if inertia is None else "in space" if body.in_space else "along the spindle",
             estimated=body.estimate is not None,
-            center_of_mass_from_wheel_mm=None if inertia is None else position_mm((-x, -y, -z)),
-            inertia_kg_m2=None if inertia is None else (inertia.xx, inertia.yy, inertia.zz),
-            inertia_xz_kg_m2=None if inertia is None else inertia.xz,
-            rotor_polar_inertia_kg_m2=body.body.rotor_polar_inertia or None,
-            effective_mass_band_kg=None if bands is None else bands.effective_mass,
-            imbalance_band_g_mm=None if bands is None else _g_mm(bands.imbalance),
+            center_of_mass_from_wheel=None if inertia is None else (-x, -y, -z),
+            inertia=None if inertia is None else (inertia.xx, inertia.yy, inertia.zz),
+            inertia_xz=None if inertia is None else inertia.xz,
+            rotor_polar_inertia=body.body.rotor_polar_inertia or None,
+            effective_mass_band=None if bands is None else bands.effective_mass,
+            imbalance_band=None if bands is None else bands.imbalance,
             estimate=None if body.estimate is None else estimate_source(),
-        )
-
-
-def _g_mm(band: tuple[float, float]) -> tuple[float, float]:
-    low, high = (from_si(value, "g_mm") for value in band)
-    return low, high
-
-
-@record
-class SpeedLevel(Record):
-    """Level with the autobalancer at one speed, at the loudest place."""
-
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    level_after_db: Annotated[float, LEVEL_AFTER]
-
-
-@record
-class IdleSpeedLevels(Record):
-    """Levels at the motor's idle speed, at the loudest place; None after: balls cannot balance."""
-
-    speed_rpm: Annotated[float, Quantity("idle speed of the motor", "Ω", 6)]
-    level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, LEVEL_AFTER]
-    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
-
-    @classmethod
-    def of(cls, design: Design) -> Self | None:
-        """Record of a design; None without a motor, or if the motor idles at the rated speed."""
-        possible = design.frequency.balancing_possible
-        levels = idle_speed_levels(design.case, design.imbalance.value, design.autobalancer, possible)
-        if levels is None or design.case.idle_speed is None:
-            return None
-        return cls(
-            speed_rpm=from_si(design.case.idle_speed, "rpm"),
-            level_before_db=levels.before,
-            level_after_db=levels.after,
-            reduction_db=levels.reduction,
         )
 
 
@@ -268,7 +225,7 @@ class FrictionBound(Record):
         """Record beside the levels [dB] of all simulated starts; None where balls cannot balance, or leave nothing."""
         if design.speed_levels is None:
             return None
-        bound, simulated = design.speed_levels.arranged.level_after, list(levels)
+        bound, simulated = design.speed_levels.arranged.level_after_db, list(levels)
         near = sum(level > bound - 1 for level in simulated)
         return cls(level_db=bound, reached_within_1_db=near, runs=len(simulated)) if math.isfinite(bound) else None
 
@@ -279,7 +236,7 @@ class NewWheel(Record):
     louder, which is no fault.
     """
 
-    break_even_imbalance_g_mm: Annotated[float, Quantity("break-even imbalance", "m₀e", 3)]
+    break_even_imbalance: Annotated[float, Quantity("break-even imbalance", "m₀e", 3, unit="g_mm")]
     level_db: Annotated[float, Quantity("level there", "L")]
 
     @classmethod
@@ -304,7 +261,7 @@ class NewWheel(Record):
             middle = math.sqrt(low * high)
             low, high = (low, middle) if helps(middle) else (middle, high)
         level = levels(high)[0]
-        return cls(break_even_imbalance_g_mm=from_si(high, "g_mm"), level_db=level) if math.isfinite(level) else None
+        return cls(break_even_imbalance=high, level_db=level) if math.isfinite(level) else None
 
 
 @record
@@ -376,9 +333,9 @@ class Vibration(Record):
             ),
             place=vibration.judged,
             highest_level_band_db=None if bands is None else bands.level,
-            by_speed=None if levels is None else tuple(map(SpeedLevel.read, levels.by_speed)),
-            worst_arrangement=None if levels is None else SpeedLevel.read(levels.arranged),
-            worst_arrangement_vertical=None if levels is None else SpeedLevel.read(levels.upright or levels.arranged),
+            by_speed=None if levels is None else levels.by_speed,
+            worst_arrangement=None if levels is None else levels.arranged,
+            worst_arrangement_vertical=None if levels is None else levels.upright or levels.arranged,
         )
 
     @classmethod
@@ -395,33 +352,24 @@ class Vibration(Record):
 
 
 @record
-class DrawingLine(Record):
-    """One requirement for the drawing."""
-
-    feature: Annotated[str, Quantity("feature")]
-    requirement: Annotated[str, Quantity("requirement")]
-    cost_db: Annotated[float | None, Quantity("cost", "", 3, "what the level rises by when the tolerance is used up")]
-
-
-@record
 class Eccentricity(Record):
     """Parts of the eccentricity that the drawing permits; the simulation uses `total_um`."""
 
     decimals: ClassVar[Mapping[str, int]] = {"um": 6}
 
     rule: Annotated[str, Quantity("rule of the sum")]
-    total_um: Annotated[float, Quantity("permitted in all", "Δ", 3)]
-    sum_um: Annotated[float, Quantity("sum of the parts", "", 3)]
-    race_um: Annotated[float, Quantity("race to bore", "Δ_r", 3)]
-    clearance_um: Annotated[float, Quantity("clearance of bore and spindle", "Δ_f", 3)]
-    spindle_um: Annotated[float, Quantity("spindle", "Δ_s", 3)]
-    race_tir_um: Annotated[float, Quantity("run-out of the race as a gauge shows it", "TIR", 3)]
-    spindle_tir_um: Annotated[float, Quantity("run-out of the spindle as a gauge shows it", "TIR", 3)]
-    housing_um: Annotated[float, Quantity("imbalance of the housing", "Δ_h", 3)]
-    least_um: Annotated[float, Quantity("least attainable sum", "", 3)]
+    total: Annotated[float, Quantity("permitted in all", "Δ", 3, unit="um")]
+    sum: Annotated[float, Quantity("sum of the parts", "", 3, unit="um")]
+    race: Annotated[float, Quantity("race to bore", "Δ_r", 3, unit="um")]
+    clearance: Annotated[float, Quantity("clearance of bore and spindle", "Δ_f", 3, unit="um")]
+    spindle: Annotated[float, Quantity("spindle", "Δ_s", 3, unit="um")]
+    race_tir: Annotated[float, Quantity("run-out of the race as a gauge shows it", "TIR", 3, unit="um")]
+    spindle_tir: Annotated[float, Quantity("run-out of the spindle as a gauge shows it", "TIR", 3, unit="um")]
+    housing: Annotated[float, Quantity("imbalance of the housing", "Δ_h", 3, unit="um")]
+    least: Annotated[float, Quantity("least attainable sum", "", 3, unit="um")]
     bore_class: Annotated[str | None, Quantity("tolerance class of the bore")]
     spindle_class: Annotated[str | None, Quantity("tolerance class of the spindle")]
-    spindle_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the spindle")]
+    spindle_limits: Annotated[tuple[float, float] | None, Quantity("limits of the spindle", unit="um")]
     balance_grade: Annotated[str, Quantity("balance grade of the housing")]
 
     @classmethod
@@ -430,13 +378,12 @@ class Eccentricity(Record):
         fit = split.fit
         return cls.read(
             split,
-            race_tir_um=_micrometres(2 * split.race),
-            spindle_tir_um=_micrometres(2 * split.spindle),
+            race_tir=2 * split.race,
+            spindle_tir=2 * split.spindle,
             bore_class=None if fit is None else fit.bore_class,
             spindle_class=None if fit is None else fit.spindle_class,
-            spindle_limits_um=None if fit is None else
-            (_micrometres(fit.spindle.lower), _micrometres(fit.spindle.upper)),
-        )  # fmt: skip
+            spindle_limits=None if fit is None else (fit.spindle.lower, fit.spindle.upper),
+        )
 
 
 @record
@@ -449,7 +396,7 @@ class SectionPart(Record):
 
     name: Annotated[str, Quantity("part")]
     material: Annotated[str, Quantity("material")]
-    mass_g: Annotated[float, Quantity("mass")]
+    mass: Annotated[float, Quantity("mass", unit="g")]
     section_area_mm2: Annotated[float, Quantity("area of the half section")]
     outline_mm: Annotated[tuple[tuple[float, float, float], ...], Quantity("outline of the half section")]
 
@@ -459,9 +406,12 @@ class SectionPart(Record):
         return cls(
             name=part.name,
             material=part.material,
-            mass_g=from_si(part.mass, "g"),
+            mass=part.mass,
             section_area_mm2=1e6 * part.area,
-            outline_mm=tuple((_mm(edge.start.z), _mm(edge.start.r), edge.bulge) for edge in part.profile),
+            outline_mm=tuple(
+                (round(from_si(edge.start.z, "mm"), 9), round(from_si(edge.start.r, "mm"), 9), edge.bulge)
+                for edge in part.profile
+            ),
         )
 
 
@@ -469,29 +419,31 @@ class SectionPart(Record):
 class Section(Record):
     """Lengths, tolerances and parts of the housing, as its drawing shows them; requirements are assumed practice."""
 
+    decimals: ClassVar[Mapping[str, int]] = {"mm": 9, "um": 6}
+
     design: Annotated[str, Quantity("kind of housing")]
-    bore_diameter_mm: Annotated[float, Quantity("bore", "", 5)]
+    bore_diameter: Annotated[float, Quantity("bore", "", 5, unit="mm")]
     bore_class: Annotated[str, Quantity("tolerance class of the bore")]
-    bore_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the bore")]
-    hub_diameter_mm: Annotated[float, Quantity("hub", "", 5)]
-    race_diameter_mm: Annotated[float, Quantity("race", "2R", 5)]
-    race_tolerance_mm: Annotated[float, Quantity("tolerance of the race's radius", "±")]
-    shoulder_diameter_mm: Annotated[float, Quantity("race at the webs", "", 5)]
-    groove_tolerance_mm: Annotated[float, Quantity("tolerance of the groove's radius", "±")]
-    ring_diameter_mm: Annotated[float, Quantity("outside of the race ring", "", 5)]
-    wall_mm: Annotated[float, Quantity("wall outside the race")]
-    web_mm: Annotated[float, Quantity("web and cover")]
-    inner_width_mm: Annotated[float, Quantity("between web and cover")]
-    runout_um: Annotated[float, Quantity("runout of the race to the bore", "TIR")]
-    circularity_um: Annotated[float, Quantity("circularity of the race")]
-    roughness_Ra_um: Annotated[float, Quantity("roughness of the race", "Ra")]
+    bore_limits: Annotated[tuple[float, float] | None, Quantity("limits of the bore", unit="um")]
+    hub_diameter: Annotated[float, Quantity("hub", "", 5, unit="mm")]
+    race_diameter: Annotated[float, Quantity("race", "2R", 5, unit="mm")]
+    race_tolerance: Annotated[float, Quantity("tolerance of the race's radius", "±", unit="mm")]
+    shoulder_diameter: Annotated[float, Quantity("race at the webs", "", 5, unit="mm")]
+    groove_tolerance: Annotated[float, Quantity("tolerance of the groove's radius", "±", unit="mm")]
+    ring_diameter: Annotated[float, Quantity("outside of the race ring", "", 5, unit="mm")]
+    wall: Annotated[float, Quantity("wall outside the race", unit="mm")]
+    web: Annotated[float, Quantity("web and cover", unit="mm")]
+    inner_width: Annotated[float, Quantity("between web and cover", unit="mm")]
+    runout: Annotated[float, Quantity("runout of the race to the bore", "TIR", unit="um")]
+    circularity: Annotated[float, Quantity("circularity of the race", unit="um")]
+    roughness_Ra: Annotated[float, Quantity("roughness of the race", "Ra", unit="um")]
     hardness: Annotated[str, Quantity("hardness of the race")]
-    case_depth_mm: Annotated[float, Quantity("depth of the hard case, at least")]
+    case_depth: Annotated[float, Quantity("depth of the hard case, at least", unit="mm")]
     closure: Annotated[str, Quantity("closure")]
     cover_fit: Annotated[str, Quantity("fit or thread of the cover")]
     fastening: Annotated[str, Quantity("fastening")]
     ring_seat_class: Annotated[str | None, Quantity("tolerance class of the ring's seat", "", 3, "None: no ring")]
-    ring_seat_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the ring's seat")]
+    ring_seat_limits: Annotated[tuple[float, float] | None, Quantity("limits of the ring's seat", unit="um")]
     bearing_ring: Annotated[str | None, Quantity("bearing whose outer ring is the race")]
     parts: tuple[SectionPart, ...]
 
@@ -500,48 +452,31 @@ class Section(Record):
         """Record of a design."""
         built = design.construction
         parts, quality, fit, seat = built.parts, built.quality, design.eccentricity.fit, built.seat
-        cut = parts.dimensions
+        cut, ring = parts.dimensions, ring_of(design.case, design.autobalancer.race_radius)
         return cls(
             design=design.case.autobalancer.design,
-            bore_diameter_mm=_mm(2 * cut.bore_radius),
+            bore_diameter=2 * cut.bore_radius,
             bore_class="" if fit is None else fit.bore_class,
-            bore_limits_um=None if fit is None else (_micrometres(fit.bore.lower), _micrometres(fit.bore.upper)),
-            hub_diameter_mm=_mm(2 * cut.hub_radius),
-            race_diameter_mm=_mm(2 * cut.race_radius),
-            race_tolerance_mm=_mm(RACE_TOLERANCE),
-            shoulder_diameter_mm=_mm(2 * cut.shoulder_radius),
-            groove_tolerance_mm=_mm(GROOVE_TOLERANCE),
-            ring_diameter_mm=_mm(2 * cut.ring_radius),
-            wall_mm=_mm(cut.ring_radius - cut.race_radius),
-            web_mm=_mm(cut.web),
-            inner_width_mm=_mm(cut.inner_width),
-            runout_um=_micrometres(2 * design.eccentricity.race),
-            circularity_um=_micrometres(quality.circularity),
-            roughness_Ra_um=_micrometres(quality.roughness),
+            bore_limits=None if fit is None else (fit.bore.lower, fit.bore.upper),
+            hub_diameter=2 * cut.hub_radius,
+            race_diameter=2 * cut.race_radius,
+            race_tolerance=RACE_TOLERANCE,
+            shoulder_diameter=2 * cut.shoulder_radius,
+            groove_tolerance=GROOVE_TOLERANCE,
+            ring_diameter=2 * cut.ring_radius,
+            wall=cut.ring_radius - cut.race_radius,
+            web=cut.web,
+            inner_width=cut.inner_width,
+            runout=2 * design.eccentricity.race,
+            circularity=quality.circularity,
+            roughness_Ra=quality.roughness,
             hardness=hardness_text(quality),
-            case_depth_mm=_mm(quality.case_depth),
+            case_depth=quality.case_depth,
             closure=parts.closure,
             cover_fit=seat_name(parts, built.cover),
             fastening=parts.fastening,
             ring_seat_class=None if seat is None else seat.seat_class,
-            ring_seat_limits_um=None
-            if seat is None
-            else (_micrometres(seat.seat.lower), _micrometres(seat.seat.upper)),
-            bearing_ring=_designation(design),
+            ring_seat_limits=None if seat is None else (seat.seat.lower, seat.seat.upper),
+            bearing_ring=None if ring is None else ring.designation,
             parts=tuple(map(SectionPart.of, parts.turned)),
         )
-
-
-def _designation(design: "Design | RaceDesign") -> str | None:
-    """The bearing whose outer ring is the race; None for other designs."""
-    ring = ring_of(design.case, design.autobalancer.race_radius)
-    return None if ring is None else ring.designation
-
-
-def _mm(length: float) -> float:
-    """Millimetres, freed of the rounding of the conversion."""
-    return round(from_si(length, "mm"), 9)
-
-
-def _micrometres(length: float) -> float:
-    return round(from_si(length, "um"), 6)

@@ -7,12 +7,12 @@ counts the start cases at whose end dry friction holds every ball at rest in its
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.boundaries import Boundary, excess_of, limits_of_all, quick
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary, excess_of, limits_of_all, quick
 from abu_calc.dynamics.stability.search import MARGIN, Search, searched
 from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.two_modes import LinearMotion
@@ -24,6 +24,7 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
 from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
@@ -88,12 +89,12 @@ NAMED: Final = 3
 """Boundaries that the check names, those nearest to the worst speed."""
 
 
-@dataclass(frozen=True)
-class FreeMode:
-    """A free motion of the idle machine with its balls: frequency |λ| [rad/s] and damping ratio −Re λ/|λ|."""
+@record
+class Mode(Record):
+    """A free motion of the idle machine that swings, the mass of its balls on it."""
 
-    frequency: float
-    damping_ratio: float
+    frequency: Annotated[float, Quantity("frequency", "|λ|/2π", unit="hz")]
+    damping_ratio: Annotated[float, Quantity("damping ratio", "ζ", 3)]
 
 
 @dataclass(frozen=True)
@@ -106,8 +107,8 @@ class TrueRegion:
     """
 
     stable: bool | None
-    boundaries: tuple[Boundary, ...] | None
-    modes: tuple[FreeMode, ...]
+    boundaries: tuple[StabilityBoundary, ...] | None
+    modes: tuple[Mode, ...]
     hanging: HangingBounds
     check: Check
 
@@ -119,7 +120,7 @@ class SpeedRange:
     `rated`: the growth rate at the rated speed.
     """
 
-    boundaries: tuple[Boundary, ...]
+    boundaries: tuple[StabilityBoundary, ...]
     worst_speed: float
     growth: float
     rated: float
@@ -170,7 +171,7 @@ def _speed_range(design: Design, *, with_boundaries: bool = True) -> SpeedRange 
     motions, search, rated = quick(listed), searched(listed, half), design.case.speed
     ends = tuple(dict.fromkeys((low, rated, high)))
     scanned = _scanned(motions, search, ends)
-    limits: tuple[Boundary, ...] = ()
+    limits: tuple[StabilityBoundary, ...] = ()
     if with_boundaries or low < high:
         first = min(low, *design.frequency.natural_frequencies) / 2
         scanned, limits = limits_of_all(scanned, search, scene, first, 2 * high, coarse=True)
@@ -246,7 +247,7 @@ ABOVE: Final = 1.02
 """Factor over a boundary of stability at which the lowest speed is tried."""
 
 
-def steadier(design: Design, boundaries: Sequence[Boundary]) -> dict[str, object] | None:
+def steadier(design: Design, boundaries: Sequence[StabilityBoundary]) -> dict[str, object] | None:
     """The first change of the file, of those tried, that makes every speed of the range stable.
 
     If the last boundary is inside the range: speeds above it. Else other oils, the nearest first, and
@@ -278,8 +279,8 @@ def _rpm(speed: float) -> str:
     return f"{from_si(speed, 'rpm'):.6g} rpm"
 
 
-def _modes(scene: Scene) -> tuple[FreeMode, ...]:
+def _modes(scene: Scene) -> tuple[Mode, ...]:
     rates = np.linalg.eigvals(scene.small_motion.motion)
     swinging = rates[rates.imag > 0]
-    modes = (FreeMode(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging)
+    modes = (Mode(frequency=float(abs(rate)), damping_ratio=float(-rate.real / abs(rate))) for rate in swinging)
     return tuple(sorted(modes, key=lambda mode: mode.frequency))

@@ -12,7 +12,6 @@ from typing import Annotated, Any, Final, Self
 
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.features.design.band import BandRow, band
 from abu_calc.features.design.repeats import RepeatedStart, decisive, repeated, worst_further
 from abu_calc.features.design.start_search import SearchResult
@@ -30,16 +29,6 @@ from abu_calc.sizing.places import level_at_loudest
 MOST: Final = 12
 MOST_WORK, MOST_PLAIN = 400_000, 60_000
 """Work of all starts together, in compiled code and without: a second or two."""
-
-
-@dataclass(frozen=True)
-class ReplayedStart:
-    """A start case run again, its outcome, and why it is shown: "worst", "typical" or nothing."""
-
-    why: str
-    outcome: StartOutcome
-    scene: Scene
-    trajectory: Trajectory
 
 
 def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
@@ -64,38 +53,6 @@ def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
 
 def _slow(outcome: StartOutcome) -> tuple[bool, bool, float]:
     return outcome.hanging, not outcome.balanced, outcome.quiet_time_or_inf
-
-
-def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[ReplayedStart]:
-    """Repeat the chosen start cases, as far as the allowed work permits, each by the run of its outcome."""
-    left, first = MOST_WORK if installed() else MOST_PLAIN, first_tolerance(design)
-    for why, outcome in chosen_starts(ensemble):
-        if outcome.work > left:
-            continue
-        for tolerance in (TIGHTER * first, first) if outcome.confirmed else (first,):
-            try:
-                repeat, scene, trajectory = run_of_start(design, outcome.member, accuracy, tolerance)
-            except NotTrustworthyError:
-                left -= WORK
-                continue
-            left -= repeat.work
-            if (repeat.hanging, repeat.balanced) == (outcome.hanging, outcome.balanced):
-                yield ReplayedStart(why, outcome, scene, trajectory)
-                break
-
-
-def levels_of(design: Design, scene: Scene) -> Callable[[float], float]:
-    """Function from an rms velocity of the axis [m/s] to the level [dB] at the loudest place.
-
-    The level is that which an ensemble reports.
-    """
-
-    case = replace(design.case, speed=scene.speed)
-
-    def level(velocity: float) -> float:
-        return level_at_loudest(case, design.autobalancer, math.sqrt(2) * velocity / scene.speed)
-
-    return level
 
 
 SAMPLES: Final = 250
@@ -123,6 +80,52 @@ class StartView:
     scene: Scene | None = None
 
 
+def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[StartView]:
+    """Repeat the chosen start cases, as far as the allowed work permits, each by the run of its outcome."""
+    left, first = MOST_WORK if installed() else MOST_PLAIN, first_tolerance(design)
+    for why, outcome in chosen_starts(ensemble):
+        if outcome.work > left:
+            continue
+        for tolerance in (TIGHTER * first, first) if outcome.confirmed else (first,):
+            try:
+                repeat, scene, trajectory = run_of_start(design, outcome.member, accuracy, tolerance)
+            except NotTrustworthyError:
+                left -= WORK
+                continue
+            left -= repeat.work
+            if (repeat.hanging, repeat.balanced) == (outcome.hanging, outcome.balanced):
+                view = RotorView.of(scene, trajectory, levels_of(design, scene), SAMPLES)
+                if view is not None:
+                    yield StartView(
+                        why=why,
+                        start=outcome.member.name,
+                        drag_per_s=outcome.member.drag,
+                        race_centre_deg=outcome.member.race_centre_deg,
+                        angles_deg=tuple(from_si(angle, "deg") % 360 for angle in outcome.member.angles),
+                        quiet_time_s=outcome.quiet_time,
+                        level_db=outcome.level,
+                        balanced=outcome.balanced,
+                        stalled=outcome.hanging,
+                        view=view,
+                        scene=scene,
+                    )
+                break
+
+
+def levels_of(design: Design, scene: Scene) -> Callable[[float], float]:
+    """Function from an rms velocity of the axis [m/s] to the level [dB] at the loudest place.
+
+    The level is that which an ensemble reports.
+    """
+
+    case = replace(design.case, speed=scene.speed)
+
+    def level(velocity: float) -> float:
+        return level_at_loudest(case, design.autobalancer, math.sqrt(2) * velocity / scene.speed)
+
+    return level
+
+
 @dataclass(frozen=True)
 class Starts:
     """Start cases of an ensemble; `of`: design, ensemble and accuracy, None if there is no ensemble."""
@@ -141,29 +144,7 @@ class Starts:
         """The worst, a typical one, and each kind at the drag given: at most a dozen, run again at the first look."""
         if self.of is None:
             return ()
-        design, ensemble, accuracy = self.of
-        views = (_view(design, start) for start in starts_again(design, ensemble, accuracy))
-        return tuple(view for view in views if view is not None)
-
-
-def _view(design: Design, start: ReplayedStart) -> StartView | None:
-    view = RotorView.of(start.scene, start.trajectory, levels_of(design, start.scene), SAMPLES)
-    if view is None:
-        return None
-    outcome = start.outcome
-    return StartView(
-        why=start.why,
-        start=outcome.member.name,
-        drag_per_s=outcome.member.drag,
-        race_centre_deg=outcome.member.race_centre_deg,
-        angles_deg=tuple(from_si(angle, "deg") % 360 for angle in outcome.member.angles),
-        quiet_time_s=outcome.quiet_time,
-        level_db=outcome.level,
-        balanced=outcome.balanced,
-        stalled=outcome.hanging,
-        view=view,
-        scene=start.scene,
-    )
+        return tuple(starts_again(*self.of))
 
 
 @record
@@ -190,11 +171,6 @@ class WorstMember(Record):
     speed_rpm: Annotated[float | None, Quantity("speed", "", 6)]
     race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
-    @classmethod
-    def of(cls, worst: StartOutcome) -> Self:
-        """A start at full speed has no run-up."""
-        return cls.read(worst.member, start=worst.member.way, run_up_s=worst.member.run_up or None)
-
 
 @record
 class SettlingOfStart(Record):
@@ -204,10 +180,10 @@ class SettlingOfStart(Record):
     """
 
     start: Annotated[str, Quantity("start")]
-    drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
-    quiet_time_s: Annotated[float | None, Quantity("quiet time", "t_q", 3)]
-    rest_time_s: Annotated[float | None, Quantity("rest time", "t_r", 3)]
-    settling_time_s: Annotated[float | None, Quantity("settling time", "t_s", 3)]
+    drag: Annotated[float, Quantity("drag", "h₀", 3, unit="per_s")]
+    quiet_time: Annotated[float | None, Quantity("quiet time", "t_q", 3, unit="s")]
+    rest_time: Annotated[float | None, Quantity("rest time", "t_r", 3, unit="s")]
+    settling_time: Annotated[float | None, Quantity("settling time", "t_s", 3, unit="s")]
     race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
     @classmethod
@@ -218,12 +194,9 @@ class SettlingOfStart(Record):
             key = outcome.member.name, outcome.member.drag
             slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("quiet_time_or_inf"))
         return tuple(
-            cls(
-                start=start, drag_per_s=drag, quiet_time_s=outcome.quiet_time, rest_time_s=outcome.rest_time,
-                settling_time_s=finite(outcome.settling_time_or_inf), race_centre_deg=outcome.member.race_centre_deg,
-            )
-            for (start, drag), outcome in slowest.items()
-        )  # fmt: skip
+            cls.read(outcome, outcome.member, start=start, settling_time=outcome.settling_time_or_inf)
+            for (start, _), outcome in slowest.items()
+        )
 
 
 @record
@@ -235,10 +208,10 @@ class FurtherStarts(Record):
     """
 
     members: Annotated[int, Quantity("further start cases")]
-    quiet_time_s: Annotated[float | None, Quantity("slowest of them", "t_q", 3)]
-    rest_time_s: Annotated[float | None, Quantity("longest rest time of them", "t_r", 3)]
-    settling_time_s: Annotated[float | None, Quantity("longest settling time of them", "t_s", 3)]
-    rare_quiet_time_s: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_q", 3)]
+    quiet_time: Annotated[float | None, Quantity("slowest of them", "t_q", 3, unit="s")]
+    rest_time: Annotated[float | None, Quantity("longest rest time of them", "t_r", 3, unit="s")]
+    settling_time: Annotated[float | None, Quantity("longest settling time of them", "t_s", 3, unit="s")]
+    rare_quiet_time: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_q", 3, unit="s")]
     level_db: Annotated[float, Quantity("loudest of them", "L")]
     repeats: tuple[RepeatedStart, ...] = ()
 
@@ -249,10 +222,10 @@ class FurtherStarts(Record):
             return None
         return cls(
             members=len(searched.outcomes),
-            quiet_time_s=finite(max(outcome.quiet_time_or_inf for outcome in searched.outcomes)),
-            rest_time_s=finite(max(outcome.rest_time_or_inf for outcome in searched.outcomes)),
-            settling_time_s=finite(max(outcome.settling_time_or_inf for outcome in searched.outcomes)),
-            rare_quiet_time_s=finite(searched.foreseen),
+            quiet_time=max(outcome.quiet_time_or_inf for outcome in searched.outcomes),
+            rest_time=max(outcome.rest_time_or_inf for outcome in searched.outcomes),
+            settling_time=max(outcome.settling_time_or_inf for outcome in searched.outcomes),
+            rare_quiet_time=searched.foreseen,
             level_db=max(outcome.loudest for outcome in searched.outcomes),
             repeats=tuple(worst_further(searched, design)),
         )
@@ -276,8 +249,7 @@ class DecisiveRun(Record):
         """Record of the decisive start case, with the options that `repeated` gives; None without any."""
         outcome = decisive(design, ensemble, searched)
         return None if outcome is None else cls.read(
-            outcome, start=outcome.member.name, promised=outcome.member.promised, level_db=outcome.level,
-            quiet_time_s=outcome.quiet_time, options=repeated(outcome, design),
+            outcome, outcome.member, start=outcome.member.name, options=repeated(outcome, design)
         )  # fmt: skip
 
 
@@ -312,6 +284,7 @@ class EnsembleResult(Record):
         searched: SearchResult | None = None,
     ) -> Self:
         """Record in user units; `predicted_level` [dB]: the one that measurements are compared with."""
+        worst = None if ensemble.worst is None else ensemble.worst.member
         return cls.read(
             ensemble,
             hanging=len(ensemble.hanging),
@@ -321,7 +294,9 @@ class EnsembleResult(Record):
             level_db=Spread.of(ensemble, lambda outcome: outcome.level),
             residual_um=Spread.of(ensemble, lambda outcome: from_si(outcome.residual, "um")),
             predicted_level_db=predicted_level,
-            worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
+            worst_member=None
+            if worst is None
+            else WorstMember.read(worst, start=worst.way, run_up_s=worst.run_up or None),
             settling_by_start=SettlingOfStart.all_of(ensemble),
             further_starts=FurtherStarts.of(searched, design),
             runs=ensemble.members + (0 if searched is None else len(searched.outcomes) + searched.lost),

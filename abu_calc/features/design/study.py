@@ -16,11 +16,9 @@ from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
     BodyRecord,
-    DrawingLine,
     Eccentricity,
     Frequency,
     FrictionBound,
-    IdleSpeedLevels,
     NewWheel,
     Section,
     Vibration,
@@ -28,7 +26,7 @@ from abu_calc.features.design.records import (
 from abu_calc.features.design.start_rules import FULL, STARTS
 from abu_calc.features.design.starts import EnsembleResult, Starts
 from abu_calc.features.design.verdict import Verdict, benefit
-from abu_calc.features.grinding.lower_bound import LevelBound, LowerBound, lower_bound
+from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
 from abu_calc.features.grinding.work import Work, loaded_levels
@@ -56,9 +54,11 @@ from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.start_cases import Member
-from abu_calc.simulation.vibration_records import HandleLevels, MeasuredAfterRecord, level_where_measured
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.drawing_requirements import DrawingLine
 from abu_calc.sizing.parts.housing_parts import HousingParts
+from abu_calc.sizing.vibration import idle_speed_levels
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.seats import BearingSeats
@@ -123,18 +123,6 @@ class PlaceLevelRow(Record):
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")]
 
-    @classmethod
-    def of(cls, state: str, place: str, levels: Vibration | HandleLevels) -> Self:
-        """Row of the levels of a place."""
-        return cls(
-            state=state,
-            place=place,
-            level_before_db=levels.level_before_db,
-            level_after_db=levels.level_after_db,
-            reduction_db=levels.reduction_db,
-            level_at_once_db=levels.level_at_once_db,
-        )
-
 
 IDLE_START: Final = "bunched"
 """Start of the idle scene."""
@@ -154,11 +142,11 @@ class SizeResult(Result):
     effective_mass_kg: Annotated[float, Quantity("effective mass at the wheel", "m_eff")]
     body: BodyRecord
     frequency: Frequency
-    idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
-    imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
-    required_capacity_g_mm: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ")]
-    required_capacity_limit_g_mm: Annotated[float, Quantity("limit as published", "m₀e + Mε")]
-    required_capacity_compliant_g_mm: Annotated[float | None, Quantity("required by the compliant contact")]
+    idle_speed: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]", unit="rpm")]
+    imbalance: Annotated[float, Quantity("imbalance", "m₀e", unit="g_mm")]
+    required_capacity: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ", unit="g_mm")]
+    required_capacity_limit: Annotated[float, Quantity("limit as published", "m₀e + Mε", unit="g_mm")]
+    required_capacity_compliant: Annotated[float | None, Quantity("required by the compliant contact", unit="g_mm")]
     autobalancer: AutobalancerRecord
     section: Section
     eccentricity: Eccentricity
@@ -203,11 +191,11 @@ class SizeResult(Result):
     @property
     def levels(self) -> Rows[PlaceLevelRow]:
         """Levels before and after at each place, idle and under load, as a table."""
-        rows = [PlaceLevelRow.of("idle", self.vibration.place, self.vibration)]
-        rows += [PlaceLevelRow.of("idle", handle.name, handle) for handle in self.vibration.handles]
-        if (loaded := self.vibration_loaded) is not None:
-            rows.append(PlaceLevelRow.of("grinding", loaded.place, loaded))
-            rows += [PlaceLevelRow.of("grinding", handle.name, handle) for handle in loaded.handles]
+        rows = (
+            PlaceLevelRow.read(levels, state=state, place=place)
+            for state, whole in (("idle", self.vibration), ("grinding", self.vibration_loaded)) if whole is not None
+            for place, levels in ((whole.place, whole), *((handle.name, handle) for handle in whole.handles))
+        )  # fmt: skip
         # The limited place may be one of the handles.
         return Rows({(row.state, row.place): row for row in rows}.values())
 
@@ -258,7 +246,7 @@ def size(
     remarks = (f"{run.ledger.scene.name}: {text}" for run in judged.runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
-    reached = next((run.simulation.response.final.ball_angles for run in judged.runs), None)
+    reached = next((run.simulation.response.ball_angles for run in judged.runs), None)
     checks = actions(judged, step) if whole else judged.checks
     return SizeResult(
         title=tables.machine.name,
@@ -279,33 +267,34 @@ def size(
         effective_mass_kg=need.effective_mass,
         body=BodyRecord.of(design),
         frequency=Frequency.of(design, judged.region),
-        idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
-        imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
-        required_capacity_g_mm=from_si(need.required, "g_mm"),
-        required_capacity_limit_g_mm=from_si(need.published_limit, "g_mm"),
-        required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
+        idle_speed=design.case.idle_speed,
+        imbalance=design.imbalance.value,
+        required_capacity=need.required,
+        required_capacity_limit=need.published_limit,
+        required_capacity_compliant=need.compliant,
         autobalancer=AutobalancerRecord.of(design.case.autobalancer, design.autobalancer, design.track),
         section=Section.of(design),
         eccentricity=Eccentricity.of(design.eccentricity),
         alternatives=tuple(
-            AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why)
+            AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why_not=why)
             for (runner_up, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=replace(
             Vibration.of(design.idle, design.speed_levels, design.case.speed, design.bands),
-            at_idle_speed=IdleSpeedLevels.of(design),
+            at_idle_speed=idle_speed_levels(
+                design.case, design.imbalance.value, design.autobalancer, design.frequency.balancing_possible
+            ),
         ),
         vibration_loaded=None
         if loaded is None
         else replace(
             Vibration.of_loaded(loaded, design.case.speed),
             starts=LoadedStarts.of(loads),
-            bound=None if bound is None else LevelBound.read(bound),
+            bound=bound,
         ),
-        measured_after=MeasuredAfterRecord.of(
-            compared_starts(design, facts.ensemble),
-            level_where_measured(design, work.moved) if isinstance(work, Work) else None,
+        measured_after=compared_starts(
+            design, facts.ensemble, level_where_measured(design, work.moved) if isinstance(work, Work) else None
         ),
         oil=OilRecord.of(design),
         friction_bound=FrictionBound.of(design, (outcome.level for outcome in judged.outcomes)),
@@ -318,7 +307,7 @@ def size(
         fits=tuple(seat for bearing in judged.seats for seat in bearing.seats),
         swing_arm=None if judged.arm is None else SwingArmRecord.of(judged.arm, step.entries),
         arm_motion=judged.arm_motion,
-        drawing=tuple(map(DrawingLine.read, design.drawing)),
+        drawing=design.drawing,
         idle_run=_view(design, judged.runs, "idle"),
         grinding_run=_view(design, judged.runs, "grinding"),
         starts=Starts(None if facts.ensemble is None else (design, facts.ensemble, accuracy), facts.searched),
@@ -395,7 +384,7 @@ def _pressed(
 
 
 def _under_load(
-    work: Work | SceneFailure | None, loads: GrindingOutcomes | None, bound: LowerBound | None
+    work: Work | SceneFailure | None, loads: GrindingOutcomes | None, bound: LevelBound | None
 ) -> Iterator[str]:
     """Warnings about the levels under load that a reader must know."""
     if bound is not None and bound.sentence:

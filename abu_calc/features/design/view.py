@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary
 from abu_calc.features.design.figures import idle_case, size_charts
 from abu_calc.features.design.oil import OilRecord, oil_blocks
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
@@ -37,7 +38,7 @@ from abu_calc.reporting.parts import (
     value_of,
     warning_blocks,
 )
-from abu_calc.simulation.records import SimulatedScene, StabilityBoundary
+from abu_calc.simulation.records import SimulatedScene
 
 CONVENTIONS = (
     "Amplitudes are 0–peak. Levels are 20 lg(v / 5e-8 m/s), v the rms velocity in the louder of x and y. "

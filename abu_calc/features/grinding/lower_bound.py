@@ -44,10 +44,6 @@ class LevelBound(Record):
         )
 
 
-LowerBound = LevelBound
-"""Another name, which the design reads."""
-
-
 def lower_bound(level: float | None, case: Case) -> LevelBound | None:
     """Lower bound that a level under load [dB] at the loudest handle may be; None if the level is not known.
 

@@ -238,8 +238,8 @@ def grinding(
         at_once_stays=work.stays_loud,
         starts=LoadedStarts.of(loads),
         bound=bound,
-        measured_after=MeasuredAfterRecord.of(
-            compared_starts(design, starts_for_measurement(design, progress)), level_where_measured(design, work.moved)
+        measured_after=compared_starts(
+            design, starts_for_measurement(design, progress), level_where_measured(design, work.moved)
         ),
         remedies=tried,
         ball_resultant=None if resultant is None else abs(resultant),

@@ -349,10 +349,8 @@ def _measured(design: Design, at_axis: PlaceLevels, progress: Progress, *, idle:
     if table is None or table.shown is None:
         return None
     level_db = level(moved_at(design, at_axis, *measured_place(design.case, table.shown)).velocity)
-    comparison = compared_starts(design, starts_for_measurement(design, progress))
-    if idle:
-        return MeasuredAfterRecord.of(comparison, this_run=level_db)
-    return MeasuredAfterRecord.of(comparison, level_db)
+    levels = (None, level_db) if idle else (level_db, None)
+    return compared_starts(design, starts_for_measurement(design, progress), *levels)
 
 
 def _held_remarks(design: Design | None, start: str) -> Iterator[str]:

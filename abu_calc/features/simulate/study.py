@@ -286,7 +286,7 @@ def _level_at(subject: Subject, response: Response) -> str:
         return "race plane" if subject.design.case.race_offset else "wheel plane"
     if response.final.arm_angle is not None:
         return "end of the arm"
-    return "axis" if response.final.tilt is None else "axis, centre of mass"
+    return "axis" if response.final.tilt_x is None else "axis, centre of mass"
 
 
 def _measured(subject: Subject, response: Response, progress: Progress) -> MeasuredAfterRecord | None:
@@ -298,10 +298,8 @@ def _measured(subject: Subject, response: Response, progress: Progress) -> Measu
     if table is None or table.shown is None:
         return None
     level = level_at(design, response, measured_place(design.case, table.shown)[1])
-    comparison = compared_starts(design, starts_for_measurement(design, progress))
-    if response.scene == "idle":
-        return MeasuredAfterRecord.of(comparison, this_run=level)
-    return MeasuredAfterRecord.of(comparison, level)
+    levels = (None, level) if response.scene == "idle" else (level, None)
+    return compared_starts(design, starts_for_measurement(design, progress), *levels)
 
 
 def _reached(run: Simulation, spared: float, accuracy: float) -> Check:

@@ -29,7 +29,7 @@ from abu_calc.reporting.parts import (
 )
 from abu_calc.reporting.screen import one_screen, verdict_line
 from abu_calc.simulation.effect_selection import Audit
-from abu_calc.simulation.records import End
+from abu_calc.simulation.response import End
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.simulate import Cost
 from abu_calc.sizing.case import WHEEL_PLANE

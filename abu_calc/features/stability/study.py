@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Final, NamedTuple, Self
 from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.arrangements import ARRANGEMENTS, Arrangement
-from abu_calc.dynamics.stability.boundaries import Boundary, Crossing, boundaries, crossings_of, growth_over
+from abu_calc.dynamics.stability.boundaries import Crossing, StabilityBoundary, boundaries, crossings_of, growth_over
 from abu_calc.dynamics.stability.stall import hanging_bounds
 from abu_calc.dynamics.stability.verdict import Stability, critical_damping
 from abu_calc.dynamics.stability.verdict import stability as judged
@@ -25,7 +25,7 @@ from abu_calc.foundation.units import from_si, to_si, wrapped_deg
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.records import SceneModel, StabilityBoundary, finite, stability_boundaries
+from abu_calc.simulation.records import SceneModel, finite
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.subject import Source, Subject, subject_of
 
@@ -197,7 +197,7 @@ def stability(
         arrangements_judged=judgement.arrangements,
         hanging=Hanging.of(subject.scene, subject.half_angle),
         effects_left_out=judgement.left_out,
-        boundaries_rpm=None if limits is None else stability_boundaries(limits),
+        boundaries_rpm=limits,
         crossings_rpm=crossed,
         arm_advice=arm.advice,
         swing_arm=arm.bounds,
@@ -240,7 +240,7 @@ def _on_arm(subject: Subject) -> ArmAnswer:
     moved = arm_motion(subject.scene)
     if isinstance(moved, str):
         return ArmAnswer(advice, bounds, None, (f"No forced motion and no tongue: {moved}.",))
-    return ArmAnswer(advice, bounds, None if moved is None else ArmMotion.of(moved))
+    return ArmAnswer(advice, bounds, moved)
 
 
 def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
@@ -258,7 +258,7 @@ def _band(speeds_rpm: tuple[float, float] | None, rated: float | None) -> tuple[
 
 
 def _growth(
-    subject: Subject, band: tuple[float, float], limits: tuple[Boundary, ...], way: Arrangement
+    subject: Subject, band: tuple[float, float], limits: tuple[StabilityBoundary, ...], way: Arrangement
 ) -> tuple[GrowthAt, ...]:
     """Evenly over the band of speeds, and where stability changes."""
     low, high = band

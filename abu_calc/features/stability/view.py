@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from abu_calc.dynamics.stability.boundaries import Crossing
+from abu_calc.dynamics.stability.boundaries import Crossing, StabilityBoundary
 from abu_calc.features.explain.steps import STEPS, Step, step_blocks
 from abu_calc.features.stability.attractors_view import attractor_blocks, attractor_figure
 from abu_calc.features.stability.study import GrowthAt, Hanging, StabilityResult
@@ -17,7 +17,6 @@ from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot, alik
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import check_blocks, facts, file_of, notices, provenance_blocks, value_of
 from abu_calc.reporting.screen import shortened
-from abu_calc.simulation.records import StabilityBoundary
 
 FORBIDDEN = (
     "A speed above the natural frequencies is necessary, not sufficient. Balls of finite mass lose the balanced state "

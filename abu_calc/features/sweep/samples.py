@@ -211,7 +211,7 @@ def scene_once(scene: Scene, tolerance: float) -> tuple[Response, bool]:
     """
     scene, _ = with_parted_balls(scene)
     response = evaluate(scene, integrated(scene, needed_times(scene), tolerance, MOST_EVALUATIONS)[0])
-    slipping = slip(response, abs(response.final.speed) or scene.speed)
+    slipping = slip(response, abs(response.final.rotor_speed) or scene.speed)
     return response, balances(response.residual_imbalance, allowed_of_scene(scene, response.ball_angles), slipping)
 
 

@@ -12,7 +12,7 @@ from abu_calc.features.sweep.columns import What, drag_ratio
 from abu_calc.features.sweep.samples import SweepStudy, Values, numbers_of
 from abu_calc.features.two_races.case import TwoRaceCase, one_race_machine, read_case
 from abu_calc.features.two_races.choice import SizedRace, TwoRaceDesign
-from abu_calc.features.two_races.start_cases import FIRST_TOLERANCE, race_centre, start, start_once, wheels_share
+from abu_calc.features.two_races.start_cases import FIRST_TOLERANCE, race_centre, race_needs, start, start_once
 from abu_calc.formulas.two_races import eccentricity_resultants
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
@@ -148,7 +148,7 @@ def capacity_ratio(design: TwoRaceDesign, member: Member) -> float:
     ratios = [
         race.design.autobalancer.capacity / need
         for index, race in enumerate(design.races)
-        if (need := abs(eccentric[index] - wheels_share(design, index, member))) > 0
+        if (need := abs(eccentric[index] - race_needs(design, member)[index])) > 0
     ]
     return min(ratios, default=math.inf)
 

@@ -11,9 +11,9 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import loop
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.floquet import floquet_edge
+from abu_calc.features.swing_arm.records import ArmHarmonic, ArmMotion, TongueEdge
 from abu_calc.formulas.swing_arm import MODULATION, ORDERS, Arm, averaged_edge, forced_harmonics, free_rates, resonance
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.foundation.frozen import dataclass
 
 Array = NDArray[np.float64]
 Harmonics = tuple[complex, ...]
@@ -38,45 +38,8 @@ BESIDE: Final = 1.4
 """Half the width that is drawn, in half widths κ/4 of the undamped tongue."""
 
 
-@dataclass(frozen=True)
-class EdgeDamping:
-    """Damping of the joint [N·s/m] on the edge of the tongue at one speed [rad/s]."""
-
-    speed: float
-    averaged: float
-    floquet: float
-
-
-@dataclass(frozen=True)
-class SimulatedArmMotion:
-    """Amplitudes M + iN [rad] of ω, 2ω, 3ω of the periodic motion; growth rates [1/s] of the two free motions."""
-
-    harmonics: Harmonics
-    rates: tuple[float, float]
-
-
-@dataclass(frozen=True)
-class ForcedArmMotion:
-    """An arm with its imbalance, its balls standing in the race and balancing nothing [SI].
-
-    `decay` h [1/s]; `parametric_rates`: at ω = 2ω₀ by averaging; `simulated` None: no periodic motion was found.
-    `tongue`: from low to high speed, none where it is too narrow. `joint_damping` [N·s/m].
-    """
-
-    length: float
-    speed: float
-    modulation: float
-    natural_frequency: float
-    decay: float
-    joint_damping: float
-    parametric_rates: tuple[float, float]
-    perturbation: Harmonics
-    simulated: SimulatedArmMotion | None
-    tongue: tuple[EdgeDamping, ...]
-
-
-def arm_motion(scene: Scene) -> ForcedArmMotion | str | None:
-    """Return the motion of a scene's swing arm; None without a swing arm.
+def arm_motion(scene: Scene) -> ArmMotion | str | None:
+    """Return the motion of a scene's swing arm, its balls standing in the race; None without a swing arm.
 
     If there is nothing to report, return the reason in words: nothing holds the arm, or κ is too large.
     """
@@ -91,21 +54,30 @@ def arm_motion(scene: Scene) -> ForcedArmMotion | str | None:
     natural = resonance(held, 0.0)
     decay = held.joint_damping * held.length**2 / (2 * held.inertia)
     expected = forced_harmonics(kappa, scene.speed, natural, decay)
-    return ForcedArmMotion(
-        length=held.length,
+    simulated, rates = simulated_motion(scene, held, expected) or ((math.nan,) * ORDERS, None)
+    return ArmMotion(
         speed=scene.speed,
         modulation=kappa,
         natural_frequency=natural,
-        decay=decay,
+        parametric_speed=2 * natural,
         joint_damping=held.joint_damping,
+        rate=0.0 - decay,
         parametric_rates=free_rates(kappa, natural, decay),
-        perturbation=expected,
-        simulated=_simulated(scene, held, expected),
+        simulated_rates=rates,
+        harmonics=tuple(
+            ArmHarmonic(
+                order=order,
+                resonance=natural / order,
+                perturbation=held.length * abs(predicted),
+                simulation=held.length * abs(other),
+            )
+            for order, (predicted, other) in enumerate(zip(expected, simulated, strict=True), 1)
+        ),
         tongue=tuple(tongue(kappa, natural, 2 * held.inertia / held.length**2)) if kappa > NARROWEST else (),
     )
 
 
-def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) -> list[EdgeDamping]:
+def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) -> list[TongueEdge]:
     """Edge of the instability region at evenly spaced ω₀/Ω about its middle, ½ − 13κ²/32.
 
     `mass` 2J_O/l² converts h to damping.
@@ -114,13 +86,20 @@ def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) ->
     ratios = middle - np.linspace(-1, 1, columns) * BESIDE * kappa / 4
     unit = mass * kappa * natural
     return [
-        EdgeDamping(natural / ratio, unit * averaged_edge(kappa, ratio), unit * floquet_edge(kappa, ratio))
+        TongueEdge(
+            speed=natural / ratio,
+            averaged=unit * averaged_edge(kappa, ratio),
+            floquet=unit * floquet_edge(kappa, ratio),
+        )
         for ratio in sorted(ratios.tolist(), reverse=True)
     ]
 
 
-def _simulated(scene: Scene, held: Arm, expected: Harmonics) -> SimulatedArmMotion | None:
-    """The periodic motion of the equations themselves, by shooting from that of the perturbation."""
+def simulated_motion(scene: Scene, held: Arm, expected: Harmonics) -> tuple[Harmonics, tuple[float, float]] | None:
+    """The periodic motion of the equations themselves, by shooting from that of the perturbation; None: not found.
+
+    Amplitudes M + iN [rad] of ω, 2ω, 3ω, and the growth rates [1/s] of the two free motions.
+    """
     races = tuple(replace(race, ball_masses=(), start_angles=(), start_speeds=()) for race in scene.races)
     support = scene.support.holding(scene.balls).without_steady_force()
     bare = replace(
@@ -151,7 +130,7 @@ def _simulated(scene: Scene, held: Arm, expected: Harmonics) -> SimulatedArmMoti
     harmonics = [complex(2 * np.mean(angle * np.exp(1j * k * speed * times))) for k in orders]
     sizes = np.sort(np.abs(np.linalg.eigvals(growth * units / units[:, None])))[::-1]
     rates = [float(math.log(max(multiplier, np.finfo(float).tiny)) / period) for multiplier in sizes]
-    return SimulatedArmMotion(tuple(harmonics), (rates[0], rates[1]))
+    return tuple(harmonics), (rates[0], rates[1])
 
 
 def _run(equations: Equations, start: Array, times: "list[float] | Array") -> Array:

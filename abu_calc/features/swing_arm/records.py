@@ -1,16 +1,13 @@
 """A swing arm as results hold it: bounds over all contact angles, changes, forced motion, instability region."""
 
-import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import bounded
-from abu_calc.simulation.records import finite
 
 if TYPE_CHECKING:
-    from abu_calc.features.swing_arm.motion import ForcedArmMotion as Moved
     from abu_calc.features.swing_arm.verdict import ArmJudgement
 
 ARM: Final = "swing_arm."
@@ -93,57 +90,31 @@ class ArmHarmonic(Record):
     """One order of the forced motion, 0–peak at the wheel; None: infinite, or no periodic motion was found."""
 
     order: Annotated[int, Quantity("order")]
-    resonance_rpm: Annotated[float, Quantity("forced resonance", "ω₀/j", 5)]
-    perturbation_um: Annotated[float | None, Quantity("by perturbation")]
-    simulation_um: Annotated[float | None, Quantity("by simulation")]
+    resonance: Annotated[float, Quantity("forced resonance", "ω₀/j", 5, unit="rpm")]
+    perturbation: Annotated[float | None, Quantity("by perturbation", unit="um")]
+    simulation: Annotated[float | None, Quantity("by simulation", unit="um")]
 
 
 @record
 class TongueEdge(Record):
     """Joint damping below which the arm's free motion grows, at one speed."""
 
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 8)]
-    averaged_N_s_per_m: Annotated[float, Quantity("averaged", "h_sh")]
-    floquet_N_s_per_m: Annotated[float, Quantity("by Floquet multipliers", "h_sh")]
+    speed: Annotated[float, Quantity("speed", "Ω", 8, unit="rpm")]
+    averaged: Annotated[float, Quantity("averaged", "h_sh", unit="N_s_per_m")]
+    floquet: Annotated[float, Quantity("by Floquet multipliers", "h_sh", unit="N_s_per_m")]
 
 
 @record
 class ArmMotion(Record):
     """The arm of a scene while nothing balances its imbalance; rates: how fast its free motions grow or die out."""
 
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
     modulation: Annotated[float, Quantity("modulation", "κ_a")]
-    natural_frequency_rpm: Annotated[float, Quantity("natural frequency", "ω₀", 6)]
-    parametric_speed_rpm: Annotated[float, Quantity("parametric resonance", "2ω₀", 6)]
-    joint_damping_N_s_per_m: Annotated[float, Quantity("joint damping", "h_sh")]
-    rate_per_s: Annotated[float, Quantity("rate away from it", "−h_a")]
-    parametric_rates_per_s: Annotated[tuple[float, float], Quantity("rates at 2ω₀", "−h_a ± κ_aω₀/2")]
-    simulated_rates_per_s: Annotated[tuple[float, float] | None, Quantity("simulated at this speed", "ln|μ|/T")]
+    natural_frequency: Annotated[float, Quantity("natural frequency", "ω₀", 6, unit="rpm")]
+    parametric_speed: Annotated[float, Quantity("parametric resonance", "2ω₀", 6, unit="rpm")]
+    joint_damping: Annotated[float, Quantity("joint damping", "h_sh", unit="N_s_per_m")]
+    rate: Annotated[float, Quantity("rate away from it", "−h_a", unit="per_s")]
+    parametric_rates: Annotated[tuple[float, float], Quantity("rates at 2ω₀", "−h_a ± κ_aω₀/2", unit="per_s")]
+    simulated_rates: Annotated[tuple[float, float] | None, Quantity("simulated at this speed", "ln|μ|/T", unit="per_s")]
     harmonics: tuple[ArmHarmonic, ...]
     tongue: tuple[TongueEdge, ...]
-
-    @classmethod
-    def of(cls, moved: "Moved") -> Self:
-        """Record of an arm's motion, in user units."""
-        simulated = moved.simulated
-        amplitudes = simulated.harmonics if simulated else (math.nan,) * len(moved.perturbation)
-        pairs = zip(moved.perturbation, amplitudes, strict=True)
-        return cls.read(
-            moved,
-            parametric_speed_rpm=from_si(2 * moved.natural_frequency, "rpm"),
-            rate_per_s=0.0 - moved.decay,
-            simulated_rates_per_s=simulated.rates if simulated else None,
-            harmonics=tuple(
-                ArmHarmonic(
-                    order=order,
-                    resonance_rpm=from_si(moved.natural_frequency / order, "rpm"),
-                    perturbation_um=finite(from_si(moved.length * abs(predicted), "um")),
-                    simulation_um=finite(from_si(moved.length * abs(other), "um")),
-                )
-                for order, (predicted, other) in enumerate(pairs, 1)
-            ),
-        )
-
-
-def _rpm(frequency: float | None) -> float | None:
-    return None if frequency is None else from_si(frequency, "rpm")

@@ -41,7 +41,6 @@ from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
-from abu_calc.foundation.units import from_si
 from abu_calc.inputs.two_races import TwoRaceFile
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 
@@ -187,8 +186,8 @@ def _one_race(design: TwoRaceDesign) -> OneRace | None:
     rest, place = min(tried)
     level = level_of(rest + case.eccentricity, case.speed)
     return OneRace(
-        plane_mm=from_si(place, "mm"),
+        plane=place,
         level_db=level,
-        limit_to_place_mm=None if limit is None else from_si(limit, "mm"),
+        limit_to_place=limit,
         enough=level <= case.table.limits.vibration_level_db,
     )

@@ -23,30 +23,28 @@ class TwoRaceAutobalancer(AutobalancerRecord):
 
     schema_title: ClassVar[str] = "TwoRaceAutobalancer"
 
-    plane_mm: Annotated[float, Quantity("place along the spindle", "z_i")]
-    resultant_worst_g_mm: Annotated[float, Quantity("required capacity, worst phase", "V_i")]
-    resultant_typical_g_mm: Annotated[float, Quantity("required capacity, rms over all phases", "V_i")]
+    plane: Annotated[float, Quantity("place along the spindle", "z_i", unit="mm")]
+    resultant_worst: Annotated[float, Quantity("required capacity, worst phase", "V_i", unit="g_mm")]
+    resultant_typical: Annotated[float, Quantity("required capacity, rms over all phases", "V_i", unit="g_mm")]
     imbalance_shares: Annotated[tuple[float, ...], Quantity("shares of the imbalances", "s_ij", 4)]
-    drag_per_s: Annotated[float, Quantity("viscous drag rate", "h₀")]
+    drag: Annotated[float, Quantity("viscous drag rate", "h₀", unit="per_s")]
 
     @classmethod
     def of_race(cls, design: TwoRaceDesign, index: int) -> Self:
         """Record of a race."""
         race: SizedRace = design.races[index]
         table = design.case.table
-        one = AutobalancerRecord.of(table.autobalancer[index], race.design.autobalancer, race.track)
-        given = {name: getattr(one, name) for name in one.entries() if hasattr(one, name)}
-        given |= {
-            "capacity_ratio": None if not race.need else race.capacity_ratio,
-            "mass_fraction": race.design.autobalancer.mass / table.machine.mass_kg,
-        }
-        return cls(
-            **given,
-            plane_mm=from_si(race.place, "mm"),
-            resultant_worst_g_mm=from_si(race.need, "g_mm"),
-            resultant_typical_g_mm=from_si(race.typical, "g_mm"),
+        return cls.of(
+            table.autobalancer[index],
+            race.design.autobalancer,
+            race.track,
+            capacity_ratio=race.capacity_ratio if race.need else None,
+            mass_fraction=race.design.autobalancer.mass / table.machine.mass_kg,
+            plane=race.place,
+            resultant_worst=race.need,
+            resultant_typical=race.typical,
             imbalance_shares=race.shares,
-            drag_per_s=design.case.drags[index],
+            drag=design.case.drags[index],
         )
 
 
@@ -54,13 +52,14 @@ class TwoRaceAutobalancer(AutobalancerRecord):
 class TwoRaceFrequency(Record):
     """Region of the working speeds: two races balance above both critical speeds."""
 
-    speed_hz: Annotated[float, Quantity("rated speed", "Ω/2π")]
-    critical_speeds_rpm: Annotated[tuple[float, ...], Quantity("critical speeds", "", 6)]
+    speed: Annotated[float, Quantity("rated speed", "Ω/2π", unit="hz")]
+    critical_speeds: Annotated[tuple[float, ...], Quantity("critical speeds", "", 6, unit="rpm")]
     region: Annotated[str, Quantity("region")]
     balancing_possible: Annotated[bool, Quantity("balancing possible")]
     stable: Annotated[bool | None, Quantity("stable over the speed range")]
-    growth_rate_per_s: Annotated[
-        float | None, Quantity("growth rate of a disturbance", "max Re λ", 4, "null: the sufficient rule holds")
+    growth_rate: Annotated[
+        float | None,
+        Quantity("growth rate of a disturbance", "max Re λ", 4, "null: the sufficient rule holds", unit="per_s"),
     ]
 
 
@@ -145,10 +144,11 @@ def _usual(key: str, factors: tuple[float, float], value: float) -> BandRow:
 class OneRace(Record):
     """What a single race could reach: the place that leaves the least, over all unknown phases."""
 
-    plane_mm: Annotated[float, Quantity("place of the single race", "z_r")]
+    plane: Annotated[float, Quantity("place of the single race", "z_r", unit="mm")]
     level_db: Annotated[float, Quantity("level of the loudest place, worst phase", "L")]
-    limit_to_place_mm: Annotated[
-        float | None, Quantity("limit to its place between the critical speeds", "z_r", 4, "null: no such limit")
+    limit_to_place: Annotated[
+        float | None,
+        Quantity("limit to its place between the critical speeds", "z_r", 4, "null: no such limit", unit="mm"),
     ]
     enough: Annotated[bool, Quantity("one race is enough")]
 
@@ -157,18 +157,20 @@ class OneRace(Record):
 class TwoRaceResponse(Record):
     """Largest displacement of any place at a speed, worst phase of the imbalances."""
 
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    without_um: Annotated[float, Quantity("displacement without autobalancers", "w")]
-    balanced_um: Annotated[float | None, Quantity("displacement with both races still", "w", 4, "null: no balance")]
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    without: Annotated[float, Quantity("displacement without autobalancers", "w", unit="um")]
+    balanced: Annotated[
+        float | None, Quantity("displacement with both races still", "w", 4, "null: no balance", unit="um")
+    ]
 
 
 @record
 class TwoRaceRunUp(Record):
     """Largest displacement of any place in one revolution of the simulated run-up, imbalances in phase."""
 
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    without_um: Annotated[float, Quantity("displacement without autobalancers", "w")]
-    with_um: Annotated[float | None, Quantity("displacement with balls", "w", 4, "null: no trustworthy run")]
+    speed: Annotated[float, Quantity("speed", "Ω", 6, unit="rpm")]
+    without: Annotated[float, Quantity("displacement without autobalancers", "w", unit="um")]
+    with_: Annotated[float | None, Quantity("displacement with balls", "w", 4, "null: no trustworthy run", unit="um")]
 
 
 @record
@@ -180,8 +182,8 @@ class TwoRaceSizeResult(Result):
     verdict: Verdict
     system_mass_kg: Annotated[float, Quantity("mass with wheels and autobalancers", "M")]
     frequency: TwoRaceFrequency
-    imbalances_g_mm: Annotated[tuple[float, ...], Quantity("imbalances", "U_j")]
-    required_capacity_g_mm: Annotated[float, Quantity("required capacity of the first race", "V_1")]
+    imbalances: Annotated[tuple[float, ...], Quantity("imbalances", "U_j", unit="g_mm")]
+    required_capacity: Annotated[float, Quantity("required capacity of the first race", "V_1", unit="g_mm")]
     autobalancer: TwoRaceAutobalancer
     autobalancers: tuple[TwoRaceAutobalancer, ...]
     eccentricities: tuple[Eccentricity, ...]

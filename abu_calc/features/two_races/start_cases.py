@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import cycle, islice
@@ -47,7 +47,7 @@ from abu_calc.simulation.ensemble import (
     simulate_starts,
 )
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
-from abu_calc.simulation.quiet import PER_TURN, last_crossing
+from abu_calc.simulation.quiet import LAST, PER_TURN, last_crossing
 from abu_calc.simulation.residual_criteria import MARGIN, slip
 from abu_calc.simulation.response import Course, amplitude_window, drift, evaluate, needed_times, settling_times
 from abu_calc.simulation.scene_of_design import AHEAD
@@ -175,7 +175,7 @@ def scene_of(design: TwoRaceDesign, member: Member) -> Scene:
         speed=case.speed,
         imbalance=abs(static),
         imbalance_angle=cmath.phase(static) if static else 0.0,
-        races=tuple(_race(design, k, member, wheels_share(design, k, member)) for k in (0, 1)),
+        races=tuple(_race(design, k, member, need) for k, need in enumerate(race_needs(design, member))),
         duration=member.run_up + LIMITS * case.table.limits.longest_quiet_time,
         start_position=freedoms,
         start_velocity=freedoms,
@@ -215,11 +215,14 @@ def start_phases(design: TwoRaceDesign, member: Member) -> tuple[float, ...]:
     return (*[0.0] * none_known, *(member.phases or ()))
 
 
-def wheels_share(design: TwoRaceDesign, race: int, member: Member) -> complex:
-    """Imbalance [kg m] that a race has to balance in this start case."""
+def race_needs(design: TwoRaceDesign, member: Member) -> tuple[complex, complex]:
+    """Imbalance [kg m] that each race has to balance in this start case."""
     wheels = _wheels(design, member)
-    shares = design.races[race].shares
-    return sum((share * wheel.imbalance for share, wheel in zip(shares, wheels, strict=True)), 0j)
+    first, second = (
+        sum((share * wheel.imbalance for share, wheel in zip(race.shares, wheels, strict=True)), 0j)
+        for race in design.races
+    )
+    return first, second
 
 
 def _effects(design: TwoRaceDesign, member: Member) -> Iterator[Effect]:
@@ -310,11 +313,10 @@ def _enough(design: TwoRaceDesign, member: Member, scene: Scene, samples: Sample
     turns = revolution_times(replace(scene, duration=end))
     late = turns[-int(SEEN * len(turns)) :]
     ahead = (scene.duration - end) / (late[-1] - late[0])
-    states, needs = samples.at(late), (wheels_share(design, 0, member), wheels_share(design, 1, member))
-    for k, left in enumerate(_left(scene, states, needs)):
-        balanced = max(abs(wheels_share(design, k, of_file)), HARDLY * scene.races[k].static_moment)
-        if movement(left, ahead) > STILL * balanced:
-            return False
+    left = imbalances_left(scene, samples.at(late), race_needs(design, member))
+    moved = _references(scene, race_needs(design, of_file))
+    if any(movement(each, ahead) > STILL * most for each, most in zip(left, moved, strict=True)):
+        return False
     outcome, limits = _observed(design, member, scene, samples, 0), design.case.table.limits
     return not outcome.creeping and outcome.holds(limits, limits.vibration_level_db - MARGIN)
 
@@ -351,9 +353,8 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
     # Whether it balances is judged by the imbalances of the file, however little there is.
     of_file, at = replace(member, varied=Variation()), [held.place for held in case.places]
     states = samples.at(revolution_times(scene))
-    needs = wheels_share(design, 0, member), wheels_share(design, 1, member)
-    left = [_end(each) for each in residual_imbalances(scene, states, needs)]
-    of_wheels = wheels_share(design, 0, of_file), wheels_share(design, 1, of_file)
+    needs, of_wheels = race_needs(design, member), race_needs(design, of_file)
+    left = [float(_end(np.abs(each))) for each in imbalances_left(scene, states, needs)]
     creeping = creep(scene, states, needs, of_wheels)
     allowed = [max(abs(need) / 2, unavoidable_imbalance(design, k)) for k, need in enumerate(of_wheels)]
     farther = max((0, 1), key=lambda k: left[k] / allowed[k] if allowed[k] else left[k])
@@ -367,7 +368,7 @@ def _observed(design: TwoRaceDesign, member: Member, scene: Scene, samples: Samp
         residual=max(_amplitude(scene, samples, window, place) for place in case.races),
         level=level_of(max(displacements), case.speed),
         slip=slip(response, case.speed),
-        ball_angles=response.final.ball_angles,
+        ball_angles=response.ball_angles,
         imbalance=left[farther],
         allowed=allowed[farther],
         work=work,
@@ -408,29 +409,27 @@ def settling_time(scene: Scene, states: Array, needs: tuple[complex, complex]) -
     its mean over the last twentieth plus a tenth of S_i, or of a hundredth of what its balls could carry.
     """
     last = 0
-    for race, need, residual in zip(scene.races, needs, residual_imbalances(scene, states, needs), strict=True):
-        limit = _end(residual) + SETTLED * max(abs(need), HARDLY * race.static_moment)
-        above = np.flatnonzero(residual > limit)
+    for moved, left in zip(_references(scene, needs), imbalances_left(scene, states, needs), strict=True):
+        above = np.flatnonzero(np.abs(left) > _end(np.abs(left)) + SETTLED * moved)
         last = max(last, int(above[-1]) + 1 if len(above) else 0)
     time = last * scene.revolution / PER_TURN
-    return time if time <= 0.95 * (scene.duration - scene.full_speed) else None
+    return time if time <= LAST * (scene.duration - scene.full_speed) else None
 
 
-def residual_imbalances(scene: Scene, states: Array, needs: tuple[complex, complex]) -> tuple[Array, Array]:
-    """Residual imbalance [kg m] of each race at these states: |S_i + Σ m·R_p·e^{iθ}|."""
-    first, second = _left(scene, states, needs)
-    return np.abs(first), np.abs(second)
-
-
-def _left(scene: Scene, states: Array, needs: tuple[complex, complex]) -> tuple[Any, Any]:
-    """The same with its direction in the rotor."""
-    first, found = 2 * len(scene.support.names), []
+def imbalances_left(scene: Scene, states: Array, needs: Sequence[complex]) -> list[Array]:
+    """Imbalance [kg m] that each race leaves at these states, in the rotor: S_i + Σ m·R_p·e^{iθ}."""
+    first, left = 2 * len(scene.support.names), list[Array]()
     for race, need in zip(scene.races, needs, strict=True):
         count = len(race.ball_masses)
         moments = np.array(race.ball_masses) * race.pitch_radius
-        found.append(need + (moments[:, None] * np.exp(1j * states[first : first + count])).sum(axis=0))
+        left.append(need + (moments[:, None] * np.exp(1j * states[first : first + count])).sum(axis=0))
         first += count
-    return found[0], found[1]
+    return left
+
+
+def _references(scene: Scene, needs: tuple[complex, complex]) -> list[float]:
+    """What an imbalance [kg m] that each race leaves is small against, as `reference_imbalance` of one race."""
+    return [max(abs(need), HARDLY * race.static_moment) for race, need in zip(scene.races, needs, strict=True)]
 
 
 def rest_time(
@@ -441,25 +440,21 @@ def rest_time(
     `of_file`: what each race has to balance by the file, which says how near; None: as in this scene.
     """
     times: list[float | None] = []
-    for race, need, left in zip(scene.races, of_file or needs, _left(scene, states, needs), strict=True):
-        away = np.abs(left - left[-max(1, len(left) // 20) :].mean())
-        band = SETTLED * max(abs(need), HARDLY * race.static_moment)
-        times.append(last_crossing(scene.revolution / PER_TURN * np.arange(len(left)), away, band))
-    first, second = times
-    return None if first is None or second is None else max(first, second)
+    for moved, left in zip(_references(scene, of_file or needs), imbalances_left(scene, states, needs), strict=True):
+        away = np.abs(left - _end(left))
+        times.append(last_crossing(scene.revolution / PER_TURN * np.arange(len(left)), away, SETTLED * moved))
+    return None if None in times else max(time for time in times if time is not None)
 
 
 def creep(scene: Scene, states: Array, needs: tuple[complex, complex], of_file: tuple[complex, complex]) -> bool:
     """True if the balls of a race still drift at the end, as those of one race do."""
-    return any(
-        drift(left, len(left)) > SETTLED * max(abs(need), HARDLY * race.static_moment)
-        for race, need, left in zip(scene.races, of_file, _left(scene, states, needs), strict=True)
-    )
+    pairs = zip(_references(scene, of_file), imbalances_left(scene, states, needs), strict=True)
+    return any(drift(left, len(left)) > SETTLED * moved for moved, left in pairs)
 
 
-def _end(residual: Array) -> float:
+def _end(values: Array) -> Any:
     """Mean over the last twentieth."""
-    return float(residual[-max(1, len(residual) // 20) :].mean())
+    return values[-max(1, len(values) // 20) :].mean()
 
 
 def stability_scene(design: TwoRaceDesign, phases: tuple[float, ...]) -> Scene:

@@ -1,6 +1,7 @@
 """Study behind `abu size` of a machine with two races: sizing, stability, start cases, checks."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.features.design.judgement import TrialWatcher
@@ -22,11 +23,8 @@ from abu_calc.features.two_races.records import (
     TwoRaceRunUp,
     TwoRaceSizeResult,
 )
-from abu_calc.features.two_races.run_up import run_up_amplitudes
-from abu_calc.features.two_races.start_cases import ACCURACY, FIRST_TOLERANCE, start_once
-from abu_calc.formulas.two_races import (
-    two_races_balance,
-)
+from abu_calc.features.two_races.start_cases import ACCURACY, FIRST_TOLERANCE, scene_of, start, start_once
+from abu_calc.formulas.two_races import two_races_balance
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.parallel import processors
@@ -36,6 +34,7 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK
 from abu_calc.simulation.ensemble_results import Lost, StartOutcome
 from abu_calc.simulation.result import Provenance
+from abu_calc.simulation.run_up_amplitude import course, until_shortly_after, without_balls
 from abu_calc.simulation.start_cases import Member
 
 RUN_UP_ACCURACY: Final = 0.01
@@ -64,10 +63,8 @@ def size_two_races(
         step = next_step(machine, judged, proposals(judged), _judge(accuracy, threads), progress)
     design, ensemble, one, vibration = judged.facts.design, judged.facts.ensemble, judged.one_race, judged.vibration
     checks = actions(judged, step)
-    many, limit = (
-        None if ensemble is None else TwoRaceEnsemble.of(ensemble, design),
-        table.limits.vibration_level_db,
-    )
+    many = None if ensemble is None else TwoRaceEnsemble.of(ensemble, design)
+    limit = table.limits.vibration_level_db
     quiet = None if many is None else many.quiet_time_s.worst
     told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
     return TwoRaceSizeResult(
@@ -86,8 +83,8 @@ def size_two_races(
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
         frequency=_frequency(design, judged.stability),
-        imbalances_g_mm=tuple(from_si(abs(wheel.imbalance), "g_mm") for wheel in design.case.wheels),
-        required_capacity_g_mm=from_si(design.races[0].need, "g_mm"),
+        imbalances=tuple(abs(wheel.imbalance) for wheel in design.case.wheels),
+        required_capacity=design.races[0].need,
         autobalancer=TwoRaceAutobalancer.of_race(design, 0),
         autobalancers=tuple(TwoRaceAutobalancer.of_race(design, index) for index in (0, 1)),
         eccentricities=tuple(Eccentricity.of(race.design.eccentricity) for race in design.races),
@@ -96,7 +93,7 @@ def size_two_races(
         vibration=vibration,
         ensemble=many,
         response=tuple(_response(design.case)),
-        run_up=tuple(_run_up(design, progress)),
+        run_up=run_up_amplitudes(design, progress),
     )
 
 
@@ -126,24 +123,28 @@ def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
             sum(abs(case.rotor.whirl(held.place, [wheel], speed)) for wheel in case.wheels) for held in case.places
         )
         still = two_races_balance(case.rotor, speed)
-        yield TwoRaceResponse(
-            speed_rpm=from_si(speed, "rpm"),
-            without_um=from_si(without, "um"),
-            balanced_um=from_si(_off(case), "um") if still else None,
-        )
+        yield TwoRaceResponse(speed=speed, without=without, balanced=_off(case) if still else None)
 
 
-def _run_up(design: TwoRaceDesign, progress: Progress) -> Iterator[TwoRaceRunUp]:
-    """Displacements of the simulated run-up; none if the time of --patience is over."""
+def run_up_amplitudes(
+    design: TwoRaceDesign, progress: Progress = silent, accuracy: float = RUN_UP_ACCURACY
+) -> tuple[TwoRaceRunUp, ...]:
+    """The run-up with the balls together, imbalances of unknown phase in phase; both machines run up alike.
+
+    None if the time of --patience is over.
+    """
     if patience.over():
-        return
+        return ()
     progress("run-up, with and without balls")
-    for point in run_up_amplitudes(design, RUN_UP_ACCURACY):
-        yield TwoRaceRunUp(
-            speed_rpm=from_si(point.speed, "rpm"),
-            without_um=from_si(point.without, "um"),
-            with_um=None if point.with_balls is None else from_si(point.with_balls, "um"),
-        )
+    run_up = start(design, "run-up")
+    scene = until_shortly_after(scene_of(design, run_up))
+    bare = replace(without_balls(scene_of(replace(design, case=design.bare), run_up)), duration=scene.duration)
+    planes = [held.place for held in design.case.places]
+    with_balls, empty = course(scene, planes, accuracy), course(bare, planes, accuracy)
+    return tuple(
+        TwoRaceRunUp(speed=speed, without=amplitude, with_=None if with_balls is None else with_balls[index][1])
+        for index, (speed, amplitude) in enumerate(empty or ())
+    )
 
 
 def _off(case: TwoRaceCase) -> float:
@@ -159,12 +160,12 @@ def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> TwoRa
     growths = [each.growth for each in judged if each.growth is not None]
     states = [each.stable for each in judged]
     return TwoRaceFrequency(
-        speed_hz=from_si(case.speed, "hz"),
-        critical_speeds_rpm=tuple(from_si(speed, "rpm") for speed in critical),
+        speed=case.speed,
+        critical_speeds=critical,
         region=region,
         balancing_possible=above,
         stable=None if not states or None in states else all(states),
-        growth_rate_per_s=max(growths) if growths else None,
+        growth_rate=max(growths, default=None),
     )
 
 

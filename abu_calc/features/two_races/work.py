@@ -201,8 +201,8 @@ def _row(design: TwoRaceDesign, runs: WheelRuns) -> WheelAtWork:
 
 def _reaction(wheel: PressedWheel, force: complex) -> TwoRaceReaction:
     return TwoRaceReaction(
-        mean_N=wheel.table.press_force_N,
-        amplitude_N=abs(force),
+        mean=wheel.table.press_force_N,
+        amplitude=abs(force),
         angle_deg=wrapped_deg(cmath.phase(force)) if force else None,
         separates=wheel.presses and abs(force) > wheel.table.press_force_N,
     )
@@ -213,20 +213,20 @@ def _races(design: TwoRaceDesign, runs: WheelRuns) -> Iterator[RaceAtWork]:
     angles = ball_angles(design, resultants)
     for index, (resultant, need) in enumerate(zip(resultants, runs.needs, strict=True)):
         yield RaceAtWork(
-            ball_resultant_g_mm=from_si(abs(resultant), "g_mm"),
+            ball_resultant=abs(resultant),
             ball_resultant_angle_deg=wrapped_deg(cmath.phase(resultant)) if resultant else None,
             ball_angles_deg=None if angles is None else tuple(map(wrapped_deg, angles[index])),
-            required_g_mm=from_si(need, "g_mm"),
-            capacity_g_mm=from_si(design.races[index].design.autobalancer.capacity, "g_mm"),
+            required=need,
+            capacity=design.races[index].design.autobalancer.capacity,
         )
 
 
 def _wear(wheel: PressedWheel, runout: complex, force: complex) -> WearOfWheel:
     """Wear follows pressure: it centres the wheel if the high spot is pressed harder, Re(H·ε̄) > 0, H = −i·N_c."""
     if not wheel.presses or not runout:
-        return WearOfWheel(centres=None, pressure_on_high_spot_N=None)
+        return WearOfWheel(centres=None, pressure_on_high_spot=None)
     pressure = (-1j * force * runout.conjugate() / abs(runout)).real
-    return WearOfWheel(centres=pressure > 0, pressure_on_high_spot_N=pressure)
+    return WearOfWheel(centres=pressure > 0, pressure_on_high_spot=pressure)
 
 
 def _model(design: TwoRaceDesign) -> TwoRaceGrindingModel:

@@ -11,8 +11,8 @@ from abu_calc.simulation.result import Result
 class TwoRaceReaction(Record):
     """Force of wheel and work, N₀ + amplitude·cos(Ωt + angle), as if they never parted, imbalances in phase."""
 
-    mean_N: Annotated[float, Quantity("mean force", "N₀")]
-    amplitude_N: Annotated[float, Quantity("variable part", "|N_c|")]
+    mean: Annotated[float, Quantity("mean force", "N₀", unit="N")]
+    amplitude: Annotated[float, Quantity("variable part", "|N_c|", unit="N")]
     angle_deg: Annotated[float | None, Quantity("its angle", "arg N_c")]
     separates: Annotated[bool, Quantity("wheel and work part")]
 
@@ -21,11 +21,11 @@ class TwoRaceReaction(Record):
 class RaceAtWork(Record):
     """One race at work, closed form: the resultant of its balls, imbalances in phase, and the required capacity."""
 
-    ball_resultant_g_mm: Annotated[float | None, Quantity("resultant of the balls", "|V_i|")]
+    ball_resultant: Annotated[float | None, Quantity("resultant of the balls", "|V_i|", unit="g_mm")]
     ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V_i")]
     ball_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
-    required_g_mm: Annotated[float, Quantity("required capacity, worst phase", "V_i")]
-    capacity_g_mm: Annotated[float, Quantity("capacity")]
+    required: Annotated[float, Quantity("required capacity, worst phase", "V_i", unit="g_mm")]
+    capacity: Annotated[float, Quantity("capacity", unit="g_mm")]
 
 
 @record
@@ -35,7 +35,7 @@ class WearOfWheel(Record):
     schema_title: ClassVar[str] = "TwoRaceWear"
 
     centres: Annotated[bool | None, Quantity("wear centres the wheel")]
-    pressure_on_high_spot_N: Annotated[float | None, Quantity("pressure on the high spot above the mean")]
+    pressure_on_high_spot: Annotated[float | None, Quantity("pressure on the high spot above the mean", unit="N")]
 
 
 @record

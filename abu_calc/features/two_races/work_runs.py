@@ -3,7 +3,7 @@
 The whole tilting rotor with the balls of both races, gravity, friction, collisions and a contact that may part.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final, Literal
 
@@ -19,6 +19,7 @@ from abu_calc.features.two_races.contact import PressedWheel, ball_angles, conta
 from abu_calc.features.two_races.start_cases import (
     ACCURACY,
     all_phases,
+    imbalances_left,
     scene_of,
     start,
     start_once,
@@ -152,17 +153,8 @@ def _observed(design: TwoRaceDesign, case: WorkCase, scene: Scene) -> WorkRun:
     return WorkRun(
         case, levels, abs(max(halves[1]) - max(halves[0])), (float(x), float(y)), once,
         float(np.mean(force <= 0)) if len(force) else 0.0, slip,
-        tuple(_resultants(scene, states[:, -1])),
+        tuple(complex(own[0]) for own in imbalances_left(scene, states[:, -1:], [0j] * len(scene.races))),
     )  # fmt: skip
-
-
-def _resultants(scene: Scene, state: Array) -> Iterator[complex]:
-    """Resultant of the balls of each race [kg m]."""
-    first = 2 * len(scene.support.names)
-    for race in scene.races:
-        own = np.exp(1j * state[first : first + len(race.ball_masses)])
-        yield complex(np.array(race.ball_masses) @ own * race.pitch_radius)
-        first += len(race.ball_masses)
 
 
 def _levels(scene: Scene, states: Array, places: Sequence[LevelPlaceOnSpindle]) -> tuple[float, ...]:

@@ -7,15 +7,16 @@ from types import SimpleNamespace
 
 import pytest
 
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary
 from abu_calc.features.design.figures import _forbidden, _ratio, size_charts, size_extras, start_label
-from abu_calc.features.design.records import SpeedLevel
 from abu_calc.features.design.starts import StartView
 from abu_calc.features.design.view import size_blocks
+from abu_calc.foundation.units import to_si
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.reporting.blocks import Facts
 from abu_calc.reporting.charts.chart import Bars, Plot
 from abu_calc.reporting.charts.figure import RotorMotionFigure
-from abu_calc.simulation.records import StabilityBoundary
+from abu_calc.sizing.vibration import SpeedLevel
 from tests.remembered import recalled
 from tests.reporting.drawings.samples import whole
 
@@ -121,13 +122,14 @@ def test_each_time_of_the_report_names_start_race_and_drag_rate(name: str) -> No
 def test_speeds_between_boundaries_are_forbidden() -> None:
     """Unstable below 900, between 2000 and 2500, and above 5000 rpm; levels from 500 to 6000."""
     edges = [(900.0, True), (2000.0, False), (2500.0, True), (5000.0, False)]
-    boundaries = tuple(StabilityBoundary(speed_rpm=speed, stable_above=above) for speed, above in edges)
-    levels = tuple(SpeedLevel(speed_rpm=speed, level_after_db=90.0) for speed in (500.0, 6000.0))
+    boundaries = tuple(StabilityBoundary(speed=to_si(speed, "rpm"), stable_above=above) for speed, above in edges)
+    levels = tuple(SpeedLevel(speed=to_si(speed, "rpm"), level_after_db=90.0) for speed in (500.0, 6000.0))
     made = SimpleNamespace(
         frequency=replace(whole().frequency, stability_boundaries_rpm=boundaries),
         vibration=SimpleNamespace(by_speed=levels),
     )
-    assert _forbidden(made) == [(0.0, 900.0), (2000.0, 2500.0), (5000.0, 6000.0)]  # type: ignore[arg-type]
+    ranges = [speed for each in _forbidden(made) for speed in each]  # type: ignore[arg-type]
+    assert ranges == pytest.approx([0.0, 900.0, 2000.0, 2500.0, 5000.0, 6000.0])
     made.frequency = replace(whole().frequency, stability_boundaries_rpm=None)
     assert _forbidden(made) == []  # type: ignore[arg-type]
     assert [_ratio(scale) for scale in (2.0, 0.2)] == ["2:1", "1:5"]

@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from abu_calc.features.design.records import AccuracyBudget, AutobalancerRecord, Section, SpeedLevel
+from abu_calc.features.design.records import AccuracyBudget, AutobalancerRecord, Section
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import LevelAtSpeed
+from abu_calc.sizing.vibration import SpeedLevel
 from tests.sizing.machines import machine
 
 
@@ -49,5 +49,5 @@ def test_the_section_holds_its_own_lengths(design: Design) -> None:
 
 
 def test_a_level_keeps_its_speed_in_rpm() -> None:
-    level = SpeedLevel.read(LevelAtSpeed(speed=100 * math.pi, level_after=98.5))
+    level = SpeedLevel(speed=100 * math.pi, level_after_db=98.5)
     assert (level.speed_rpm, level.level_after_db) == (pytest.approx(3000.0), 98.5)

@@ -333,7 +333,7 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
 def further_starts(time: float | None, rare: float | None, level: float) -> FurtherStarts:
     """By quiet time and level: when balls rest or |U| settles decides nothing without a limit of it."""
     return FurtherStarts(
-        members=36, quiet_time_s=time, rest_time_s=9.0, settling_time_s=9.0, rare_quiet_time_s=rare, level_db=level
+        members=36, quiet_time=time, rest_time=9.0, settling_time=9.0, rare_quiet_time=rare, level_db=level
     )
 
 

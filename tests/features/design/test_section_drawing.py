@@ -43,8 +43,8 @@ def test_a_half_circle_becomes_chords_on_its_circle() -> None:
 
 def test_limits_of_the_bore_are_in_millimetres() -> None:
     section = result("one-piece").section
-    assert bore_limits(replace(section, bore_limits_um=(0.0, 13.0))) == "(+0.013 / 0)"
-    assert bore_limits(replace(section, bore_limits_um=None)) == ""
+    assert bore_limits(replace(section, bore_limits=(0.0, 13e-6))) == "(+0.013 / 0)"
+    assert bore_limits(replace(section, bore_limits=None)) == ""
 
 
 @pytest.mark.parametrize("name", ["one-piece", "two balls"])

@@ -95,7 +95,7 @@ def test_the_body_is_not_drilled_where_it_is_hard() -> None:
 
 def test_no_size_of_the_parts_list_is_cut() -> None:
     """A ball of 13/32 in is 10.319 mm; its name is longer than its column at the usual height."""
-    inch = replace(result("one-piece").autobalancer, ball_diameter_mm=10.31875, ball_count=12, ball_mass_g=116.3847)
+    inch = replace(result("one-piece").autobalancer, ball_diameter=10.31875e-3, ball_count=12, ball_mass=116.3847e-3)
     sheet = section_sheet(replace(result("one-piece"), autobalancer=inch))
     written = [shape.text for shape in sheet.shapes if isinstance(shape, Text)]
     assert "ball Ø10.319 (13/32 in)" in written and "12 × 116.385" in written

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -50,7 +51,7 @@ def test_a_motion_is_written_whole_in_pieces(rows: int) -> None:
 
 def test_many_balls_are_named_as_far_as_there_is_room(result: SimulateResult) -> None:
     many = tuple(float(k) for k in range(MOST_BALLS + 3))
-    final = replace(result.final, ball_angles_deg=many, ball_speeds_rpm=many)
+    final = replace(result.final, ball_angles=tuple(map(math.radians, many)), ball_speeds=many)
     text = " ".join(as_text(simulate_screen(replace(result, final=final)), 80).split())
     assert f"{MOST_BALLS - 1:.1f}°, … from the rotor's zero mark" in text and f"{MOST_BALLS:.1f}°" not in text
     full = as_text(simulate_blocks(replace(result, final=final)), 80)
@@ -61,11 +62,11 @@ def test_a_run_that_is_never_quiet_or_creeps_says_so(result: SimulateResult) -> 
     def shown(**changes: object) -> str:
         return " ".join(as_text(simulate_screen(replace(result, **changes)), 80).split())  # type: ignore[arg-type]
 
-    text = shown(quiet_time_s=None, rest_time_s=None, creeping=False)
+    text = shown(quiet_time=None, rest_time=None, creeping=False)
     assert "not quiet by the end." in text and "quiet time never" in text and "rest time not yet" in text
-    text = shown(quiet_time_s=1.5, rest_time_s=None, creeping=True)
+    text = shown(quiet_time=1.5, rest_time=None, creeping=True)
     assert "quiet after 1.5" in text and ", the balls still creep." in text and "rest time still creeping" in text
-    text = shown(quiet_time_s=2.5, rest_time_s=4.5, creeping=False, full_speed_s=3.0)
+    text = shown(quiet_time=2.5, rest_time=4.5, creeping=False, full_speed=3.0)
     assert "quiet after 2.5" in text and "at full speed, which is reached at 3" in text
     assert "quiet time, from full speed 2.5" in text and "rest time, from full speed 4.5" in text
     assert "creep" not in text

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
+from abu_calc.dynamics.stability.boundaries import StabilityBoundary
 from abu_calc.features.stability.study import GrowthAt, Hanging, HangingBound, StabilityResult
 from abu_calc.features.stability.view import (
     _forbidden,
@@ -17,7 +18,6 @@ from abu_calc.features.stability.view import (
 from abu_calc.foundation.units import to_si
 from abu_calc.reporting.charts.chart import Plot
 from abu_calc.reporting.text import as_text
-from abu_calc.simulation.records import StabilityBoundary
 from tests.inputs.scenes import SCENE
 
 
@@ -34,7 +34,7 @@ def course(*rates: float) -> tuple[GrowthAt, ...]:
 
 
 def edges(*pairs: tuple[float, bool]) -> tuple[StabilityBoundary, ...]:
-    return tuple(StabilityBoundary(speed_rpm=speed, stable_above=above) for speed, above in pairs)
+    return tuple(StabilityBoundary(speed=to_si(speed, "rpm"), stable_above=above) for speed, above in pairs)
 
 
 @pytest.mark.parametrize(

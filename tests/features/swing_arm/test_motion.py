@@ -18,7 +18,8 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.floquet import arm_growth, floquet_edge
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
-from abu_calc.features.swing_arm.motion import EdgeDamping, ForcedArmMotion, arm_motion, tongue
+from abu_calc.features.swing_arm.motion import arm_motion, simulated_motion, tongue
+from abu_calc.features.swing_arm.records import ArmMotion, TongueEdge
 from abu_calc.formulas.swing_arm import averaged_edge, contact_gain, forced_harmonics, free_rates, lifting_angle
 from abu_calc.foundation.errors import RangeError
 
@@ -272,25 +273,24 @@ def test_rates_at_the_tongue() -> None:
     assert found == pytest.approx(high, abs=2 * kappa**2 * natural)
 
 
-def moved(scene: Scene) -> ForcedArmMotion:
-    found = arm_motion(scene)
-    assert isinstance(found, ForcedArmMotion)
-    return found
-
-
 def test_motion_of_a_scene() -> None:
     """Perturbation, the package's own periodic motion, and the linear equation integrated here: one answer."""
     arm = Drawn(0.35, 0.62, 300.0, 1e-3, 0.62, 4.0)
-    motion = moved(arm.scene)
-    assert motion.simulated is not None
-    expected = periodic(arm.kappa, arm.speed, arm.natural, motion.decay)
-    for order, (one, other, third) in enumerate(
-        zip(motion.perturbation, motion.simulated.harmonics, expected, strict=True), 1
-    ):
+    motion, held = arm_motion(arm.scene), arm.scene.support.standing_arm(arm.scene.balls)
+    assert isinstance(motion, ArmMotion) and held is not None
+    perturbation = forced_harmonics(arm.kappa, arm.speed, arm.natural, -motion.rate)
+    simulated, rates = simulated_motion(arm.scene, held, perturbation) or ((), ())
+    expected = periodic(arm.kappa, arm.speed, arm.natural, -motion.rate)
+    for order, (one, other, third) in enumerate(zip(perturbation, simulated, expected, strict=True), 1):
         assert abs(one - third) < 1e-4 * abs(third)
         # The package's angles are not small: of the first order that is z², of the third about a tenth.
         assert abs(other - third) < (1e-4, 1e-3, 0.05)[order - 1] * abs(third)
-    assert motion.simulated.rates == pytest.approx((-motion.decay, -motion.decay), rel=1e-4)
+        shown = motion.harmonics[order - 1]
+        assert shown.perturbation_um == pytest.approx(1e6 * arm.length * abs(one))
+        assert shown.simulation_um == pytest.approx(1e6 * arm.length * abs(other))
+        assert shown.resonance_rpm == pytest.approx(arm.natural * 30 / math.pi / order)
+    assert motion.simulated_rates_per_s == rates == pytest.approx((motion.rate, motion.rate), rel=1e-4)
+    assert motion.parametric_speed_rpm == pytest.approx(2 * arm.natural * 30 / math.pi)
 
 
 def test_no_motion_where_there_is_none() -> None:
@@ -304,7 +304,7 @@ def test_no_motion_where_there_is_none() -> None:
 def test_the_tongue_in_speeds_and_damping() -> None:
     """h = σκω₀ at ω = ω₀/k, h_sh = 2J h/l²."""
     edges = tongue(0.02, 150.0, 2 * 0.62 / 0.35**2, 9)
-    assert all(isinstance(one, EdgeDamping) for one in edges)
+    assert all(isinstance(one, TongueEdge) for one in edges)
     assert [one.speed for one in edges] == sorted(one.speed for one in edges)
     middle = edges[4]
     assert middle.speed == pytest.approx(150 / (0.5 - 13 * 0.02**2 / 32))

@@ -1,37 +1,9 @@
 """The swing arm in user units: angles, speeds and lengths by hand, and what is not known."""
 
-import math
-
 import pytest
 
-from abu_calc.features.swing_arm.motion import EdgeDamping, ForcedArmMotion, SimulatedArmMotion
-from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
+from abu_calc.features.swing_arm.records import SwingArmRecord
 from tests.features.swing_arm.test_verdict import judged
-
-RPM = 30 / math.pi
-
-
-def moved(simulated: SimulatedArmMotion | None) -> ForcedArmMotion:
-    return ForcedArmMotion(
-        length=0.5, speed=100.0, modulation=0.01, natural_frequency=40.0, decay=2.0, joint_damping=7.0,
-        parametric_rates=(-1.8, -2.2),
-        perturbation=(3e-3 + 4e-3j, 1e-5 + 0j, 0j), simulated=simulated, tongue=(EdgeDamping(80.0, 1.0, 1.1),),
-    )  # fmt: skip
-
-
-def test_amplitudes_at_the_wheel_are_length_times_angle() -> None:
-    """0.5 m · |3 + 4i| mrad = 2500 µm; resonances at ω₀, ω₀/2, ω₀/3; parametric at 2ω₀."""
-    record = ArmMotion.of(moved(SimulatedArmMotion((5e-3 + 0j, 2e-5j, 0j), (-1.7, -2.3))))
-    assert [each.perturbation_um for each in record.harmonics] == pytest.approx([2500.0, 5.0, 0.0])
-    assert [each.simulation_um for each in record.harmonics] == pytest.approx([2500.0, 10.0, 0.0])
-    assert [each.resonance_rpm for each in record.harmonics] == pytest.approx([40 * RPM, 20 * RPM, 40 * RPM / 3])
-    assert record.parametric_speed_rpm == pytest.approx(80 * RPM) == record.tongue[0].speed_rpm
-    assert record.rate_per_s == -2.0 and record.simulated_rates_per_s == (-1.7, -2.3)
-
-
-def test_without_a_simulation_its_amplitudes_are_not_known() -> None:
-    record = ArmMotion.of(moved(None))
-    assert record.simulated_rates_per_s is None and [each.simulation_um for each in record.harmonics] == [None] * 3
 
 
 def test_changes_are_those_of_the_next_step_that_are_of_the_arm() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from abu_calc.features.swing_arm.records import ArmHarmonic, ArmMotion, TongueEdge
 from abu_calc.features.swing_arm.view import tongue_lines
+from abu_calc.foundation.units import to_si
 from abu_calc.reporting.screen import LINES
 from tests.cli.runner import abu, once
 from tests.features.stability.test_command import ARM
@@ -92,16 +93,17 @@ def test_of_a_scene_file(tmp_path: Path) -> None:
 
 
 def edge(speed: float, averaged: float, floquet: float) -> TongueEdge:
-    return TongueEdge(speed_rpm=speed, averaged_N_s_per_m=averaged, floquet_N_s_per_m=floquet)
+    return TongueEdge(speed=to_si(speed, "rpm"), averaged=averaged, floquet=floquet)
 
 
 def test_the_drawing() -> None:
     """Rows of a tenth: both edges in one cell, each alone, and the arm where it is."""
     edges = tuple(edge(1000.0 + k, (0.0, 0.5, 1.0, 0.5, 0.0)[k], (0.0, 0.1, 1.0, 0.5, 0.0)[k]) for k in range(5))
-    one = ArmHarmonic(order=1, resonance_rpm=1.0, perturbation_um=None, simulation_um=None)
+    one = ArmHarmonic(order=1, resonance=1.0, perturbation=None, simulation=None)
     motion = ArmMotion(
-        speed_rpm=1003.0, modulation=0.1, natural_frequency_rpm=501.0, parametric_speed_rpm=1002.0,
-        joint_damping_N_s_per_m=0.9, rate_per_s=-1.0, parametric_rates_per_s=(0.0, -2.0), simulated_rates_per_s=None,
+        speed=to_si(1003.0, "rpm"), modulation=0.1, natural_frequency=to_si(501.0, "rpm"),
+        parametric_speed=to_si(1002.0, "rpm"), joint_damping=0.9, rate=-1.0, parametric_rates=(0.0, -2.0),
+        simulated_rates=None,
         harmonics=(one,), tongue=edges,
     )  # fmt: skip
     rows = [line.split("|")[1] for line in tongue_lines(motion) if "|" in line]

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from abu_calc.features.two_races.case import read_case
 from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.run_up import run_up_amplitudes
+from abu_calc.features.two_races.study import run_up_amplitudes
 from abu_calc.inputs.read_machine import read_machine
 
 
@@ -40,7 +40,7 @@ def test_the_machine_without_autobalancers_runs_up_as_an_own_integration_does() 
     times = [k * 2 * math.pi / W / 40 for k in range(int(1.7 * W / 2 / math.pi * 40))]
     own = solve_ivp(rhs, (0, times[-1]), [0j] * 4, "DOP853", times, rtol=1e-9, atol=1e-12)
     turned = [W * t**2 / (2 * up) if t < up else W * up / 2 + W * (t - up) for t in times]
-    points = run_up_amplitudes(design, 0.01)
+    points = run_up_amplitudes(design, accuracy=0.01)
     for number in (3, 6, len(points) - 1):
         inside = [index for index, turn in enumerate(turned) if int(turn / 2 / math.pi) == number]
         amplitude = 0.0
@@ -53,9 +53,9 @@ def test_the_machine_without_autobalancers_runs_up_as_an_own_integration_does() 
 
 @pytest.mark.slow
 def test_balls_help_at_full_speed_and_speeds_ascend() -> None:
-    points = run_up_amplitudes(design_of(), 0.02)
+    points = run_up_amplitudes(design_of(), accuracy=0.02)
     assert all(a.speed <= b.speed + 1e-9 for a, b in pairwise(points))
     assert points[-1].speed == pytest.approx(design_of().case.speed, rel=1e-6)
     last = points[-1]
-    assert last.with_balls is not None
-    assert last.with_balls < 0.5 * last.without
+    assert last.with_um is not None
+    assert last.with_um < 0.5 * last.without_um

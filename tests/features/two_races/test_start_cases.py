@@ -17,6 +17,7 @@ from abu_calc.features.two_races.start_cases import (
     OF_USUAL,
     TwoRaceOutcome,
     ensemble_of,
+    race_needs,
     rest_time,
     revolution_times,
     scene_of,
@@ -24,7 +25,6 @@ from abu_calc.features.two_races.start_cases import (
     start,
     start_cases,
     start_once,
-    wheels_share,
 )
 from abu_calc.foundation import patience
 from abu_calc.foundation.progress import silent
@@ -92,7 +92,7 @@ def test_a_varied_start_is_that_of_a_file_with_those_values_judged_by_the_first_
     assert {outcome.allowed, outcome.moved} <= {
         number
         for race in (0, 1)
-        for need in [abs(wheels_share(design, race, start(design, "spread", (1.0,))))]
+        for need in [abs(race_needs(design, start(design, "spread", (1.0,)))[race])]
         for number in (need, need / 2)
     }
 
@@ -107,7 +107,7 @@ def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
     assert force == pytest.approx(2500e-6 + 1800e-6j, rel=1e-9)
     assert moment == pytest.approx(0.26 * 2500e-6 - 0.26j * 1800e-6, rel=1e-9)
     for race, place in enumerate((0.3, -0.3)):
-        share = wheels_share(design, race, member)
+        share = race_needs(design, member)[race]
         assert abs(share - (force / 2 + moment / (2 * place))) < 1e-12
 
 
@@ -185,11 +185,11 @@ def test_settling_agrees_with_an_own_integration() -> None:
     assert np.abs(turned - states[8 : 8 + n, : len(until)]).max() < 2e-6
     settled, counts = 0.0, [len(race.ball_masses) for race in scene.races]
     for race, inside in enumerate((slice(0, counts[0]), slice(counts[0], n))):
-        need = wheels_share(design, race, member)
+        need = race_needs(design, member)[race]
         left = np.abs(need + (m[inside] * R[inside]) @ np.exp(1j * turned[inside]))
         assert left[-1] < 0.03 * abs(need)
         settled = max(settled, until[np.flatnonzero(left > 0.1 * abs(need))[-1] + 1])
-    needs = wheels_share(design, 0, member), wheels_share(design, 1, member)
+    needs = race_needs(design, member)
     assert settling_time(ours, states, needs) == pytest.approx(settled, abs=1e-9)
     # Nothing is left, so that |U − U_end| is |U|: they rest when that has settled, between two samples.
     assert rest_time(ours, states, needs) == pytest.approx(settled, abs=until[1])

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import cache
 
-from abu_calc.features.design.records import AutobalancerRecord, DrawingLine, Eccentricity, Section
+from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
 from abu_calc.features.design.study import SizeResult
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size as size_design
@@ -59,8 +59,5 @@ def result(name: str) -> SizeResult:
         section=Section.of(design),
         parts=design.construction.parts,
         eccentricity=Eccentricity.of(design.eccentricity),
-        drawing=tuple(
-            DrawingLine(feature=each.feature, requirement=each.requirement, cost_db=each.cost_db)
-            for each in design.drawing
-        ),
+        drawing=design.drawing,
     )

@@ -15,8 +15,8 @@ from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Surface
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
 
 if TYPE_CHECKING:
-    from abu_calc.features.design.records import DrawingLine
     from abu_calc.features.design.study import SizeResult
+    from abu_calc.sizing.drawing_requirements import DrawingLine
 
 
 class Grade(NamedTuple):
