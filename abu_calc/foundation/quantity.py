@@ -140,6 +140,9 @@ class Record:
         value = getattr(self, field)
         return value if convert is None else convert(value)
 
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self.entries()})
+
     def __setattr__(self, name: str, value: object) -> Never:
         raise FrozenInstanceError(f"cannot assign to field {name!r}")
 

@@ -28,7 +28,7 @@ ROOT: Final = Path(__file__).parents[2]
 FILES: Final = ("presets", "docs/examples", "tests/machines")
 MACHINES, FIRST, EQUAL = 200, 30_000, 1e-9
 """Random machines, the seed of the first, and the relative difference of numbers that are equal."""
-TIMES: Final = re.compile(r"(evaluations), [\d.]+ s")
+TIMES: Final = re.compile(r"(evaluations[^;.]{0,60}?),\s+[\d.]+\s+s\b")
 TIMED: Final = frozenset({"wall_s"})
 """Computing times, in texts and in JSON."""
 WRITTEN: Final = ("json", "txt", "html")
@@ -106,9 +106,14 @@ def outcome(name: str, line: tuple[str, ...], folder: Path) -> dict[str, Any]:
             path.unlink()
     for old, new in ((f"{name}.new.", f"{name}."), (str(ROOT), "ROOT"), (str(folder), "FOLDER")):
         texts = {kind: text.replace(old, new) for kind, text in texts.items()}
-    plain = {kind: TIMES.sub(r"\1", text) for kind, text in texts.items()}
-    result = json.loads(plain.pop("json", "null"))
-    return {"status": done.returncode, "result": result, **{kind: text.splitlines() for kind, text in plain.items()}}
+    result = json.loads(texts.pop("json", "null"))
+    return {"status": done.returncode, "result": result, **{kind: text.splitlines() for kind, text in texts.items()}}
+
+
+def timeless(kept: dict[str, Any]) -> dict[str, Any]:
+    """An outcome whose texts tell no computing time."""
+    texts = {kind: "\n".join(lines) for kind, lines in kept.items() if kind not in ("status", "result")}
+    return {**kept, **{kind: TIMES.sub(r"\1", text).splitlines() for kind, text in texts.items()}}
 
 
 def differences(old: Any, new: Any, path: str = "") -> Iterator[str]:
@@ -142,7 +147,7 @@ def main() -> int:
             if action == "write":
                 kept[name].write_text(json.dumps(new, ensure_ascii=False), encoding="utf-8")
                 continue
-            changes = list(differences(json.loads(kept[name].read_text(encoding="utf-8")), new))
+            changes = list(differences(timeless(json.loads(kept[name].read_text(encoding="utf-8"))), timeless(new)))
             changed += bool(changes)
             print(*(f"{name}{each}" for each in changes), sep="\n", end="\n" * bool(changes), flush=True)
     print(
