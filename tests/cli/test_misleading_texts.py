@@ -139,7 +139,7 @@ def test_a_valid_file_counts_its_defaults(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_the_required_capacity_names_margin_and_imbalance() -> None:
     told = re.search(
-        r"≥ [\d.]+ g·mm = 1.2 × \(imbalance ([\d.]+) \+ race ([\d.]+)\)", flat(once("size", "msh-230").out)
+        r"g·mm, 1.[2-9]\d* × what is needed: imbalance ([\d.]+) \+ race ([\d.]+)", flat(once("size", "msh-230").out)
     )
     result = once("size", "msh-230", "--json").document["result"]
     assert told is not None
