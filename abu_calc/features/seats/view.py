@@ -422,15 +422,21 @@ def _life_cell(value: float | str) -> str:
     return value if isinstance(value, str) else number(value, 3)
 
 
+CASES: Final = ("mounting", "working", "lowest", "highest")
+"""Temperature cases in their order."""
+
+
 def _temperatures(pair: Seats) -> list[Block]:
-    """Interference at mounting, at work, at the lowest and highest temperature, where one is given."""
-    cases = pair[0].interference_by_temperature
-    if len(cases) < 2:  # mounting alone is in the table above
+    """Interference at mounting, at work, at the lowest and highest temperature, where one is given for either seat."""
+    shaft, housing = ({case.case: case for case in seat.interference_by_temperature} for seat in pair)
+    names = sorted(shaft.keys() | housing.keys(), key=CASES.index)
+    if len(names) < 2:  # mounting alone is in the table above
         return []
+    known = {**housing, **shaft}
     rows = tuple(
-        (shaft.case, "–" if shaft.rise_K is None else f"{shaft.rise_K:+g}",
-         _span_text(shaft.interference_um), _span_text(housing.interference_um))
-        for shaft, housing in zip(cases, pair[1].interference_by_temperature, strict=True)
+        (name, "–" if known[name].rise is None else f"{known[name].rise:+g}",
+         *("–" if name not in cases else _span_text(cases[name].interference_um) for cases in (shaft, housing)))
+        for name in names
     )  # fmt: skip
     header = ("case", "K over mounting", "shaft, µm", "housing, µm")
     return [Heading("Interference by temperature"), Grid(header, rows)]

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -131,3 +132,15 @@ def test_a_bearing_without_a_load_is_not_evaluated_and_says_what_to_specify() ->
     assert seen.out.splitlines()[1].startswith("  NOT EVALUATED: 3 of 4 checks pass")
     assert "not known" in next(line for line in seen.out.splitlines() if " shaft    j5 " in line)
     assert "Specify radial_load_kN." in " ".join(seen.out.split())
+
+
+def test_a_temperature_given_for_one_seat_alone_has_its_row(tmp_path: Path) -> None:
+    """The shaft works 5 K below its ring; of the housing nothing is said."""
+    file = tmp_path / "warm.toml"
+    file.write_text(
+        '[machine]\nname = "warm"\n[[bearing]]\ndesignation = "6205"\nring_temperature_difference_K = 5\n',
+        encoding="utf-8",
+    )
+    out = abu("check-fit", str(file), "--full").out
+    (row,) = (line for line in out.splitlines() if line.strip().startswith("working"))
+    assert row.split()[-1] == "–" and "µm" not in row
