@@ -45,12 +45,12 @@ NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU402", "ABU7
 """Checks without which no value of a table is a pass."""
 REPLACE: Final = {
     "autobalancer.race_eccentricity_mm": "Specify the run-out that the shop holds.",
-    "autobalancer.rolling_friction_mm": "Measure it: {}.",
+    "autobalancer.rolling_friction_mm": "Measure it{}: {}.",
     DRAG: "Name grade, viscosity_index and fill_ml under [oil].",
     "suspension.natural_frequencies_hz": "Measure how the machine is held.",
     "suspension.damping_ratios": "Measure how the machine is held.",
 }
-"""How to replace an assumed value by a known one; {}: the command that tells how to measure it."""
+"""How to replace an assumed value by a known one; {}: a note, and the command that tells how to measure it."""
 RUN_NAMES: Final = {
     "autobalancer.race_eccentricity_mm": ("eccentricity", 1e3, "µm"),
     "wheel.imbalance_g_mm": ("imbalance", 1.0, "g·mm"),
@@ -350,8 +350,10 @@ def _assumed(result: SizeResult) -> list[Block]:
     if gap is None:
         return []
     limits = [check.limit for check in result.checks if check.code == "ABU401" and check.limit is not None]
-    plan = f"`{next_command('abu measure-plan', result.provenance, ())}`".replace(" ", TIE)
-    return labelled("Assumed", [f"{_moves(gap, *limits)} {REPLACE.get(gap.key, '').format(plan)}".rstrip()])
+    known = result.starts.of is None or result.starts.of[0].case.table.run_up is not None
+    plan = next_command("abu measure-plan", result.provenance, (), *([] if known else ["--run-up 1"]))
+    note, plan = "" if known else " (1: your run-up in s)", f"`{plan}`".replace(" ", TIE)
+    return labelled("Assumed", [f"{_moves(gap, *limits)} {REPLACE.get(gap.key, '').format(note, plan)}".rstrip()])
 
 
 def _moves(gap: DataGap, limit: float = math.inf) -> str:
@@ -392,9 +394,9 @@ def next_lines(verdict: Verdict, checks: Sequence[Check], warnings: Sequence[str
 
 
 def _in_use(result: SizeResult) -> list[Block]:
-    """How to use what suits: pressed early, it may be louder than without."""
-    loaded = result.vibration_loaded
-    if result.verdict.word != "suits" or loaded is None or not louder(loaded.level_at_once_db, loaded.level_before_db):
+    """How to use what suits, if it is louder than without only when pressed early."""
+    grades = [grade for *_, grade in _grinding(result)]
+    if result.verdict.word != "suits" or len(grades) < 2 or grades[0] or not grades[1]:
         return []
     return labelled("Next", ["press only when it is quiet: before, it is louder than without"])
 

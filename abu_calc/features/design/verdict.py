@@ -114,8 +114,8 @@ def _following(checks: Sequence[Check], grade: Grade) -> list[str]:
     ))  # fmt: skip
     if not names:
         return []
-    told = " and ".join(names) if len(names) <= MOST_REASONS else many(len(names), "check")
-    return [f"With that, {told} fail{'s' * (len(names) == 1)}."]
+    failing = " and ".join(names) if len(names) <= MOST_REASONS else many(len(names), "check")
+    return [f"With that, {failing} fail{'s' * (len(names) == 1)}."]
 
 
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:

@@ -111,8 +111,6 @@ def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
         return {"type": "object", "additionalProperties": _type(arguments[1], definitions)}
     if isinstance(hint, type) and issubclass(hint, Record):
         return _record(hint, definitions)
-    if isinstance(hint, type) and issubclass(hint, tuple):  # a NamedTuple
-        return _type(tuple[*get_type_hints(hint).values()], definitions)  # type: ignore[misc]
     return {"type": SIMPLE[hint]}
 
 
