@@ -22,7 +22,8 @@ class Recording:
     """Samples [SI] of a quantity at `rate` [1/s]: axis by axis, in their order in the file, with their names.
 
     `remarks`: facts that a reader must know of how the file was taken; `simulated`: whether a simulation made it.
-    `handles`: the handle that each axis is measured at; "": the file names none.
+    `handles`: the handle that each axis is measured at; "": the file names none. `assumed`: what is assumed of units
+    that nothing in the file tells.
     """
 
     file: str
@@ -35,6 +36,7 @@ class Recording:
     simulated: bool = False
     handles: tuple[str, ...] = ()
     clipped: tuple[str, ...] = ()
+    assumed: str = ""
 
     @property
     def duration(self) -> float:
@@ -56,7 +58,8 @@ def by_handle(handles: Sequence[str]) -> dict[str, tuple[int, ...]]:
 class RecordingOptions:
     """Reading of a file: quantity, SI per unit, which columns or channels; None: as the file says.
 
-    `sensitivities` of channels in volts; `handles`: name and channels of each; `full_scale` [V] of a WAV file.
+    `sensitivities` of channels in volts; `handles`: name and channels of each; `full_scale` [V] of a WAV file; `rate`
+    [1/s] of a table without times, `time`: its column of times with its unit, `skip`: lines that are left out above.
     """
 
     quantity: MotionQuantity | None = None
@@ -66,6 +69,9 @@ class RecordingOptions:
     handles: tuple[tuple[str, tuple[str, ...]], ...] = ()
     full_scale: float | None = None
     keep_clipped: bool = False
+    rate: float | None = None
+    time: str | None = None
+    skip: int = 0
 
     @property
     def asked_channels(self) -> tuple[str, ...]:
@@ -80,6 +86,7 @@ class RecordingOptions:
 def recording(
     path: str, content: bytes, quantity: MotionQuantity, axes: Sequence[tuple[str, NDArray[np.float64]]], rate: float,
     remarks: Sequence[str] = (), *, simulated: bool = False, handles: Sequence[str] = (), clipped: Sequence[str] = (),
+    assumed: str = "",
 ) -> Recording:  # fmt: skip
     """Recording of the data read; refused with more than three axes at a place, two of one name, or one at rest."""
     names, samples = tuple(name for name, _ in axes), tuple(values for _, values in axes)
@@ -112,7 +119,7 @@ def recording(
         )  # fmt: skip
     digest = hashlib.sha256(content).hexdigest()
     return Recording(
-        path, digest, quantity, names, samples, rate, tuple(remarks), simulated, tuple(handles), tuple(clipped)
+        path, digest, quantity, names, samples, rate, tuple(remarks), simulated, tuple(handles), tuple(clipped), assumed
     )
 
 

@@ -1,4 +1,7 @@
-"""Meaning of the columns of a recording: time or motion, quantity, unit, and the handle it was measured at."""
+"""Meaning of the columns of a recording: time, sample number or motion, with quantity, unit and place.
+
+Names are read as people write them: a unit stands in brackets, behind a comma, a slash, an underscore or a blank.
+"""
 
 import re
 from typing import Final, Literal
@@ -9,49 +12,83 @@ from abu_calc.foundation.units import GRAVITY
 MotionQuantity = Literal["acceleration", "velocity", "displacement"]
 QUANTITIES: Final[tuple[MotionQuantity, ...]] = ("acceleration", "velocity", "displacement")
 
-TIME: Final = {"s": 1.0, "sec": 1.0, "с": 1.0, "ms": 1e-3, "мс": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0}
-_SPELLED: Final[tuple[tuple[MotionQuantity, float, str], ...]] = (
-    ("acceleration", 1.0, "m/s² m/s^2 m/s2 m/s/s m_per_s2 m/s**2 м/с² м/с^2 м/с2 ms-2 ms^-2 ms⁻² m·s⁻²"),
-    ("acceleration", 1e-3, "mm/s² mm/s^2 mm/s2 mm_per_s2 мм/с² мм/с2"),
-    ("acceleration", GRAVITY, "g gn g0"),
-    ("velocity", 1.0, "m/s m_per_s м/с"),
-    ("velocity", 1e-3, "mm/s mm_per_s мм/с"),
-    ("velocity", 1e-6, "um/s µm/s μm/s um_per_s мкм/с"),
+_TIMES: Final = (
+    (1.0, "s sec secs second seconds с сек"),
+    (1e-3, "ms msec millis millisecond milliseconds мс мсек"),
+    (1e-6, "us usec micros microsecond microseconds мкс"),
+    (1e-9, "ns nsec nanos nanosecond nanoseconds нс"),
+    (60.0, "min minute minutes мин"),
+)
+TIME: Final = {unit: size for size, units in _TIMES for unit in units.split()}
+"""Units of time as `plain_unit` writes them [s]."""
+_MOTIONS: Final[tuple[tuple[MotionQuantity, float, str], ...]] = (
+    ("acceleration", 1.0, "m/s2 m/s/s m_per_s2 ms-2 м/с2"),
+    ("acceleration", 1e-3, "mm/s2 mm_per_s2 мм/с2"),
+    ("acceleration", 1e-2, "cm/s2 см/с2"),
+    ("acceleration", GRAVITY, "g gn g0 g_n gs g's gforce"),
+    ("acceleration", 1e-3 * GRAVITY, "mg milli-g"),
+    ("velocity", 1.0, "m/s m_per_s ms-1 м/с"),
+    ("velocity", 1e-3, "mm/s mm_per_s mms-1 мм/с"),
+    ("velocity", 1e-6, "um/s um_per_s мкм/с"),
     ("velocity", 1e-2, "cm/s cm_per_s см/с"),
     ("displacement", 1.0, "m м"),
     ("displacement", 1e-3, "mm мм"),
-    ("displacement", 1e-6, "um µm μm micron мкм"),
+    ("displacement", 1e-6, "um micron microns мкм"),
 )
-MOTION: Final = {unit: (quantity, size) for quantity, size, units in _SPELLED for unit in units.split()}
-"""Units of a column: its quantity, and the value in SI."""
-VOLTS: Final = {"V": 1.0, "mV": 1e-3, "µV": 1e-6, "μV": 1e-6, "uV": 1e-6, "В": 1.0, "мВ": 1e-3, "мкВ": 1e-6}
+MOTION: Final = {unit: (quantity, size) for quantity, size, units in _MOTIONS for unit in units.split()}
+"""Units of motion as `plain_unit` writes them: quantity, and the value in SI."""
+VOLTS: Final = {"V": 1.0, "mV": 1e-3, "uV": 1e-6, "В": 1.0, "мВ": 1e-3, "мкВ": 1e-6}
 """Units of a column that a sensor's sensitivity turns into motion [V]."""
-WORDS: Final[dict[str, MotionQuantity]] = {
-    **dict.fromkeys(("a", "ax", "ay", "az", "acc", "accel", "acceleration"), "acceleration"),
-    **dict.fromkeys(("v", "vx", "vy", "vz", "vel", "velocity"), "velocity"),
-    **dict.fromkeys(("disp", "displacement"), "displacement"),
-}
-TIMES: Final = frozenset({"t", "time", "times", "zeit", "время"})
+_WORDS: Final[tuple[tuple[MotionQuantity, str], ...]] = (
+    ("acceleration", "a ax ay az acc accx accy accz accel accelx accely accelz acceleration accelerometer gfx gfy gfz "
+     "beschleunigung schwingbeschleunigung accélération accelerazione aceleración ускорение виброускорение"),
+    ("velocity", "v vx vy vz vel velocity geschwindigkeit schwinggeschwindigkeit schnelle vitesse velocità velocidad "
+     "скорость виброскорость"),
+    ("displacement", "disp displacement weg auslenkung schwingweg déplacement spostamento desplazamiento перемещение "
+     "виброперемещение"),
+)  # fmt: skip
+WORDS: Final = {word: quantity for quantity, words in _WORDS for word in words.split()}
+_TIME_WORDS: Final = (
+    "t time times timestamp timestamps datetime date clock elapsed epoch zeit zeitstempel uhrzeit время temps "
+    "horodatage tempo tiempo czas tijd tid"
+)
+TIMES: Final = frozenset(_TIME_WORDS.split())
+_COUNTS: Final = (
+    "sample samples samplenumber n no nr # index idx i k count counter packet packetcounter packetid row line "
+    "frame messwert номер отсчёт отсчет"
+)
+COUNTS: Final = frozenset(_COUNTS.split())
+"""Words of a column that numbers the rows."""
+_MARKS: Final = "mark tacho tach key keyphasor pulse trigger rpm метка тахо"
+MARKS: Final = frozenset(_MARKS.split())
+"""Words of a column that tells when a mark passes, or how fast it does."""
+_RESULTANTS: Final = (
+    "at gft tgf total resultant magnitude mag norm absolute abs |a| |v| vectorsum sum svm betrag gesamt absolut "
+    "resultierende модуль полное суммарное"
+)
+RESULTANTS: Final = frozenset(_RESULTANTS.split())
+"""Words of a column that holds the length of the vector whose components stand beside it."""
 AXIS: Final = re.compile(r"(ch(annel)?[\s_]*\d+|column \d+|(.*[\s_])?[xyz])", re.IGNORECASE)
 """Names of columns that may be axes though they tell no quantity."""
-AXIS_WORDS: Final = frozenset({"x", "y", "z", "ax", "ay", "az", "vx", "vy", "vz"})
-"""Last words of a column's name that say its axis."""
-_NOT_HANDLES: Final = (
-    "signal sensor channel ch column axis vibration датчик канал виброускорение виброскорость ускорение скорость"
-)
-IMPERIAL: Final = frozenset({"in", "inch", "ips", "mil", "mils", "ft", "db"})
-"""Units in brackets that are not read: imperial ones, and levels."""
-NO_HANDLE: Final = frozenset({*WORDS, *_NOT_HANDLES.split()})
+AXIS_WORDS: Final = re.compile(r"(a|v|acc|accel|gf)?[xyz]|achse|axis|ось")
+"""Words of a column's name that say its axis."""
+_NO_HANDLE: Final = "signal sensor channel ch column vibration датчик канал linear lin user raw"
+NO_HANDLE: Final = WORDS.keys() | frozenset(_NO_HANDLE.split())
 """Words of a column's name that name no handle."""
-BRACKETS: Final = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")
+IMPERIAL: Final = frozenset({"in", "inch", "ips", "mil", "mils", "ft", "db"})
+"""Units that are not read: imperial ones, and levels."""
+BRACKETS: Final = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]")
+RANGE: Final = re.compile(r"[±+\-/]*\d+(\.\d+)?g")
+_PLAIN: Final = ((r"[\s·⋅*^()\[\]]", ""), ("²", "2"), ("⁻", "-"), ("¹", "1"), ("[µμ]", "u"), ("sec(?=2|$)", "s"))
 
 
 @dataclass(frozen=True)
 class RecordingColumn:
     """A column by its name: its quantity (None: not known), time or not, SI per unit (None: no unit is named).
 
-    `volts`: volts per unit of a column that needs a sensitivity; `handle`: where it was measured, "" if it names none;
-    `names_axis`: whether its last word is an axis; `unknown_unit`: text in brackets that is no unit of this table.
+    `numbers_rows`: sample numbers; `is_resultant`: length of a vector; `volts`: volts per unit of a column that needs a
+    sensitivity; `place`: words before its axis, which name a handle where they differ; `names_axis`: whether a word is
+    an axis; `unknown_unit`: text that can only be a unit and is none of this table; `range`: of the sensor, as named.
     """
 
     name: str
@@ -59,50 +96,104 @@ class RecordingColumn:
     is_time: bool
     unit: float | None
     volts: float | None = None
-    handle: str = ""
+    place: str = ""
     names_axis: bool = False
     unknown_unit: str = ""
+    range: str = ""
+    numbers_rows: bool = False
+    is_resultant: bool = False
 
     @property
     def may_be_axis(self) -> bool:
         """True if the name says an axis, though maybe no quantity."""
-        return AXIS.fullmatch(self.name) is not None
+        return self.names_axis or AXIS.fullmatch(self.name) is not None
 
 
 def column_of(name: str) -> RecordingColumn:
-    """Meaning of a column's name, such as "vx_mm_per_s", "a [m/s^2]", "Time (ms)".
+    """Meaning of a column's name, such as "vx_mm_per_s", "a [m/s^2]", "Time (ms)", "Ax, м/с²", "t/s".
 
-    >>> column_of("vx_mm_per_s").quantity, column_of("t_s").is_time, column_of("a [g]").unit
+    >>> column_of("vx_mm_per_s").quantity, column_of("t/s").is_time, column_of("a [g]").unit
     ('velocity', True, 9.80665)
+    >>> column_of("X (40g)").unit, column_of("X (40g)").range, column_of("Linear Acceleration x (m/s^2)").place
+    (None, '40g', '')
     """
-    match = BRACKETS.match(name)
-    word, unit = (match[1], match[2].replace(" ", "")) if match else (name, "")
-    if not match:
-        endings = (key for key in (*MOTION, *TIME, *VOLTS) if word.endswith(f"_{key}"))
-        unit = max(endings, key=len, default="")
-        word = word.removesuffix(f"_{unit}")
-    words = [part for part in re.split(r"[_\s.:]+", word.strip()) if part] or [""]
-    first, last = words[0].lower(), words[-1].lower()
-    known = MOTION.get(unit) or MOTION.get(unit.lower())
-    if first in TIMES or unit.lower() in TIME:
-        return RecordingColumn(name, None, True, TIME.get(unit.lower()))
-    quantity, size = known or (WORDS.get(first) or (WORDS.get(last) if last in AXIS_WORDS else None), None)
-    volts = VOLTS.get(unit)
-    unknown = unit if match and size is None and volts is None and _is_unit(unit) else ""
-    return RecordingColumn(name, quantity, False, size, volts, _handle(words), last in AXIS_WORDS, unknown)
+    word, unit, spread = _parted(name)
+    parts = [part for part in re.split(r"[_\s.:,/-]+", word) if part]
+    whole = WORDS.keys() | RESULTANTS
+    words = [
+        piece for part in parts
+        for piece in ([part] if part.lower() in whole else re.sub(r"(?<=[a-zа-я])(?=[A-Z])", " ", part).split())
+    ]  # fmt: skip
+    lower = [part.lower() for part in words]
+    plain = plain_unit(unit)
+    motion, volts = MOTION.get(plain), _volts(unit)
+    unknown = unit if motion is None and volts is None and plain not in TIME else ""
+    spelled = next((TIME[part] for part in lower if part in TIME and len(part) > 1), None)  # "seconds_elapsed"
+    timed = bool(TIMES & set(lower) or spelled) and not (unit or MARKS & set(lower))
+    if plain in TIME or timed:
+        return RecordingColumn(name, None, True, TIME.get(plain, spelled))
+    if not unit and set(lower) <= COUNTS:
+        return RecordingColumn(name, None, False, None, numbers_rows=True)
+    joined, axes = "".join(lower), [part for part in lower if AXIS_WORDS.fullmatch(part)]
+    worded: MotionQuantity | None = next((WORDS[part] for part in (*lower, joined) if part in WORDS), None)
+    quantity, size = motion or (worded, None)
+    if quantity and not unit and any(part.startswith("gf") for part in lower):
+        size = GRAVITY  # apps name accelerations in g so
+    resultant = bool(RESULTANTS & {*lower, joined}) and not axes
+    place = " ".join(part for part in words if part.lower() not in NO_HANDLE and part.lower() not in axes
+                     and not part.isdecimal()) if axes else ""  # fmt: skip
+    return RecordingColumn(
+        name, quantity, False, size, volts, place, bool(axes), unknown, spread, is_resultant=resultant
+    )
 
 
-def _is_unit(text: str) -> bool:
-    """True for text in brackets that can only be a unit, as it is a quotient or an imperial one."""
-    return "/" in text or text.lower() in IMPERIAL
+def plain_unit(text: str) -> str:
+    """A unit in one of its spellings.
 
-
-def _handle(words: list[str]) -> str:
-    """Words before the axis that are a place, such as "front" of "front_ax_m_per_s2"; "" without such words.
-
-    >>> _handle(["front", "ax"]), _handle(["ax"]), _handle(["Acc", "rear", "x"]), _handle(["front"])
-    ('front', '', 'rear', '')
+    >>> plain_unit("m/s²"), plain_unit("M/S^2"), plain_unit("m·s⁻²"), plain_unit("µm/s")
+    ('m/s2', 'm/s2', 'ms-2', 'um/s')
     """
-    if len(words) < 2 or words[-1].lower() not in AXIS_WORDS:
-        return ""
-    return " ".join(part for part in words[:-1] if part.lower() not in NO_HANDLE and not part.isdecimal())
+    for pattern, plain in _PLAIN:
+        text = re.sub(pattern, plain, text)
+    return text.lower()
+
+
+def is_unit(text: str) -> bool:
+    """True for a unit of time, motion or voltage."""
+    return plain_unit(text) in TIME.keys() | MOTION.keys() or _volts(text) is not None
+
+
+def _volts(unit: str) -> float | None:
+    """Volts of a unit of voltage, in brackets or without; None for another."""
+    return VOLTS.get(re.sub(r"[()\[\]\s]", "", unit).replace("µ", "u").replace("μ", "u"))
+
+
+def _parted(name: str) -> tuple[str, str, str]:
+    """The words of a name, its unit ("": none), and the range of its sensor ("": none)."""
+    word, found, spread = name, "", ""
+    for match in BRACKETS.finditer(name):
+        text = match[1]
+        if RANGE.fullmatch(plain_unit(text)):
+            spread = text
+        elif is_unit(text) or (not found and _can_only_be_unit(text)):
+            found = text
+        word = word.replace(match[0], " ")
+    word = word.rstrip(" /,;_")
+    if found:
+        return word, found, spread
+    for sign in (",", "/", "_", " "):
+        # The longest ending that is a unit: "vx_mm_per_s", "a/m/s²".
+        for place in (k for k, letter in enumerate(word) if letter == sign and k):
+            ending = word[place + 1 :].strip()
+            if is_unit(ending) and (sign != " " or len(ending) > 1):
+                return word[:place], ending, spread
+    _, comma, ending = word.rpartition(",")
+    return (
+        (word.rpartition(",")[0], ending.strip(), spread) if comma and _can_only_be_unit(ending) else (word, "", spread)
+    )
+
+
+def _can_only_be_unit(text: str) -> bool:
+    """True for text that is a quotient or an imperial unit."""
+    plain = text.strip()
+    return ("/" in plain and ":" not in plain and len(plain) <= 12) or plain.lower() in IMPERIAL

@@ -6,10 +6,13 @@ are told before it is looked into.
 """
 
 import io
+import math
 import os
 import struct
 import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,37 +20,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.units import GRAVITY
 from abu_calc.inputs.reading.plain import found_as
 from abu_calc.inputs.reading.sources import regular_file
-from abu_calc.inputs.recording import Recording, RecordingOptions, chosen, flat_tops, recording
+from abu_calc.inputs.recording import LARGEST as LARGEST_SAMPLE
+from abu_calc.inputs.recording import MOST_AXES, Recording, RecordingOptions, chosen, flat_tops, recording
 from abu_calc.inputs.recording_columns import QUANTITIES, MotionQuantity, RecordingColumn, column_of
-from abu_calc.inputs.recording_table import Lines, decoded, rate_of, table_of
+from abu_calc.inputs.recording_table import Lines, decoded, table_of
+from abu_calc.inputs.recording_time import RATE, timing
 from abu_calc.inputs.sensitivity import Sensitivity, sensitivities, sensitivity_of
 
 
 def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recording:
     """The recording of a CSV file."""
     remarks: list[str] = []
-    table = table_of(path, decoded(path, content), remarks)
+    table = table_of(path, decoded(path, content), remarks, asked.skip)
     columns = [column_of(name) for name in table.names]
-    time = next((k for k, column in enumerate(columns) if column.is_time), None)
-    if time is None:
-        raise InputError(
-            "no column of time", place=Place(path, table.numbers[0] - 1), found=", ".join(table.names),
-            remedy='Name it "t_s" or "time [s]": equally spaced times are asked for.',
-        )  # fmt: skip
-    rate = rate_of(table, time, columns[time])
+    times = timing(table, columns, asked, remarks)
+    table = replace(table, values=table.values[: times.rows], numbers=table.numbers[: times.rows])
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
-    picked = _picked(table, columns, time, asked, simulated=simulated)
-    if asked.scale is None:
-        _refuse_unknown_units(table, [columns[k] for k in picked])
-    sensors = [_sensor(table, columns[k], k + 1 - (k > time), asked) for k in picked]
-    _all_used(path, asked, [columns[k].name for k in picked], sensors, remarks)
-    quantity = _quantity(path, [columns[k] for k in picked], sensors, asked, remarks)
+    others = [k for k in range(len(columns)) if k != times.column]
+    picked = _picked(table, columns, others, asked, remarks, simulated=simulated)
+    taken = [columns[k] for k in picked]
+    sensors = [_sensor(table, columns[k], others.index(k) + 1, asked) for k in picked]
+    _all_used(path, asked, [column.name for column in taken], sensors, remarks)
+    quantity = _quantity(path, taken, sensors, asked, remarks)
+    handles = asked.handle_names() or _handles(table, taken, remarks)
+    taken, assumed = _units(table, picked, taken, quantity, asked, remarks)
     with np.errstate(over="ignore", invalid="ignore"):  # samples that large are refused below
         axes = [
-            (columns[k].name, table.values[:, k] * _unit(columns[k], sensor, quantity, asked, remarks))
-            for k, sensor in zip(picked, sensors, strict=True)
+            (column.name, table.values[:, k] * _unit(column, sensor, asked, remarks))
+            for k, column, sensor in zip(picked, taken, sensors, strict=True)
         ]
         clipped = [(name, _clipped(values)) for name, values in axes]
     for name, cut in clipped:
@@ -56,35 +59,80 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
                 f"{name} stays at its largest value again and again, first on line {table.numbers[cut]}: a recording "
                 "that is clipped reads too low."
             )
-    handles = asked.handle_names() or _handles(table, [columns[k] for k in picked], remarks)
+    for name, values in axes:
+        strange = _spike(values)
+        if strange is not None:
+            remarks.append(
+                f"{name}: the sample on line {table.numbers[strange]} alone makes a part of the level. Is the file at "
+                "fault?"
+            )
+    cut_off = [name for name, cut in clipped if cut is not None]
     return recording(
-        path,
-        content,
-        quantity,
-        axes,
-        rate,
-        remarks,
-        simulated=simulated,
-        handles=handles,
-        clipped=[name for name, cut in clipped if cut is not None],
-    )
+        path, content, quantity, axes, times.rate, remarks,
+        simulated=simulated, handles=handles, clipped=cut_off, assumed=assumed,
+    )  # fmt: skip
 
 
-def _refuse_unknown_units(table: Lines, columns: Sequence[RecordingColumn]) -> None:
-    """Refuse a column whose brackets hold a unit that is not known: its numbers would be taken for SI."""
-    for column in columns:
-        if column.unknown_unit:
-            raise InputError(
-                "a column with a unit that is not known", place=Place(table.path, table.head, column.name),
-                found=column.unknown_unit, allowed="m/s², mm/s², g, mm/s, m/s, µm, mm, mV, V and the like",
-                remedy="Convert the column, or give --scale: SI per unit of the file (Python: scale=).",
-            )  # fmt: skip
+def _spike(values: NDArray[np.float64]) -> int | None:
+    """Index of a sample that alone makes a fiftieth of the power, far above all others; None without one."""
+    largest = float(np.abs(values).max())
+    if not 0 < largest <= LARGEST_SAMPLE:
+        return None
+    power = ((values - np.median(values)) / largest) ** 2
+    k = int(np.argmax(power))
+    return k if power[k] > max(0.02, 30 / len(power)) * float(power.sum()) else None
+
+
+GRAVITIES: Final = ((1.0, GRAVITY, "g"), (GRAVITY, 1.0, "m/s²"), (1000.0, GRAVITY / 1000, "mg"),
+                    (1000 * GRAVITY, 1e-3, "mm/s²"))  # fmt: skip
+"""What three axes at rest show of gravity, by the unit [SI] of their numbers."""
+NEAR: Final = 0.06
+"""Share by which a sensor's gravity may be off."""
+
+
+def _units(
+    table: Lines, picked: Sequence[int], columns: Sequence[RecordingColumn], quantity: MotionQuantity,
+    asked: RecordingOptions, remarks: list[str],
+) -> tuple[list[RecordingColumn], str]:  # fmt: skip
+    """Columns, each with a unit: as named, else as gravity tells, else in SI; and what is assumed then.
+
+    Refused are units that are not known, and a range of the sensor without a unit.
+    """
+    unnamed = [column for column in columns if column.unit is None and column.volts is None]
+    if asked.scale is not None or not unnamed:
+        return list(columns), ""
+    names = ", ".join(column.name for column in unnamed)
+    strange = next((column for column in unnamed if column.unknown_unit), None)
+    if strange is not None:
+        raise InputError(
+            "a column with a unit that is not known", place=Place(table.path, table.head, strange.name),
+            found=strange.unknown_unit, allowed="m/s², mm/s², g, mg, mm/s, m/s, µm, mm, mV, V and the like",
+            remedy="Convert the column, or give --scale: SI per unit of the file (Python: scale=).",
+        )  # fmt: skip
+    size, assumed = 1.0, ""
+    pull = math.hypot(*(float(table.values[:, k].mean()) for k in picked)) if len(picked) == MOST_AXES else 0.0
+    told = [each for each in GRAVITIES if quantity == "acceleration" and abs(pull / each[0] - 1) < NEAR]
+    if told:
+        [(_, size, unit)] = told
+        remarks.append(f"{names} name no unit; their means are one gravity in {unit}, so they are taken in {unit}.")
+    elif ranged := next((column for column in unnamed if column.range), None):
+        raise InputError(
+            "a column names the range of its sensor and no unit", place=Place(table.path, table.head, ranged.name),
+            found=f"({ranged.range})", remedy="Say the unit: --scale 9.80665 for numbers in g, --scale 1 for m/s² "
+            "(Python: scale=).",
+        )  # fmt: skip
+    else:
+        unit = {"acceleration": "m/s²", "velocity": "m/s", "displacement": "m"}[quantity]
+        verb = "names no unit and is" if len(unnamed) == 1 else "name no unit and are"
+        assumed = f"{names} {verb} taken in {unit}; --scale says otherwise."
+        remarks.append(assumed)
+    return [replace(column, unit=size) if column in unnamed else column for column in columns], assumed
 
 
 def _handles(table: Lines, columns: Sequence[RecordingColumn], remarks: list[str]) -> tuple[str, ...]:
     """Handle of each column by its name; empty if the names tell none. Refused if only some names tell one."""
-    handles = tuple(column.handle for column in columns)
-    if not any(handles):
+    handles = tuple(column.place for column in columns)
+    if len(set(handles)) == 1:  # a word that all have tells no place
         if len(columns) > 1 and not all(column.names_axis for column in columns):
             remarks.append(
                 f"{', '.join(column.name for column in columns)} are taken for axes of one place; --handle says "
@@ -138,30 +186,59 @@ def _all_used(
 
 
 def _picked(
-    table: Lines, columns: Sequence[RecordingColumn], time: int, asked: RecordingOptions, *, simulated: bool
-) -> list[int]:
-    """Columns to read: those asked for, else x and y of a trajectory, else all that may be the quantity."""
-    others = [k for k in range(len(columns)) if k != time]
+    table: Lines, columns: Sequence[RecordingColumn], others: Sequence[int], asked: RecordingOptions,
+    remarks: list[str], *, simulated: bool,
+) -> list[int]:  # fmt: skip
+    """Columns to read of those beside the times: those asked for, else x and y of a trajectory, else what may move."""
     if asked.asked_channels:
         return [others[k] for k in chosen(table.path, [columns[k].name for k in others], asked.asked_channels)]
     if simulated:
         return [table.names.index("x_mm"), table.names.index("y_mm")]
-    known = [k for k in others if columns[k].quantity is not None or columns[k].volts is not None]
+    axes = [k for k in others if not (columns[k].is_time or columns[k].numbers_rows)
+            and k not in table.empty | table.clocks]  # fmt: skip
+    resultants = [k for k in axes if columns[k].is_resultant or _is_length(table.values, k, axes)]
+    moved = [k for k in axes if k not in resultants]
+    known = [k for k in moved if columns[k].quantity is not None or columns[k].volts is not None]
     wanted = [k for k in known if asked.quantity in (None, columns[k].quantity) or columns[k].volts is not None]
     if known and not wanted:
         raise InputError(
             f"no column of {asked.quantity}", place=Place(table.path, key="quantity"),
             found=", ".join(columns[k].name for k in known),
         )  # fmt: skip
-    if not (wanted or others):
+    if not axes:
         raise InputError("no column beside the time", place=Place(table.path), remedy="Columns: time, what moved.")
-    strange = [columns[k].name for k in others if not columns[k].may_be_axis]
-    if not wanted and len(others) > 1 and strange:
+    if not moved:
+        raise InputError(
+            "only the length of a vector is recorded, which has no sign", place=Place(table.path, table.head),
+            found=", ".join(columns[k].name for k in resultants),
+            remedy="Record the axes. --channels takes such a column as an axis (Python: channels=).",
+        )  # fmt: skip
+    unsaid = [k for k in moved if wanted and k not in wanted]
+    for left_out, why in ((resultants, "the resultant of the axes"), (unsaid, "no unit of the motion")):
+        if left_out:
+            remarks.append(f"{', '.join(columns[k].name for k in left_out)}: {why}, left out.")
+    axes = wanted or [k for k in moved if not columns[k].unknown_unit] or moved
+    strange = [columns[k].name for k in axes if not columns[k].may_be_axis]
+    if not wanted and len(axes) > 1 and strange:
         raise InputError(
             "which columns are the motion is not clear", place=Place(table.path), found=", ".join(strange),
             remedy="Name their units (a_m_per_s2, v [mm/s]), or say --channels (Python: channels=).",
         )  # fmt: skip
-    return wanted or others
+    return axes
+
+
+def _is_length(values: NDArray[np.float64], k: int, columns: Sequence[int]) -> bool:
+    """True for a column that is the root of the sum of the squares of two or three others."""
+    length = values[:, k]
+    if length.min() < 0 or len(columns) < MOST_AXES:
+        return False
+    others = [j for j in columns if j != k]
+    with np.errstate(over="ignore", invalid="ignore"):
+        return any(
+            float(np.abs(np.sqrt((values[:, each] ** 2).sum(axis=1)) - length).max()) <= 5e-3 * float(length.max())
+            and all(float(np.ptp(values[:, j])) > 0 for j in each)
+            for each in (list(group) for many in (2, 3) for group in combinations(others, many))
+        )
 
 
 def _quantity(
@@ -185,22 +262,15 @@ def _quantity(
     return quantities[0] if quantities else "acceleration"
 
 
-def _unit(
-    column: RecordingColumn, sensor: Sensitivity | None, quantity: MotionQuantity, asked: RecordingOptions,
-    remarks: list[str],
-) -> float:  # fmt: skip
+def _unit(column: RecordingColumn, sensor: Sensitivity | None, asked: RecordingOptions, remarks: list[str]) -> float:
     """SI per unit of a column."""
     if sensor is not None and column.volts is not None:
         return column.volts / sensor.volts_per_unit
-    if asked.scale is not None:
-        if column.unit is not None:
-            remarks.append(f"The scale takes the place of the unit in {column.name}.")
-        return asked.scale
+    if asked.scale is None:
+        return column.unit or 1.0
     if column.unit is not None:
-        return column.unit
-    unit = {"acceleration": "m/s²", "velocity": "m/s", "displacement": "m"}[quantity]
-    remarks.append(f"{column.name} names no unit and is taken in {unit}; --scale says otherwise.")
-    return 1.0
+        remarks.append(f"The scale takes the place of the unit in {column.name}.")
+    return asked.scale
 
 
 def _clipped(values: NDArray[np.float64]) -> int | None:
@@ -239,7 +309,7 @@ def wav_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
         (
             column.name,
             _full_scale(path, column.name, columns[k], rate, clipped if asked.keep_clipped else None)
-            * _unit(column, sensor, quantity, asked, remarks),
+            * _unit(column, sensor, asked, remarks),
         )
         for k, column, sensor in zip(picked, described, sensors, strict=True)
     ]
@@ -325,6 +395,9 @@ def read_recording(
     handles: Mapping[str, Sequence[str]] | None = None,
     full_scale_mV: float | None = None,
     keep_clipped: bool = False,
+    rate_hz: float | None = None,
+    time: str | None = None,
+    skip: int = 0,
 ) -> Recording:
     """Reads a CSV (time, and up to three columns of a motion for each handle) or a WAV file.
 
@@ -332,8 +405,9 @@ def read_recording(
     numbers, from 1, of the columns or channels to take. `sensitivity`: of sensors recorded in V or mV, in mV per m/s²
     or a text with its unit, for all or by channel. `handles`: the channels at each handle; without them columns such
     as "front_ax_m_per_s2" name their handle. `full_scale_mV`: of a WAV file with sensitivities. `keep_clipped`: a WAV
-    file that is clipped is read, and `clipped` names its channels; without it the file is refused. Raises InputError
-    with file, line and column for what is wrong.
+    file that is clipped is read, and `clipped` names its channels; without it the file is refused. `rate_hz`: samples a
+    second of a table without times; `time`: its column of times, "COLUMN" or "COLUMN:ms"; `skip`: lines above the names
+    to leave out. Raises InputError with file, line and column for what is wrong.
     """
     path, content = content_of(file)
     known = next((name for name in QUANTITIES if name == quantity), None)
@@ -347,10 +421,14 @@ def read_recording(
                 remedy="SI per unit of the file: m/s² for accelerations, m/s for velocities."
                 if key == "scale" else "The voltage at full scale in mV.",
             )  # fmt: skip
+    if rate_hz is not None:
+        RATE.check(rate_hz)
+    if skip < 0:
+        raise InputError("not a number of lines", place=Place(key="skip"), found=f"{skip}", allowed="0 or more")
     placed = tuple((name, tuple(axes)) for name, axes in (handles or {}).items())
     full_scale = None if full_scale_mV is None else full_scale_mV / 1000
     asked = RecordingOptions(
-        known, scale, tuple(channels), sensitivities(sensitivity), placed, full_scale, keep_clipped
+        known, scale, tuple(channels), sensitivities(sensitivity), placed, full_scale, keep_clipped, rate_hz, time, skip
     )
     is_wav = content[:4] in (b"RIFF", b"RIFX", b"RF64") or Path(path).suffix.lower() == ".wav"
     _options_agree(asked, is_wav=is_wav)
@@ -366,6 +444,10 @@ def _options_agree(asked: RecordingOptions, *, is_wav: bool) -> None:
          "Omit --full-scale-mV."),
         ("full_scale_mV", asked.full_scale is not None and asked.scale is not None, "both a scale and a full scale",
          "Give one."),
+        ("rate_hz", asked.rate is not None and asked.time is not None, "both a rate and times", "Give one."),
+        ("rate_hz", asked.rate is not None and is_wav, "a rate, but no table", "A WAV file tells its rate."),
+        ("time", asked.time is not None and is_wav, "a column of times, but no table", "A WAV file tells its rate."),
+        ("skip", bool(asked.skip) and is_wav, "lines to leave out, but no table", "Omit --skip."),
     )  # fmt: skip
     for key, fault, message, remedy in faults:
         if fault:

@@ -1,23 +1,55 @@
-"""Table of numbers of a recording in text: names, rows with their line numbers, and equally spaced times."""
+"""Table of numbers of a recording in text: names, rows with their line numbers, and what other lines tell.
 
+Lines that are no data: `sep=;` for spreadsheets, comments that begin with #, lines above the names, trailers.
+"""
+
+import csv
 import re
-from collections.abc import Callable, Sequence
-from typing import Final
+from collections.abc import Callable, Iterator, Sequence
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.recording_columns import RecordingColumn
+from abu_calc.inputs.recording_columns import column_of, is_unit
 
-EVEN: Final = 0.05
-"""Share of a step by which times may stray from their grid: more is not the rounding of written times."""
+SEPARATOR: Final = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
+NUMBER: Final = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?")
+DAY: Final = r"(?:\d{4}[./-]\d\d?[./-]\d\d?|\d\d?[./-](?:\d\d?|[A-Za-z]{3})[./-]\d{2,4})"
+WHEN: Final = re.compile(rf"{DAY}|\d\d?:\d")
+CLOCK: Final = re.compile(
+    rf"{DAY}?[T ]?\s*"
+    r"(?:(\d{1,2}):)?(\d{1,2}):(\d{1,2}(?:[.,:]\d+)?)\s*([AaPp][Mm])?(?:Z|\s?[-+]\d\d:?\d\d)?"
+)
+"""A time of day, with a date or without: hours, minutes, seconds."""
+DATE: Final = re.compile(r"\d+\.\d+\.\d+")
+RATE: Final = re.compile(
+    r"(?:rate|freq\w*|\bfs|\bodr|частота\w*|abtast\w*)(?:[^\w.;,]*(?:\(?k?hz\)?|[а-я]+)?)[\W_]*?(\d+(?:\.\d+)?)\s*(k?hz\b)?"
+    r"|\b(\d+(?:\.\d+)?)\s*(k?hz|sps|гц)\b",
+    re.IGNORECASE,
+)
+LOST: Final = re.compile(r"(?:overflows?|overruns?|dropped|lost|missed)\D{0,12}(\d+)|(\d+)\s+(?:overflow|overrun|lost)",
+                         re.IGNORECASE)  # fmt: skip
+MOST_BELOW: Final = 20
+"""Lines below the numbers, at most."""
+
+
+class Told(NamedTuple):
+    """What lines beside the data tell: samples a second, and the line that says so."""
+
+    rate: float
+    line: int
 
 
 @dataclass(frozen=True)
 class Lines:
-    """Rows of numbers with their line numbers, and the names above them."""
+    """Rows of numbers with their line numbers, and the names above them.
+
+    `named`: whether the file names its columns; `clocks`: columns that were times of day [s]; `empty`: columns that
+    hold no numbers; `told`: rates that other lines tell.
+    """
 
     path: str
     names: tuple[str, ...]
@@ -25,6 +57,14 @@ class Lines:
     values: NDArray[np.float64]
     head: int | None = None
     """Line of the names."""
+    named: bool = True
+    clocks: frozenset[int] = frozenset()
+    empty: frozenset[int] = frozenset()
+    told: tuple[Told, ...] = ()
+
+
+Row = tuple[int, str]
+"""A line with its number."""
 
 
 def decoded(path: str, content: bytes) -> str:
@@ -32,7 +72,8 @@ def decoded(path: str, content: bytes) -> str:
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return content.decode("utf-16", errors="replace")
     if b"\0" in content[:4096]:
-        raise InputError("neither a table of text nor a WAV file", place=Place(path))
+        line = content[: content.index(b"\0")].count(b"\n") + 1
+        raise InputError("neither a table of text nor a WAV file", place=Place(path, line), found="a byte of zeros")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -40,149 +81,197 @@ def decoded(path: str, content: bytes) -> str:
         return content.decode("cp1251" if re.search(rb"[\xc0-\xff]{2}", content[:4096]) else "latin-1", "replace")
 
 
-def table_of(path: str, text: str, remarks: list[str]) -> Lines:
-    """Names and numbers; comments (#) and empty lines left out."""
-    rows = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
-    first = next((k for k, (_, line) in enumerate(rows) if _numeric(line)), None)
+def table_of(path: str, text: str, remarks: list[str], skip: int = 0) -> Lines:
+    """Names and numbers; `skip`: lines at the beginning that are left out. Remarks tell what is left out beside."""
+    lines = [(k, line) for k, line in enumerate(text.splitlines(), 1) if k > skip and line.strip()]
+    asked = SEPARATOR.fullmatch(lines[0][1].strip()) if lines else None
+    lines = lines[1:] if asked else lines
+    comments = [(k, line.lstrip("#").strip()) for k, line in lines if line.startswith("#")]
+    rows = [(k, line) for k, line in lines if not line.startswith("#")]
+    rows, below = _without_trailer(rows)
+    first = next((k for k in range(len(rows)) if _begins(rows, k, asked and asked[1])), None)
     if first is None:
         raise InputError("no row of numbers", place=Place(path), remedy="Columns: time, and what moved.")
-    if first > 2:
-        raise InputError(
-            "more lines above the numbers than names and units", place=Place(path, rows[0][0]),
-            found=rows[0][1].strip()[:60], remedy="Keep one line of names, or begin the others with #.",
-        )  # fmt: skip
-    delimiter = _delimiter(rows[first][1])
-    if delimiter and rows[first][1].rstrip().endswith(delimiter):  # every row ends so
+    delimiter = asked[1] if asked and asked[1] in rows[first][1] else _delimiter(rows[first][1])
+    if delimiter and all(line.rstrip().endswith(delimiter) for _, line in rows[first : first + 3]):
         rows = [(number, line.rstrip().removesuffix(delimiter)) for number, line in rows]
-    heads = [[cell.strip().strip('"') for cell in _cells(line, delimiter)] for _, line in rows[:first]]
-    if delimiter != "," and any("," in line for _, line in rows[first:]):
-        rows = [(number, _pointed(path, number, line) if k >= first else line) for k, (number, line) in enumerate(rows)]
-        remarks.append("Commas are taken for decimal points.")
-    width = len(_cells(rows[first][1], delimiter))
-    for (number, _), head in zip(rows[:first], heads, strict=True):
-        if len(head) != width:
-            raise InputError(
-                "another number of columns than the names above", place=Place(path, rows[first][0]),
-                found=f"{width}, names on line {number}: {len(head)}",
-                remedy="Are commas decimal points? Then put ; between the columns, or write points.",
-            )  # fmt: skip
-    names = [" ".join(parts) for parts in zip(*heads, strict=True)] if len(heads) == 1 else []
-    if len(heads) == 2:
-        names = [f"{name} [{unit.strip('[]()')}]" for name, unit in zip(*heads, strict=True)]
-    names = names or ["t", *(f"column {k}" for k in range(2, width + 1))]
-    numbers, lines = zip(*rows[first:], strict=True)
-    above = rows[0][0] if first else None
-    return Lines(path, tuple(names), numbers, _values(path, names, numbers, lines, delimiter), above)
+    body = _with_points(path, rows[first:], delimiter, remarks)
+    written, delimiter = delimiter, ";" if body is not rows and delimiter == "," and ";" in body[0][1] else delimiter
+    width = len(_cells(body[0][1], delimiter))
+    heads = rows[:first] or [
+        (number, line.partition(";")[0] if written == "," else line)
+        for number, line in comments[-1:] if number == rows[0][0] - 1
+    ]  # fmt: skip
+    if not rows[:first] and heads and len(_cells(heads[0][1], written)) != width:
+        heads = []
+    head, names, above = _names(path, heads, width, written, rows[first], asked is not None)
+    if above:
+        which = f"Line {above[0][0]} stands" if len(above) == 1 else f"Lines {above[0][0]} to {above[-1][0]} stand"
+        remarks.append(f"{which} above the names and {'is' if len(above) == 1 else 'are'} left out.")
+    if len(body) > 1 and len(_cells(body[-1][1], delimiter)) < width:
+        remarks.append(f"Line {body[-1][0]}, the last, is cut off and left out.")
+        body = body[:-1]
+    notes = [*comments, *above, *below]
+    for number, line in notes:
+        if (match := LOST.search(line)) and (lost := int(match[1] or match[2])):
+            remarks.append(f"Line {number} tells of {lost} overflows: samples are missing there, levels may be wrong.")
+    named = names is not None
+    names = names or [f"column {k}" for k in range(1, width + 1)]
+    values, clocks, empty = _values(path, names, body, delimiter)
+    if empty:
+        remarks.append(f"Without numbers, and left out: {', '.join(names[k] for k in sorted(empty))}.")
+    return Lines(
+        path, tuple(names), tuple(k for k, _ in body), values, head, named, clocks, empty, tuple(_rates(notes))
+    )
+
+
+def _without_trailer(rows: list[Row]) -> tuple[list[Row], list[Row]]:
+    """Rows, and the lines below the last row of numbers, if they are few."""
+    last = next((k for k in range(len(rows), max(len(rows) - MOST_BELOW, 1), -1) if _numeric(rows[k - 1][1])), 0)
+    return (rows[:last], rows[last:]) if last and _numeric(rows[last - 2][1]) else (rows, [])
+
+
+def _begins(rows: Sequence[Row], k: int, sign: str | None) -> bool:
+    """True for a row of numbers with as many cells as most of the rows that follow."""
+    if not _numeric(rows[k][1]):
+        return False
+    delimiter = sign or _delimiter(rows[k][1])
+    counts = [len(_cells(line, delimiter)) for _, line in rows[k : k + 9]]
+    return 2 * counts.count(counts[0]) > len(counts)
 
 
 def _numeric(line: str) -> bool:
-    """True if the first cell of a line is a number.
-
-    A comma before a digit may be a decimal point, or end the cell.
-    """
-    cell = re.split(r"[;\t]|,(?!\d)|\s", line.strip())[0].strip('"')
-    return re.fullmatch(r"[-+]?(\d+([.,]\d*)*|[.,]\d+)([eE][-+]?\d+(,.*)?)?", cell) is not None
+    """True if the first cell of a line that is not empty is a number, a date or a time of day."""
+    first = re.split(r"[;\t,|]", line.strip().lstrip(";,\t|"))[0].strip().strip('"').strip()
+    return NUMBER.fullmatch(first.split(" ")[0]) is not None or WHEN.match(first) is not None
 
 
 def _delimiter(line: str) -> str | None:
     """Delimiter of the cells in a row of numbers; None: blanks."""
-    if not re.search(r"[;\t]", line) and re.search(r"\d,\d.*[^,\s]\s+[^,\s]", line.strip()):
+    bare = re.sub(r'"[^"]*"', '""', line)
+    if not re.search(r"[;\t]", line) and re.search(r"\d,\d.*[^,\s]\s+[^,\s]", bare.strip()) and ":" not in line:
         return None  # commas are decimal points between blanks
-    return next((sign for sign in (";", "\t", ",") if sign in line), None)
+    return next((sign for sign in (";", "\t", ",", "|") if sign in bare), None)
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:
-    return line.strip().split(delimiter)
+    """Cells of a line, quoted ones as RFC 4180 has them."""
+    if delimiter is None:
+        return line.split()
+    cells = next(csv.reader([line.strip()], delimiter=delimiter)) if '"' in line else line.strip().split(delimiter)
+    return [cell.strip() for cell in cells]
+
+
+def _with_points(path: str, rows: list[Row], delimiter: str | None, remarks: list[str]) -> list[Row]:
+    """Rows whose numbers have decimal points; quoted cells with decimal commas are parted by semicolons."""
+    if delimiter == "," and any(re.search(r'"[^"]*\d,\d', line) for _, line in rows[:3]):
+        rows, delimiter = [(number, ";".join(_cells(line, ","))) for number, line in rows], ";"
+    if delimiter == "," or not any("," in line for _, line in rows):
+        return rows
+    remarks.append("Commas are taken for decimal points.")
+    return [(number, _pointed(path, number, line)) for number, line in rows]
 
 
 def _pointed(path: str, number: int, line: str) -> str:
-    if "." in line:
+    if "." in DATE.sub("", line):
         raise InputError("points and commas both stand for decimals", place=Place(path, number), found=line.strip())
     return line.replace(",", ".")
 
 
+def _names(
+    path: str, heads: Sequence[Row], width: int, delimiter: str | None, row: Row, parted: bool
+) -> tuple[int | None, list[str] | None, list[Row]]:
+    """Line of the names, the names with their units (None: the file has none), and the lines above that are neither."""
+    cells = [(head, _cells(head[1].rstrip(delimiter or ""), delimiter)) for head in heads]
+    full = [(head, each) for head, each in cells if len(each) == width]
+    if not full:
+        if heads:
+            raise InputError(
+                "another number of columns than the names above", place=Place(path, row[0]),
+                found=f"{width}, names on line {heads[-1][0]}: {len(cells[-1][1])}",
+                remedy="Correct the names, or leave out the lines above the numbers: --skip "
+                f"{row[0] - 1} (Python: skip=)." if parted or delimiter != "," else "Are commas decimal points? Then "
+                "put ; between the columns, or write points. Names of another number are left out by --skip "
+                f"{row[0] - 1} (Python: skip=).",
+            )  # fmt: skip
+        return None, None, []
+    units = full[-1][1] if len(full) > 1 and all(is_unit(each) for each in full[-1][1] if each) else None
+    choice = full[:-1] if units else full
+    head, names = next(
+        (each for each in reversed(choice) if any(column_of(name).is_time for name in each[1])), choice[-1]
+    )
+    if units:
+        bare = [re.sub(r"[\[\]()]", "", unit) for unit in units]
+        names = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, bare, strict=True)]
+    return head[0], names, [each for each in heads if each[0] < head[0]]
+
+
+def _rates(notes: Sequence[Row]) -> Iterator[Told]:
+    for number, line in notes:
+        for match in RATE.finditer(line):
+            sign = (match[2] or match[4] or "").lower()
+            yield Told(float(match[1] or match[3]) * (1000 if sign == "khz" else 1), number)
+
+
 def _values(
-    path: str, names: Sequence[str], numbers: Sequence[int], lines: Sequence[str], delimiter: str | None
-) -> NDArray[np.float64]:
-    """Numbers, row by row; the first cell that is none is told with its line and column."""
-    plain = [line.strip().replace('"', "") for line in lines]
+    path: str, names: Sequence[str], rows: Sequence[Row], delimiter: str | None
+) -> tuple[NDArray[np.float64], frozenset[int], frozenset[int]]:
+    """Numbers, row by row, columns of times of day [s], and columns without numbers (NaN)."""
+    plain = [line.replace('"', "") for _, line in rows]
     try:
         array = np.loadtxt(plain, delimiter=delimiter, ndmin=2, comments=None)
         if np.isfinite(array).all() and array.shape[1] == len(names):
-            return np.asarray(array, dtype=float)
+            return np.asarray(array, dtype=float), frozenset(), frozenset()
     except ValueError:
         pass
-    for number, line in zip(numbers, plain, strict=True):
-        cells = line.split(delimiter)
-        if len(cells) != len(names):
+    cells = [_cells(line, delimiter) for _, line in rows]
+    for (number, _), each in zip(rows, cells, strict=True):
+        if len(each) != len(names):
             raise InputError(
                 "another number of columns than before", place=Place(path, number),
-                found=f"{len(cells)}", allowed=f"{len(names)}",
+                found=f"{len(each)}", allowed=f"{len(names)}",
                 remedy="A row that was cut off, or commas as decimal points: put ; between the columns then.",
             )  # fmt: skip
-        for name, cell in zip(names, cells, strict=True):
-            _check_cell(Place(path, number, name), cell.strip())
-    raise InputError("the numbers cannot be read", place=Place(path, numbers[0]))
+    kinds = [[_kind(each[k]) for each in cells[:3]] for k in range(len(names))]
+    clocks = frozenset(k for k, kind in enumerate(kinds) if set(kind) == {"clock"})
+    empty = frozenset(k for k, kind in enumerate(kinds) if set(kind) <= {"word"})
+    values = np.full((len(rows), len(names)), np.nan)
+    for k, name in enumerate(names):
+        if k in empty:
+            continue
+        read: Callable[[Place, str], float] = _clock if k in clocks else _number
+        values[:, k] = [read(Place(path, rows[j][0], name), each[k]) for j, each in enumerate(cells)]
+        if k in clocks:
+            values[:, k] += 86400 * np.concatenate([[0], np.cumsum(np.diff(values[:, k]) < -43200)])
+    return values, clocks, empty
 
 
-def _check_cell(place: Place, cell: str) -> None:
+def _kind(cell: str) -> str:
+    return "number" if _is_number(cell) else "clock" if CLOCK.fullmatch(cell) else "word"
+
+
+def _is_number(cell: str) -> bool:
     try:
-        good = bool(np.isfinite(float(cell)))
+        return bool(np.isfinite(float(cell)))
     except ValueError:
-        good = False
-    if not good:
+        return cell.lower() in ("nan", "inf", "-inf")
+
+
+def _number(place: Place, cell: str) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        number = np.nan
+    if not np.isfinite(number):
         raise InputError("not a number", place=place, found=cell or "nothing", remedy="Every row needs every number.")
+    return number
 
 
-def rate_of(table: Lines, time: int, column: RecordingColumn) -> float:
-    """Samples a second of times that are equally spaced but for the rounding of their digits."""
-    t, path, count = table.values[:, time], table.path, len(table.values)
-
-    def place(row: int) -> Place:
-        return Place(path, table.numbers[row], column.name)
-
-    if count < 3:
-        raise InputError("too few rows", place=Place(path), found=f"{count}")
-    steps = np.diff(t)
-    back = np.flatnonzero(steps <= 0)
-    if len(back):
-        k = int(back[0]) + 1
-        raise InputError("the times do not ascend", place=place(k), found=f"{t[k]:.12g} after {t[k - 1]:.12g}")
-    usual = float(t[-1] - t[0]) / (count - 1)
-    stray = float(np.abs(t - np.linspace(t[0], t[-1], count)).max())
-    rounded = stray <= 1.01 * _resolution(t) <= 1.01 * usual and not _gaps(steps)
-    if stray > EVEN * usual and not rounded:
-        raise _uneven(steps, place)
-    return 1 / (usual * (column.unit or 1.0))
-
-
-def _resolution(t: NDArray[np.float64]) -> float:
-    """One unit of the last digit that the times are written with, decimals; 0 for more than nine."""
-    for digits in range(10):
-        scaled = t * 10.0**digits
-        if float(np.abs(scaled - np.round(scaled)).max()) < 1e-6 * max(1.0, float(np.abs(scaled).max()) * 1e-6):
-            return float(10.0**-digits)
-    return 0.0
-
-
-def _gaps(steps: NDArray[np.float64]) -> list[int]:
-    """Steps of time that are twice as wide as others or wider, if they are few."""
-    wide = np.flatnonzero(steps > 1.9 * float(np.median(steps)))
-    return [int(k) for k in wide] if len(wide) <= max(3, len(steps) // 1000) else []
-
-
-def _uneven(steps: NDArray[np.float64], place: Callable[[int], Place]) -> InputError:
-    """Fault in the steps of time: a gap, if they are alike but for few, or no fixed rate."""
-    usual, gaps = float(np.median(steps)), _gaps(steps)
-    if gaps:
-        k = gaps[0]
-        return InputError(
-            "a gap in the times", place=place(k + 1), found=f"{steps[k]:.6g} after steps of {usual:.6g}",
-            remedy="Cut the file there, and take its longest part.",
-        )  # fmt: skip
-    k = int(np.argmax(np.abs(steps - usual)))
-    return InputError(
-        "the times are not equally spaced", place=place(k + 1),
-        found=f"a step of {steps[k]:.6g} among steps of {usual:.6g}",
-        remedy="Record at a fixed rate, or write the times with more digits.",
-    )  # fmt: skip
+def _clock(place: Place, cell: str) -> float:
+    """Seconds of a time of day."""
+    match = CLOCK.fullmatch(cell)
+    if match is None:
+        raise InputError("not a time of day", place=place, found=cell or "nothing", remedy="Every row needs its time.")
+    whole, _, part = match[3].replace(",", ".").replace(":", ".").partition(".")
+    hours = int(match[1] or 0) % (12 if match[4] else 24) + (12 if (match[4] or "").lower() == "pm" else 0)
+    return 3600 * hours + 60 * int(match[2]) + float(f"{whole}.{part or 0}")

@@ -7,7 +7,7 @@ from typing import Final
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.recording_columns import MOTION, VOLTS, MotionQuantity
+from abu_calc.inputs.recording_columns import MOTION, VOLTS, MotionQuantity, plain_unit
 
 UNIT: Final = re.compile(r"(\S+?)\s*(?:/|\bper\b|_per_)\s*(.+)")
 ALLOWED: Final = "a number above 0 in mV per m/s², or with its unit: 10.2 mV/(m/s²), 100 mV/g, 20 mV/(mm/s)"
@@ -95,8 +95,8 @@ def _unit(text: str) -> tuple[MotionQuantity | None, float]:
     match = UNIT.fullmatch(text)
     if match is None:
         return None, 0.0
-    motion = match[2].strip().removeprefix("(").removesuffix(")").replace(" ", "")
-    if match[1] not in VOLTS or motion not in MOTION:
+    motion, volts = plain_unit(match[2].strip().removeprefix("(").removesuffix(")")), match[1].replace("µ", "u")
+    if volts not in VOLTS or motion not in MOTION:
         return None, 0.0
     quantity, size = MOTION[motion]
-    return quantity, VOLTS[match[1]] / size
+    return quantity, VOLTS[volts] / size

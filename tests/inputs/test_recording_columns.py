@@ -28,5 +28,5 @@ def test_a_name_tells_time(name: str, unit: float | None) -> None:
 ])  # fmt: skip
 def test_a_name_tells_handle_and_volts(name: str, handle: str, volts: float | None) -> None:
     column = column_of(name)
-    assert (column.handle, column.volts) == (handle, volts) and not column.is_time
+    assert (column.place, column.volts) == (handle, volts) and not column.is_time
     assert volts is None or column.unit is None

@@ -20,16 +20,19 @@ from abu_calc.standards.vibration import (
     largest_total_of_one_axis,
 )
 
+SAY_UNIT: Final = "Say the unit: --scale 9.80665 for numbers in g, --scale 1 for SI."
 LONGER: Final = "Record for longer, or sample faster."
 
 
-def level_checks(places: Sequence[PlaceLevels], minutes: float | None) -> tuple[Check, ...]:
+def level_checks(places: Sequence[PlaceLevels], minutes: float | None, assumed: str = "") -> tuple[Check, ...]:
     """Checks of the loudest place: each octave, the weighted overall level, and the daily exposure.
 
-    The daily exposure is checked if its minutes are given.
+    The daily exposure is checked if its minutes are given; `assumed`: a unit that nothing in the file tells.
     """
     octaves = (_octave(places, index) for index in range(len(places[0].loudest)))
-    return (*octaves, _corrected(places), *([] if minutes is None else [_exposure(places, minutes)]))
+    exposure = [] if minutes is None else [_exposure(places, minutes)]
+    unit = [coded("ABU414", "warn", assumed.partition(";")[0], remedy=SAY_UNIT)] if assumed else []
+    return (*octaves, _corrected(places), *exposure, *unit)
 
 
 def _octave(places: Sequence[PlaceLevels], index: int) -> Check:

@@ -41,6 +41,14 @@ def levels(
     from_s: Annotated[
         float | None, option("--from S", "Leave this many first seconds out of the means.", RECORDING)
     ] = None,
+    rate_hz: Annotated[
+        float | None, option("--rate HZ", "Samples a second of a file without a column of times.", RECORDING)
+    ] = None,
+    time: Annotated[
+        str | None,
+        option("--time COLUMN[:UNIT]", "Column of times, by name or number; its unit: s, ms, us, ns, min.", RECORDING),
+    ] = None,
+    skip: Annotated[int, option("--skip LINES", "Leave this many first lines out.", RECORDING)] = 0,
     sensitivity: Annotated[
         list[str] | None,
         option(
@@ -88,6 +96,9 @@ def levels(
             third_octaves=third_octaves,
             minutes=minutes,
             from_s=from_s,
+            rate_hz=rate_hz,
+            time=time,
+            skip=skip,
             start=start,
             accuracy=accuracy,
             duration_s=duration_s,

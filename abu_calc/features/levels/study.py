@@ -158,6 +158,9 @@ def levels(
     third_octaves: bool = False,
     minutes: float | None = None,
     from_s: float | None = None,
+    rate_hz: float | None = None,
+    time: str | None = None,
+    skip: int = 0,
     start: str | None = None,
     accuracy: float = 0.01,
     duration_s: float | None = None,
@@ -165,8 +168,8 @@ def levels(
 ) -> LevelsResult:
     """Levels of a recorded signal (a CSV or WAV file), or of a machine or scene that is simulated.
 
-    `quantity`, `scale`, `channels`, `sensitivity`, `handles`, `full_scale_mV`: how a file is to be taken, see
-    `read_recording`; `from_s`: where its means begin. `third_octaves`: levels by them beside octaves.
+    `quantity`, `scale`, `channels`, `sensitivity`, `handles`, `full_scale_mV`, `rate_hz`, `time`, `skip`: how a file is
+    to be taken, see `read_recording`; `from_s`: where its means begin. `third_octaves`: levels by them beside octaves.
     `scene`: of a machine, idle or grinding, from the `start` of its balls (bunched); `minutes`: of work a day, for
     A(8). Raises InputError with file, line and column, NotTrustworthyError where a simulation does not reach the
     accuracy.
@@ -177,16 +180,18 @@ def levels(
         file = str(source)
         if is_recording(file):
             source = read_recording(
-                file, quantity, scale, channels, sensitivity=sensitivity, handles=handles, full_scale_mV=full_scale_mV
-            )
-            quantity = scale = sensitivity = handles = full_scale_mV = None
-            channels = ()
+                file, quantity, scale, channels, sensitivity=sensitivity, handles=handles, full_scale_mV=full_scale_mV,
+                rate_hz=rate_hz, time=time, skip=skip,
+            )  # fmt: skip
+            quantity = scale = sensitivity = handles = full_scale_mV = rate_hz = time = None
+            channels, skip = (), 0
         else:
             source = read_any(file)
     if isinstance(source, Recording):
         _only_for("a machine", scene=scene, start=start, duration_s=duration_s)
         return _of_recording(source, minutes, from_s, thirds=third_octaves)
-    how_read = {"sensitivity": sensitivity, "handles": handles, "full_scale_mV": full_scale_mV, "from_s": from_s}
+    how_read = {"sensitivity": sensitivity, "handles": handles, "full_scale_mV": full_scale_mV, "from_s": from_s,
+                "rate_hz": rate_hz, "time": time, "skip": skip or None}  # fmt: skip
     _only_for("a recorded file", quantity=quantity, scale=scale, channels=channels or None, **how_read)
     one_of("scene", scene, SCENES)
     ACCURACY.check(accuracy)
@@ -221,7 +226,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
     return _result(
         Path(recorded.file).name,
         tuple(_place_level(place, minutes) for place in places),
-        checks=level_checks(places, minutes),
+        checks=level_checks(places, minutes, recorded.assumed),
         warnings=(*recorded.remarks, *_remarks(recorded, signals), *_unusual(loudest)),
         provenance=Provenance.today(recorded.file, recorded.sha256),
         source="recording",

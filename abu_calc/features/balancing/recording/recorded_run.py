@@ -7,9 +7,7 @@ the whole revolutions between the first passage and the last, evenly sampled or 
 right, mark.
 """
 
-import io
 import math
-import re
 from pathlib import Path
 from typing import Final
 
@@ -20,15 +18,14 @@ from abu_calc.features.balancing.recording.tachometer import LONGER, Edge, Passa
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.reading.sources import regular_file
+from abu_calc.inputs.recording_columns import column_of
+from abu_calc.inputs.recording_files import content_of
+from abu_calc.inputs.recording_table import decoded, table_of
 
 Array = NDArray[np.float64]
 
 
-LARGEST: Final = 300_000_000
-"""Bytes of the largest record that is read."""
 COLUMNS: Final = ("time", "left", "right", "mark")
-TIME: Final = re.compile(r"(time|t)\b|(time|t)[_ (\[]")
 REMEDY: Final = "a header time,left,right,mark; then a row for each sample, time in seconds"
 
 
@@ -47,93 +44,30 @@ def read_rig_record(path: Path) -> RigRecord:
 
     Points or, between semicolons, commas as decimal signs. Raises InputError with file, line and remedy.
     """
-    rows = [
-        (line, row) for line, row in enumerate(_text(path).splitlines(), 1) if row.strip() and row.strip()[0] != "#"
+    table = table_of(str(path), decoded(*content_of(path)), [])
+    place = Place(str(path), table.head)
+    if len(table.names) < len(COLUMNS):
+        raise InputError("too few columns", place=place, found=str(len(table.names)), allowed=REMEDY)
+    names, times = [name.lower() for name in table.names], [column_of(name) for name in table.names]
+    matches = [
+        [k for k, name in enumerate(names) if (times[k].is_time if column == "time" else name.startswith(column))]
+        for column in COLUMNS
     ]
-    if not rows:
-        raise InputError("the record is empty", place=Place(str(path)), allowed=REMEDY)
-    separator = next((sign for sign in ";\t," if sign in rows[0][1]), None)
-    if separator == ";":
-        rows = [(line, row.replace(",", ".")) for line, row in rows]
-    first = _split(rows[0][1], separator)
-    columns, scale, skip = _columns(first, path, rows[0][0])
-    table = _table(rows[skip:], separator, columns, path)
-    _check(table, rows[skip:], path)
-    return RigRecord(table[:, 0] * scale, table[:, 1], table[:, 2], table[:, 3])
-
-
-def _text(path: Path) -> str:
-    try:
-        return regular_file(path, LARGEST).decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise InputError("the record is not UTF-8 text", place=Place(str(path)), remedy="export it as CSV") from None
-
-
-def _split(row: str, separator: str | None) -> list[str]:
-    return [cell.strip().strip('"') for cell in row.split(separator)]
-
-
-def _columns(first: list[str], path: Path, line: int) -> tuple[tuple[int, ...], float, int]:
-    """The places of the four columns, seconds per unit of time, and how many rows the header takes."""
-    place = Place(str(path), line)
-    if len(first) < len(COLUMNS):
-        raise InputError("too few columns", place=place, found=str(len(first)), allowed=REMEDY)
-    if _is_number(first[0]):
-        return tuple(range(len(COLUMNS))), 1.0, 0
-    names = [name.lower() for name in first]
-    matches = [[k for k, name in enumerate(names) if _is(name, column)] for column in COLUMNS]
-    if len(names) == len(COLUMNS) and not any(matches[1:]):
+    if not table.named or (len(names) == len(COLUMNS) and not any(matches[1:])):
         matches = [[k] for k in range(len(COLUMNS))]  # names of another language: in the order asked for
     if any(len(each) != 1 for each in matches):
         raise InputError(
-            "columns are not told apart by their names", place=place, found=", ".join(first), allowed=REMEDY
+            "columns are not told apart by their names", place=place, found=", ".join(table.names), allowed=REMEDY
         )
-    time = names[matches[0][0]]
-    return tuple(each[0] for each in matches), 1e-3 if re.search(r"[_ (\[]ms\b", time) else 1.0, 1
-
-
-def _is(name: str, column: str) -> bool:
-    return bool(TIME.match(name)) if column == "time" else name.startswith(column)
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
-
-
-def _table(rows: list[tuple[int, str]], separator: str | None, columns: tuple[int, ...], path: Path) -> Array:
-    if not rows:
-        raise InputError("the record has no samples", place=Place(str(path)), allowed=REMEDY)
-    text = io.StringIO("\n".join(row for _, row in rows))
-    try:
-        return np.loadtxt(text, delimiter=separator, usecols=columns, ndmin=2, dtype=np.float64)
-    except ValueError:
-        for line, row in rows:
-            cells = _split(row, separator)
-            wrong = next((k for k in columns if k >= len(cells) or not _is_number(cells[k])), None)
-            if wrong is not None:
-                entry = cells[wrong] if wrong < len(cells) else f"{len(cells)} columns"
-                raise InputError(
-                    "not a number", place=Place(str(path), line), found=entry or "nothing", allowed=REMEDY
-                ) from None
-        raise
-
-
-def _check(table: Array, rows: list[tuple[int, str]], path: Path) -> None:
-    """Every number finite, time ascending."""
-    wrong = np.flatnonzero(~np.isfinite(table).all(axis=1))
-    if wrong.size:
-        line, row = rows[int(wrong[0])]
-        raise InputError("a finite number is expected", place=Place(str(path), line), found=row.strip()[:60])
-    back = np.flatnonzero(np.diff(table[:, 0]) <= 0)
+    time, left, right, mark = (table.values[:, each[0]] for each in matches)
+    back = np.flatnonzero(np.diff(time) <= 0)
     if back.size:
-        line, _ = rows[int(back[0]) + 1]
-        times = " after ".join(f"{value:.9g}" for value in table[[back[0] + 1, back[0]], 0])
-        remedy = "write time with more digits, if it stands still"
-        raise InputError("time does not go on", place=Place(str(path), line), found=times, remedy=remedy)
+        k = int(back[0]) + 1
+        raise InputError(
+            "time does not go on", place=Place(str(path), table.numbers[k]),
+            found=f"{time[k]:.9g} after {time[k - 1]:.9g}", remedy="write time with more digits, if it stands still",
+        )  # fmt: skip
+    return RigRecord(time * (times[matches[0][0]].unit or 1.0), left, right, mark)
 
 
 LEAST_REVOLUTIONS: Final = 3
