@@ -38,22 +38,20 @@ def levels(
         option("--scale FACTOR", "SI value (m/s², m/s, m) of one unit of the file; for WAV, of full scale.", RECORDING),
     ] = None,
     channels: Annotated[str | None, option("--channels 1,2|NAMES", "Columns or channels to use.", RECORDING)] = None,
-    from_s: Annotated[
-        float | None, option("--from S", "Leave this many first seconds out of the means.", RECORDING)
-    ] = None,
+    from_s: Annotated[float | None, option("--from S", "Leave the first seconds out of the means.", RECORDING)] = None,
     rate_hz: Annotated[
-        float | None, option("--rate HZ", "Samples a second of a file without a column of times.", RECORDING)
+        float | None, option("--rate HZ", "Samples a second of a file without times.", RECORDING)
     ] = None,
     time: Annotated[
         str | None,
-        option("--time COLUMN[:UNIT]", "Column of times, by name or number; its unit: s, ms, us, ns, min.", RECORDING),
+        option("--time COLUMN[:UNIT]", "Column of times; unit s, ms, us, ns or min.", RECORDING),
     ] = None,
-    skip: Annotated[int, option("--skip LINES", "Leave this many first lines out.", RECORDING)] = 0,
+    skip: Annotated[int | None, option("--skip LINES", "Leave this many first lines out.", RECORDING)] = None,
     sensitivity: Annotated[
         list[str] | None,
         option(
             "--sensitivity [CHANNEL=]VALUE",
-            'Sensitivity of a sensor recorded in V or mV: mV per m/s², or with its unit: "100 mV/g". Repeatable.',
+            'Sensitivity of a sensor in V or mV: mV per m/s², or "100 mV/g". Repeatable.',
             RECORDING,
         ),
     ] = None,
@@ -98,7 +96,7 @@ def levels(
             from_s=from_s,
             rate_hz=rate_hz,
             time=time,
-            skip=skip,
+            skip=skip or 0,
             start=start,
             accuracy=accuracy,
             duration_s=duration_s,
