@@ -13,8 +13,8 @@ MotionQuantity = Literal["acceleration", "velocity", "displacement"]
 QUANTITIES: Final[tuple[MotionQuantity, ...]] = ("acceleration", "velocity", "displacement")
 
 _TIMES: Final = (
-    (1.0, "s sec secs second seconds с сек"),
-    (1e-3, "ms msec millis millisecond milliseconds мс мсек"),
+    (1.0, "s sec secs second seconds с сек 秒"),
+    (1e-3, "ms msec msecs millis millisecond milliseconds мс мсек 毫秒"),
     (1e-6, "us usec micros microsecond microseconds мкс"),
     (1e-9, "ns nsec nanos nanosecond nanoseconds нс"),
     (60.0, "min minute minutes мин"),
@@ -22,11 +22,12 @@ _TIMES: Final = (
 TIME: Final = {unit: size for size, units in _TIMES for unit in units.split()}
 """Units of time as `plain_unit` writes them [s]."""
 _MOTIONS: Final[tuple[tuple[MotionQuantity, float, str], ...]] = (
-    ("acceleration", 1.0, "m/s2 m/s/s m_per_s2 ms-2 м/с2"),
+    ("acceleration", 1.0, "m/s2 m/s/s m_per_s2 ms-2 м/с2 ms2 m_s2 mps2 m.s-2"),
     ("acceleration", 1e-3, "mm/s2 mm_per_s2 мм/с2"),
-    ("acceleration", 1e-2, "cm/s2 см/с2"),
-    ("acceleration", GRAVITY, "g gn g0 g_n gs g's gforce"),
+    ("acceleration", 1e-2, "cm/s2 см/с2 gal"),
+    ("acceleration", GRAVITY, "g gn g0 g_n gs g's gforce g-force"),
     ("acceleration", 1e-3 * GRAVITY, "mg milli-g"),
+    ("acceleration", 1e-6 * GRAVITY, "ug"),
     ("velocity", 1.0, "m/s m_per_s ms-1 м/с"),
     ("velocity", 1e-3, "mm/s mm_per_s mms-1 мм/с"),
     ("velocity", 1e-6, "um/s um_per_s мкм/с"),
@@ -37,25 +38,25 @@ _MOTIONS: Final[tuple[tuple[MotionQuantity, float, str], ...]] = (
 )
 MOTION: Final = {unit: (quantity, size) for quantity, size, units in _MOTIONS for unit in units.split()}
 """Units of motion as `plain_unit` writes them: quantity, and the value in SI."""
-VOLTS: Final = {"V": 1.0, "mV": 1e-3, "uV": 1e-6, "В": 1.0, "мВ": 1e-3, "мкВ": 1e-6}
+VOLTS: Final = {"V": 1.0, "Volt": 1.0, "Volts": 1.0, "mV": 1e-3, "uV": 1e-6, "В": 1.0, "мВ": 1e-3, "мкВ": 1e-6}
 """Units of a column that a sensor's sensitivity turns into motion [V]."""
 _WORDS: Final[tuple[tuple[MotionQuantity, str], ...]] = (
     ("acceleration", "a ax ay az acc accx accy accz accel accelx accely accelz acceleration accelerometer gfx gfy gfz "
-     "beschleunigung schwingbeschleunigung accélération accelerazione aceleración ускорение виброускорение"),
+     "beschleunigung schwingbeschleunigung accélération accelerazione aceleración ускорение виброускорение 加速度"),
     ("velocity", "v vx vy vz vel velocity geschwindigkeit schwinggeschwindigkeit schnelle vitesse velocità velocidad "
-     "скорость виброскорость"),
+     "скорость виброскорость 速度"),
     ("displacement", "disp displacement weg auslenkung schwingweg déplacement spostamento desplazamiento перемещение "
      "виброперемещение"),
 )  # fmt: skip
 WORDS: Final = {word: quantity for quantity, words in _WORDS for word in words.split()}
 _TIME_WORDS: Final = (
     "t time times timestamp timestamps datetime date clock elapsed epoch zeit zeitstempel uhrzeit время temps "
-    "horodatage tempo tiempo czas tijd tid"
+    "horodatage tempo tiempo czas tijd tid 时间 時間"
 )
 TIMES: Final = frozenset(_TIME_WORDS.split())
 _COUNTS: Final = (
     "sample samples samplenumber n no nr # index idx i k count counter packet packetcounter packetid row line "
-    "frame messwert номер отсчёт отсчет"
+    "frame messwert 序号 номер отсчёт отсчет"
 )
 COUNTS: Final = frozenset(_COUNTS.split())
 """Words of a column that numbers the rows."""
@@ -70,7 +71,7 @@ RESULTANTS: Final = frozenset(_RESULTANTS.split())
 """Words of a column that holds the length of the vector whose components stand beside it."""
 AXIS: Final = re.compile(r"(ch(annel)?[\s_]*\d+|column \d+|(.*[\s_])?[xyz])", re.IGNORECASE)
 """Names of columns that may be axes though they tell no quantity."""
-AXIS_WORDS: Final = re.compile(r"(a|v|acc|accel|gf)?[xyz]|achse|axis|ось")
+AXIS_WORDS: Final = re.compile(r"(a|v|acc|accel|gf)?[xyz]|achse|axis|ось|轴")
 """Words of a column's name that say its axis."""
 _NO_HANDLE: Final = "signal sensor channel ch column vibration датчик канал linear lin user raw"
 NO_HANDLE: Final = WORDS.keys() | frozenset(_NO_HANDLE.split())
@@ -79,6 +80,10 @@ IMPERIAL: Final = frozenset({"in", "inch", "ips", "mil", "mils", "ft", "db"})
 """Units that are not read: imperial ones, and levels."""
 BRACKETS: Final = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]")
 RANGE: Final = re.compile(r"[±+\-/]*\d+(\.\d+)?g")
+BARE_RANGE: Final = re.compile(r"(?<=[\s_])[±+\-/]*\d+(?:\.\d+)?\s?[gG](?=$|[\s_])")
+STRANGE: Final = re.compile(r".*rms|counts?|cnts?|lsb|adc|digits?|raw|bits?|gal|.*g", re.IGNORECASE)
+"""Text in brackets that can only be a unit, and is none that is read."""
+FULL_WIDTH: Final = str.maketrans("（）［］，；：／", "()[],;:/")
 _PLAIN: Final = ((r"[\s·⋅*^()\[\]]", ""), ("²", "2"), ("⁻", "-"), ("¹", "1"), ("[µμ]", "u"), ("sec(?=2|$)", "s"))
 
 
@@ -117,7 +122,8 @@ def column_of(name: str) -> RecordingColumn:
     >>> column_of("X (40g)").unit, column_of("X (40g)").range, column_of("Linear Acceleration x (m/s^2)").place
     (None, '40g', '')
     """
-    word, unit, spread = _parted(name)
+    word, unit, spread = _parted(name.translate(FULL_WIDTH))
+    word = re.sub(r"([^\W\d_]*)([xyzXYZ])轴", r"\1 \2 ", word)
     parts = [part for part in re.split(r"[_\s.:,/-]+", word) if part]
     whole = WORDS.keys() | RESULTANTS
     words = [
@@ -128,7 +134,8 @@ def column_of(name: str) -> RecordingColumn:
     plain = plain_unit(unit)
     motion, volts = MOTION.get(plain), _volts(unit)
     unknown = unit if motion is None and volts is None and plain not in TIME else ""
-    spelled = next((TIME[part] for part in lower if part in TIME and len(part) > 1), None)  # "seconds_elapsed"
+    # "seconds_elapsed", but not a channel "NS"
+    spelled = next((TIME[part] for part in lower if part in TIME and len(part) > 3), None)
     timed = bool(TIMES & set(lower) or spelled) and not (unit or MARKS & set(lower))
     if plain in TIME or timed:
         return RecordingColumn(name, None, True, TIME.get(plain, spelled))
@@ -137,8 +144,12 @@ def column_of(name: str) -> RecordingColumn:
     joined, axes = "".join(lower), [part for part in lower if AXIS_WORDS.fullmatch(part)]
     worded: MotionQuantity | None = next((WORDS[part] for part in (*lower, joined) if part in WORDS), None)
     quantity, size = motion or (worded, None)
-    if quantity and not unit and any(part.startswith("gf") for part in lower):
-        size = GRAVITY  # apps name accelerations in g so
+    if "gravity" in lower:
+        quantity, size = None, None  # the pull that a phone has taken off
+    elif (
+        quantity == "acceleration" and not unit and any(part.startswith("gf") or part in ("g", "mg") for part in lower)
+    ):
+        size = 1e-3 * GRAVITY if "mg" in lower else GRAVITY  # gFx, acc_g_x
     resultant = bool(RESULTANTS & {*lower, joined}) and not axes
     place = " ".join(part for part in words if part.lower() not in NO_HANDLE and part.lower() not in axes
                      and not part.isdecimal()) if axes else ""  # fmt: skip
@@ -178,6 +189,8 @@ def _parted(name: str) -> tuple[str, str, str]:
         elif is_unit(text) or (not found and _can_only_be_unit(text)):
             found = text
         word = word.replace(match[0], " ")
+    if not spread and (bare := BARE_RANGE.search(word)):
+        spread, word = bare[0].strip(), word.replace(bare[0], " ")
     word = word.rstrip(" /,;_")
     if found:
         return word, found, spread
@@ -196,4 +209,5 @@ def _parted(name: str) -> tuple[str, str, str]:
 def _can_only_be_unit(text: str) -> bool:
     """True for text that is a quotient or an imperial unit."""
     plain = text.strip()
-    return ("/" in plain and ":" not in plain and len(plain) <= 12) or plain.lower() in IMPERIAL
+    quotient = "/" in plain and ":" not in plain and len(plain) <= 12
+    return quotient or plain.lower() in IMPERIAL or STRANGE.fullmatch(plain) is not None

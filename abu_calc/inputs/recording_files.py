@@ -25,9 +25,16 @@ from abu_calc.inputs.reading.plain import found_as
 from abu_calc.inputs.reading.sources import regular_file
 from abu_calc.inputs.recording import LARGEST as LARGEST_SAMPLE
 from abu_calc.inputs.recording import MOST_AXES, Recording, RecordingOptions, chosen, flat_tops, recording
-from abu_calc.inputs.recording_columns import QUANTITIES, MotionQuantity, RecordingColumn, column_of
+from abu_calc.inputs.recording_columns import (
+    MOTION,
+    QUANTITIES,
+    MotionQuantity,
+    RecordingColumn,
+    column_of,
+    plain_unit,
+)
 from abu_calc.inputs.recording_table import Lines, decoded, table_of
-from abu_calc.inputs.recording_time import RATE, timing
+from abu_calc.inputs.recording_time import RATE, rises, timing
 from abu_calc.inputs.sensitivity import Sensitivity, sensitivities, sensitivity_of
 
 
@@ -36,12 +43,18 @@ def csv_recording(path: str, content: bytes, asked: RecordingOptions) -> Recordi
     remarks: list[str] = []
     table = table_of(path, decoded(path, content), remarks, asked.skip)
     columns = [column_of(name) for name in table.names]
+    columns = [
+        replace(column, is_time=False, unit=None)
+        if column.is_time and not (k in table.clocks or rises(table, k))
+        else column
+        for k, column in enumerate(columns)
+    ]
     times = timing(table, columns, asked, remarks)
     table = replace(table, values=table.values[: times.rows], numbers=table.numbers[: times.rows])
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
     others = [k for k in range(len(columns)) if k != times.column]
     picked = _picked(table, columns, others, asked, remarks, simulated=simulated)
-    taken = [columns[k] for k in picked]
+    taken = [replace(columns[k], unit=None) if columns[k].is_time else columns[k] for k in picked]
     sensors = [_sensor(table, columns[k], others.index(k) + 1, asked) for k in picked]
     _all_used(path, asked, [column.name for column in taken], sensors, remarks)
     quantity = _quantity(path, taken, sensors, asked, remarks)
@@ -107,12 +120,16 @@ def _units(
         raise InputError(
             "a column with a unit that is not known", place=Place(table.path, table.head, strange.name),
             found=strange.unknown_unit, allowed="m/s², mm/s², g, mg, mm/s, m/s, µm, mm, mV, V and the like",
-            remedy="Convert the column, or give --scale: SI per unit of the file (Python: scale=).",
+            remedy="Convert the column, or give --scale, SI per unit of the file, with --quantity if it is no "
+            "acceleration (Python: scale=, quantity=).",
         )  # fmt: skip
-    size, assumed = 1.0, ""
+    size, assumed, told_by = 1.0, "", MOTION.get(plain_unit(table.unit))
     pull = math.hypot(*(float(table.values[:, k].mean()) for k in picked)) if len(picked) == MOST_AXES else 0.0
     told = [each for each in GRAVITIES if quantity == "acceleration" and abs(pull / each[0] - 1) < NEAR]
-    if told:
+    if told_by is not None and told_by[0] == quantity:
+        size = told_by[1]
+        remarks.append(f"{names} are taken in {table.unit}, as a line above tells.")
+    elif told:
         [(_, size, unit)] = told
         remarks.append(f"{names} name no unit; their means are one gravity in {unit}, so they are taken in {unit}.")
     elif ranged := next((column for column in unnamed if column.range), None):
@@ -191,7 +208,12 @@ def _picked(
 ) -> list[int]:  # fmt: skip
     """Columns to read of those beside the times: those asked for, else x and y of a trajectory, else what may move."""
     if asked.asked_channels:
-        return [others[k] for k in chosen(table.path, [columns[k].name for k in others], asked.asked_channels)]
+        # Columns without names are told by their number in the file.
+        names = [columns[k].name if table.named else f"{k + 1}" for k in others]
+        picked = [others[k] for k in chosen(table.path, names, asked.asked_channels)]
+        if blank := [columns[k].name for k in picked if k in table.empty | table.clocks]:
+            raise InputError("a channel holds no numbers", place=Place(table.path, table.head, blank[0]))
+        return picked
     if simulated:
         return [table.names.index("x_mm"), table.names.index("y_mm")]
     axes = [k for k in others if not (columns[k].is_time or columns[k].numbers_rows)
@@ -380,7 +402,7 @@ def _full_scale(
     return samples
 
 
-SUFFIXES: Final = (".csv", ".wav", ".txt", ".tsv", ".dat")
+SUFFIXES: Final = (".csv", ".wav", ".txt", ".tsv", ".dat", ".lvm", ".asc", ".log", ".prn")
 LARGEST: Final = 2**30
 """Bytes of a file that is read."""
 

@@ -13,25 +13,34 @@ from numpy.typing import NDArray
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.recording_columns import column_of, is_unit
+from abu_calc.inputs.recording_columns import MOTION, TIME, column_of, is_unit, plain_unit
 
 SEPARATOR: Final = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
 NUMBER: Final = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?")
 DAY: Final = r"(?:\d{4}[./-]\d\d?[./-]\d\d?|\d\d?[./-](?:\d\d?|[A-Za-z]{3})[./-]\d{2,4})"
-WHEN: Final = re.compile(rf"{DAY}|\d\d?:\d")
+WHEN: Final = re.compile(rf"{DAY}|\d\d?:\d|0x[0-9A-Fa-f]+$")
 CLOCK: Final = re.compile(
     rf"{DAY}?[T ]?\s*"
     r"(?:(\d{1,2}):)?(\d{1,2}):(\d{1,2}(?:[.,:]\d+)?)\s*([AaPp][Mm])?(?:Z|\s?[-+]\d\d:?\d\d)?"
 )
 """A time of day, with a date or without: hours, minutes, seconds."""
+SPAN: Final = re.compile(r"([-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)\s*(s|sec|seconds|ms|us|µs)")
+"""A time with its unit in the cell."""
 DATE: Final = re.compile(r"\d+\.\d+\.\d+")
+_NUMBER: Final = r"(\d{1,3}(?:,\d{3})+|\d+(?:\.\d+)?)"
 RATE: Final = re.compile(
-    r"(?:rate|freq\w*|\bfs|\bodr|частота\w*|abtast\w*)(?:[^\w.;,]*(?:\(?k?hz\)?|[а-я]+)?)[\W_]*?(\d+(?:\.\d+)?)\s*(k?hz\b)?"
-    r"|\b(\d+(?:\.\d+)?)\s*(k?hz|sps|гц)\b",
+    r"(?:(?<!baud )(?<!bit )\brate|sampl\w*[ _-]?(?:rate|freq\w*)|data_rate|\bfs\b|\bodr\b|abtast\w*|дискретизаци\w*)"
+    rf"(?:[^\w.]*k?hz)?[^\w]*{_NUMBER}\s*(k?hz|гц|кгц)?",
     re.IGNORECASE,
 )
-LOST: Final = re.compile(r"(?:overflows?|overruns?|dropped|lost|missed)\D{0,12}(\d+)|(\d+)\s+(?:overflow|overrun|lost)",
-                         re.IGNORECASE)  # fmt: skip
+BARE_RATE: Final = re.compile(rf"{_NUMBER}\s*(k?hz|sps|гц|кгц)", re.IGNORECASE)
+"""A rate that stands alone on its line, or behind the names of the columns."""
+LOST: Final = re.compile(r"(?:overflows?|overruns?|drops|dropped|lost|missed)\W{0,3}(\d+)", re.IGNORECASE)
+UNITS: Final = re.compile(r"(?:\bunits?|einheit\w*|единиц\w*|unités?)\b\W*(.+)", re.IGNORECASE)
+COMMENT: Final = re.compile(r"#+|//+|%+|;(?=[^;]*$|\w)")
+"""Signs with which lines begin that hold no data."""
+TRAILING: Final = frozenset({"", "comment", "comments", "note", "notes", "remark", "remarks"})
+"""Names of last columns that rows may leave out."""
 MOST_BELOW: Final = 20
 """Lines below the numbers, at most."""
 
@@ -48,7 +57,7 @@ class Lines:
     """Rows of numbers with their line numbers, and the names above them.
 
     `named`: whether the file names its columns; `clocks`: columns that were times of day [s]; `empty`: columns that
-    hold no numbers; `told`: rates that other lines tell.
+    hold no numbers; `told`: rates that other lines tell; `unit`: the one of the motion that another line tells.
     """
 
     path: str
@@ -61,6 +70,7 @@ class Lines:
     clocks: frozenset[int] = frozenset()
     empty: frozenset[int] = frozenset()
     told: tuple[Told, ...] = ()
+    unit: str = ""
 
 
 Row = tuple[int, str]
@@ -83,28 +93,27 @@ def decoded(path: str, content: bytes) -> str:
 
 def table_of(path: str, text: str, remarks: list[str], skip: int = 0) -> Lines:
     """Names and numbers; `skip`: lines at the beginning that are left out. Remarks tell what is left out beside."""
-    lines = [(k, line) for k, line in enumerate(text.splitlines(), 1) if k > skip and line.strip()]
+    lines = list(_physical(text, skip))
     asked = SEPARATOR.fullmatch(lines[0][1].strip()) if lines else None
-    lines = lines[1:] if asked else lines
-    comments = [(k, line.lstrip("#").strip()) for k, line in lines if line.startswith("#")]
-    rows = [(k, line) for k, line in lines if not line.startswith("#")]
-    rows, below = _without_trailer(rows)
-    first = next((k for k in range(len(rows)) if _begins(rows, k, asked and asked[1])), None)
+    sign, lines = (asked[1], lines[1:]) if asked else (None, lines)
+    comments = [(k, COMMENT.sub("", line, count=1).strip()) for k, line in lines if COMMENT.match(line)]
+    rows, below = _without_trailer([each for each in lines if not COMMENT.match(each[1])])
+    first = next((k for k in range(len(rows)) if _begins(rows, k, sign)), None)
     if first is None:
-        raise InputError("no row of numbers", place=Place(path), remedy="Columns: time, and what moved.")
-    delimiter = asked[1] if asked and asked[1] in rows[first][1] else _delimiter(rows[first][1])
-    if delimiter and all(line.rstrip().endswith(delimiter) for _, line in rows[first : first + 3]):
-        rows = [(number, line.rstrip().removesuffix(delimiter)) for number, line in rows]
-    body = _with_points(path, rows[first:], delimiter, remarks)
-    written, delimiter = delimiter, ";" if body is not rows and delimiter == "," and ";" in body[0][1] else delimiter
+        found = rows[0] if rows else (None, "")
+        raise InputError(
+            "no row of numbers", place=Place(path, found[0]), found=found[1].strip()[:60] or None,
+            remedy="Columns of numbers are read: time, and what moved. Lines above them may be left out: --skip N.",
+        )  # fmt: skip
+    written = sign if sign and sign in rows[first][1] else _delimiter(rows[first][1])
+    heads = rows[:first] or _commented(comments, rows[0], written)
+    rows = rows[first:]
+    if written and all(line.rstrip().endswith(written) for _, line in rows[:3]):
+        rows = _without_last(rows, heads, written)
+    body = _with_points(path, rows, written, remarks)
+    delimiter = ";" if body is not rows and written == "," and ";" in body[0][1] else written
     width = len(_cells(body[0][1], delimiter))
-    heads = rows[:first] or [
-        (number, line.partition(";")[0] if written == "," else line)
-        for number, line in comments[-1:] if number == rows[0][0] - 1
-    ]  # fmt: skip
-    if not rows[:first] and heads and len(_cells(heads[0][1], written)) != width:
-        heads = []
-    head, names, above = _names(path, heads, width, written, rows[first], asked is not None)
+    head, names, above = _names(path, heads, width, written, body[0], asked is not None)
     if above:
         which = f"Line {above[0][0]} stands" if len(above) == 1 else f"Lines {above[0][0]} to {above[-1][0]} stand"
         remarks.append(f"{which} above the names and {'is' if len(above) == 1 else 'are'} left out.")
@@ -113,16 +122,57 @@ def table_of(path: str, text: str, remarks: list[str], skip: int = 0) -> Lines:
         body = body[:-1]
     notes = [*comments, *above, *below]
     for number, line in notes:
-        if (match := LOST.search(line)) and (lost := int(match[1] or match[2])):
-            remarks.append(f"Line {number} tells of {lost} overflows: samples are missing there, levels may be wrong.")
-    named = names is not None
-    names = names or [f"column {k}" for k in range(1, width + 1)]
-    values, clocks, empty = _values(path, names, body, delimiter)
+        if lost := sum(int(count) for count in LOST.findall(line)):
+            remarks.append(f"Line {number} tells of {lost} lost samples or overflows: levels may be wrong.")
+    shown = names or [f"column {k}" for k in range(1, width + 1)]
+    values, clocks, empty = _values(path, shown, body, delimiter)
     if empty:
-        remarks.append(f"Without numbers, and left out: {', '.join(names[k] for k in sorted(empty))}.")
+        remarks.append(f"Without numbers, and left out: {', '.join(shown[k] for k in sorted(empty))}.")
     return Lines(
-        path, tuple(names), tuple(k for k, _ in body), values, head, named, clocks, empty, tuple(_rates(notes))
-    )
+        path, tuple(shown), tuple(k for k, _ in body), values, head, names is not None, clocks, empty,
+        tuple(_rates(notes, heads)), _unit_told(notes),
+    )  # fmt: skip
+
+
+MOST_JOINED: Final = 5
+
+
+def _physical(text: str, skip: int) -> Iterator[Row]:
+    """Lines that are not empty; one whose quotes are open goes on in the next, as spreadsheets write names."""
+    joined, begun = "", 0
+    for number, line in enumerate(text.splitlines(), 1):
+        if number <= skip or not line.strip():
+            continue
+        if joined or (line.count('"') % 2 and number <= skip + MOST_JOINED):
+            joined, begun = f"{joined} {line}" if joined else line, begun or number
+            if joined.count('"') % 2 and number < begun + MOST_JOINED:
+                continue
+            yield begun, joined
+            joined, begun = "", 0
+        else:
+            yield number, line
+
+
+def _commented(comments: Sequence[Row], row: Row, delimiter: str | None) -> list[Row]:
+    """Names, and maybe their units, that stand in the comments just above the numbers."""
+    width, heads = len(_cells(row[1], delimiter)), list[Row]()
+    for number, line in reversed(comments[-2:]):
+        own = line.partition(";")[0] if delimiter == "," else line
+        cells = _cells(own, delimiter)
+        if len(cells) == width + 1 and cells[0].lower() in ("headers", "header", "columns", "columns:"):
+            own = own.partition(delimiter or " ")[2]
+        if number != row[0] - 1 - len(heads) or len(_cells(own, delimiter)) != width:
+            break
+        heads.insert(0, (number, own))
+    return heads
+
+
+def _without_last(rows: list[Row], heads: Sequence[Row], delimiter: str) -> list[Row]:
+    """Rows without the sign at their end, unless names stand for the empty cell behind it."""
+    width = len(_cells(rows[0][1].rstrip("\n"), delimiter))
+    if any(len(_cells(line, delimiter)) == width and not line.rstrip().endswith(delimiter) for _, line in heads):
+        return rows
+    return [(number, line.rstrip().removesuffix(delimiter)) for number, line in rows]
 
 
 def _without_trailer(rows: list[Row]) -> tuple[list[Row], list[Row]]:
@@ -174,7 +224,10 @@ def _with_points(path: str, rows: list[Row], delimiter: str | None, remarks: lis
 
 def _pointed(path: str, number: int, line: str) -> str:
     if "." in DATE.sub("", line):
-        raise InputError("points and commas both stand for decimals", place=Place(path, number), found=line.strip())
+        raise InputError(
+            "points and commas both stand for decimals", place=Place(path, number), found=line.strip()[:60],
+            remedy="Write decimals in one way, and no signs between thousands.",
+        )  # fmt: skip
     return line.replace(",", ".")
 
 
@@ -182,7 +235,7 @@ def _names(
     path: str, heads: Sequence[Row], width: int, delimiter: str | None, row: Row, parted: bool
 ) -> tuple[int | None, list[str] | None, list[Row]]:
     """Line of the names, the names with their units (None: the file has none), and the lines above that are neither."""
-    cells = [(head, _cells(head[1].rstrip(delimiter or ""), delimiter)) for head in heads]
+    cells = [(head, _head_cells(head[1], width, delimiter)) for head in heads]
     full = [(head, each) for head, each in cells if len(each) == width]
     if not full:
         if heads:
@@ -195,22 +248,53 @@ def _names(
                 f"{row[0] - 1} (Python: skip=).",
             )  # fmt: skip
         return None, None, []
-    units = full[-1][1] if len(full) > 1 and all(is_unit(each) for each in full[-1][1] if each) else None
-    choice = full[:-1] if units else full
-    head, names = next(
-        (each for each in reversed(choice) if any(column_of(name).is_time for name in each[1])), choice[-1]
-    )
+    alike = all(is_unit(each) for each in full[-1][1] if each)
+    if alike and len(full) == 1:  # units and no names
+        full.insert(0, (full[0][0], [f"column {k}" for k in range(1, width + 1)]))
+    units = full[-1][1] if alike else None
+    head, names = max(full[:-1] if units else full, key=lambda each: (_known(each[1]), each[0][0]))
     if units:
         bare = [re.sub(r"[\[\]()]", "", unit) for unit in units]
         names = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, bare, strict=True)]
     return head[0], names, [each for each in heads if each[0] < head[0]]
 
 
-def _rates(notes: Sequence[Row]) -> Iterator[Told]:
+def _head_cells(line: str, width: int, delimiter: str | None) -> list[str]:
+    """Cells of a line above the numbers, parted by their sign or by another; names of cells that rows leave out go."""
+    kept = [each for each in (delimiter, "\t", ";", ",") if each or delimiter is None]
+    ways = [_cells(line, each) for each in kept]
+    cells = next((way for way in ways if len(way) == width), ways[0])
+    while len(cells) > width and cells[-1].lower() in TRAILING:
+        cells = cells[:-1]
+    return cells
+
+
+def _known(names: Sequence[str]) -> int:
+    """How many names tell time or motion, all times as one."""
+    columns = [column_of(name) for name in names]
+    motions = sum(column.quantity is not None or column.volts is not None or column.may_be_axis for column in columns)
+    return motions + any(column.is_time or column.numbers_rows for column in columns)
+
+
+def _rates(notes: Sequence[Row], heads: Sequence[Row]) -> Iterator[Told]:
+    """Rates that lines tell in so many words, or that stand alone, or behind the names."""
+    names = {number for number, _ in heads}
     for number, line in notes:
-        for match in RATE.finditer(line):
-            sign = (match[2] or match[4] or "").lower()
-            yield Told(float(match[1] or match[3]) * (1000 if sign == "khz" else 1), number)
+        behind = line.rpartition(";")[2].strip() if number in names else ""
+        match = RATE.search(line) or BARE_RATE.fullmatch(line.strip()) or BARE_RATE.fullmatch(behind)
+        if match and "decimat" not in line.lower():
+            size = 1000 if (match[2] or "").lower() in ("khz", "кгц") else 1
+            yield Told(float(match[1].replace(",", "")) * size, number)
+
+
+def _unit_told(notes: Sequence[Row]) -> str:
+    """The unit of the motion that a line tells; empty if none does, or several do."""
+    found = {
+        part
+        for _, line in notes if (match := UNITS.search(line))
+        for part in re.split(r"[,;\t ]+", match[1]) if plain_unit(part) in MOTION
+    }  # fmt: skip
+    return found.pop() if len(found) == 1 else ""
 
 
 def _values(
@@ -247,7 +331,7 @@ def _values(
 
 
 def _kind(cell: str) -> str:
-    return "number" if _is_number(cell) else "clock" if CLOCK.fullmatch(cell) else "word"
+    return "number" if _is_number(cell) else "clock" if CLOCK.fullmatch(cell) or SPAN.fullmatch(cell) else "word"
 
 
 def _is_number(cell: str) -> bool:
@@ -269,6 +353,9 @@ def _number(place: Place, cell: str) -> float:
 
 def _clock(place: Place, cell: str) -> float:
     """Seconds of a time of day."""
+    span = SPAN.fullmatch(cell)
+    if span is not None:
+        return float(span[1]) * TIME[plain_unit(span[2])]
     match = CLOCK.fullmatch(cell)
     if match is None:
         raise InputError("not a time of day", place=place, found=cell or "nothing", remedy="Every row needs its time.")

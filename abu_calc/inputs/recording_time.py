@@ -1,6 +1,6 @@
 """Samples a second of a recording: from its column of times, from what its other lines tell, or as asked for."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Final, NamedTuple
 
@@ -23,6 +23,12 @@ SLOWEST: Final = 10.0
 """Samples a second below which times without a unit are hardly seconds."""
 EPOCH: Final = (1e9, 4e9)
 """Seconds since 1970 between which recordings begin."""
+DAYS: Final = (2e4, 8e5)
+"""Days that spreadsheets count, since 1900 or the year 0, between which recordings begin."""
+FASTEST: Final = 1e6
+"""Samples a second above which such numbers are days, not seconds."""
+AGREES: Final = 0.05
+RISING: Final = 0.9
 RATE: Final = Range("rate", 0.0, 1e7, "Hz", open_low=True, key="rate_hz")
 REMEDY: Final = (
     "Give the samples a second: --rate HZ; or the column of times with its unit: --time COLUMN:ms (Python: rate_hz=, "
@@ -44,12 +50,22 @@ def timing(table: Lines, columns: Sequence[RecordingColumn], asked: RecordingOpt
     Raises InputError where nothing tells them, or they are not equally spaced.
     """
     column = _column(table, columns, asked)
+    if column is not None and column[0] in table.empty:
+        raise InputError(
+            "the column of times holds no numbers",
+            place=Place(table.path, table.numbers[0], column[1].name),
+            remedy=REMEDY,
+        )
+    rates = {told.rate: told.line for told in table.told if told.rate > 0}
     if asked.rate is not None:
         return Timing(asked.rate, column and column[0], len(table.values))
     if column is not None and not column[1].numbers_rows:
         per_unit, rows = rate_of(table, *column, remarks)
-        return Timing(per_unit / _unit(table, *column, per_unit, remarks), column[0], rows)
-    rates = {told.rate: told.line for told in table.told if told.rate > 0}
+        rate = per_unit / _unit(table, *column, per_unit, rates, remarks)
+        for other, line in rates.items():
+            if abs(rate / other - 1) > AGREES and "equested" not in "".join(remarks):
+                remarks.append(f"The times tell {rate:.4g} samples a second, line {line} {other:g}: the times count.")
+        return Timing(rate, column[0], rows)
     if len(rates) != 1:
         raise InputError(
             "no column of time", place=Place(table.path, table.head),
@@ -73,12 +89,14 @@ def _column(
         [index] = chosen(table.path, table.names, [name or unit])
         size = TIME[plain_unit(unit)] if name and unit else columns[index].unit
         return index, replace(columns[index], is_time=True, unit=size, numbers_rows=False)
-    times = [k for k, column in enumerate(columns) if (column.is_time or k in table.clocks) and k not in table.empty]
+    times = [k for k, column in enumerate(columns) if (column.is_time or k in table.clocks) and rises(table, k)]
+    if not times and table.names[0].lower() == "x_value" and not {"Y_Value", "Y_value"} & set(table.names):
+        return 0, replace(columns[0], is_time=True, unit=1.0)
     if times:
         index = next((k for k in times if columns[k].unit is not None), times[0])
         return index, columns[index]
     t = table.values[:, 0]
-    rising = len(t) > 1 and bool((np.diff(t) > 0).all())
+    rising = len(t) > 1 and bool((np.diff(t) > 0).all()) and 0 not in table.empty
     numbered = next((k for k, column in enumerate(columns) if column.numbers_rows), None)
     if numbered is not None:
         return numbered, columns[numbered]
@@ -87,20 +105,34 @@ def _column(
     return 0, replace(columns[0], is_time=True, numbers_rows=bool((np.diff(t) == 1).all()))
 
 
-def _unit(table: Lines, index: int, column: RecordingColumn, per_unit: float, remarks: list[str]) -> float:
+def rises(table: Lines, index: int) -> bool:
+    """True for a column whose numbers hardly ever fall, as times do."""
+    return index not in table.empty and float(np.mean(np.diff(table.values[:, index]) >= 0)) > RISING
+
+
+def _unit(
+    table: Lines, index: int, column: RecordingColumn, per_unit: float, rates: Mapping[float, int], remarks: list[str]
+) -> float:
     """Seconds of one unit of the times. Refused where the name tells none and they are hardly seconds."""
     if column.unit is not None or index in table.clocks:
         return column.unit or 1.0
     first = float(table.values[0, index])
     since = next((size for size in (1.0, 1e-3, 1e-6, 1e-9) if EPOCH[0] < first * size < EPOCH[1]), None)
+    if since is None and DAYS[0] < first < DAYS[1] and per_unit > FASTEST:
+        remarks.append(f"{column.name} counts days, as spreadsheets do.")
+        return 86400.0
     if since is not None:
         remarks.append(f"{column.name} counts units of {since:g} s since 1970.")
         return since
     if per_unit < SLOWEST:
+        if len(rates) == 1:
+            [(rate, line)] = rates.items()
+            remarks.append(f"{column.name} names no unit: {rate:g} samples a second, as line {line} tells.")
+            return per_unit / rate
         raise InputError(
             "the unit of the times is not named", place=Place(table.path, table.head, column.name),
-            found=f"{per_unit:.4g} samples a second, if they are seconds", remedy=f'Name it: --time "{column.name}:ms" '
-            "or us, ns (Python: time=).",
+            found=f"{per_unit:.4g} samples a second, if they are seconds", remedy=f'Name it, such as --time "'
+            f'{column.name}:ms", or give the samples a second: --rate HZ (Python: time=, rate_hz=).',
         )  # fmt: skip
     return 1.0
 
@@ -131,7 +163,10 @@ def rate_of(table: Lines, time: int, column: RecordingColumn, remarks: list[str]
     back = np.flatnonzero(steps < 0 if coarse else steps <= 0)
     if len(back):
         k = int(back[0]) + 1
-        raise InputError("the times do not ascend", place=place(k), found=f"{t[k]:.12g} after {t[k - 1]:.12g}")
+        raise InputError(
+            "the times do not ascend", place=place(k), found=f"{t[k]:.12g} after {t[k - 1]:.12g}",
+            remedy="Another column: --time NAME. Without the times: --rate HZ (Python: time=, rate_hz=).",
+        )  # fmt: skip
     if coarse:
         return _coarse_rate(table, column, t, fine, remarks), count
     stray = float(np.abs(t - np.linspace(t[0], t[-1], count)).max())
@@ -158,8 +193,8 @@ def _coarse_rate(
 
 
 def _resolution(t: NDArray[np.float64]) -> float:
-    """One unit of the last digit that the times are written with, decimals; 0 for more than nine."""
-    for digits in range(10):
+    """One unit of the last digit that the times are written with, decimals; 0 for more than twelve."""
+    for digits in range(13):
         scaled = t * 10.0**digits
         if float(np.abs(scaled - np.round(scaled)).max()) < 1e-6 * max(1.0, float(np.abs(scaled).max()) * 1e-6):
             return float(10.0**-digits)
@@ -185,5 +220,5 @@ def _uneven(steps: NDArray[np.float64], place: Callable[[int], Place]) -> InputE
     return InputError(
         "the times are not equally spaced", place=place(k + 1),
         found=f"a step of {steps[k]:.6g} among steps of {usual:.6g}",
-        remedy="Record at a fixed rate, or write the times with more digits.",
+        remedy="Record at a fixed rate, or write more digits. If the rate was fixed: --rate HZ (Python: rate_hz=).",
     )  # fmt: skip

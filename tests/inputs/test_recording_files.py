@@ -100,7 +100,7 @@ def changed(index: int, row: str) -> list[str]:
     (changed(500, "0.100000,1.0"), 502, "t_s", "do not ascend"),
     (changed(500, "0.500400,1.0"), 502, "t_s", "not equally spaced"),
     (ROWS[:500] + ROWS[520:], 502, "t_s", "a gap"), (ROWS[:500] + ROWS[501:], 502, "t_s", "a gap"),
-    (ROWS[:2], None, None, "too few rows"), (["time,what"], None, None, "no row of numbers"),
+    (ROWS[:2], None, None, "too few rows"), (["time,what"], 1, None, "no row of numbers"),
 ])  # fmt: skip
 def test_wrong_rows_are_told_with_line_and_column(
     tmp_path: Path, rows: list[str], line: int | None, column: str | None, word: str

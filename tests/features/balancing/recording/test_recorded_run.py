@@ -194,7 +194,7 @@ def test_records_of_many_hands(tmp_path: Path, header: str, sign: str, comma: bo
         ("", "empty", None),
         ("time,left,right\n1,2,3\n", "too few columns", 1),
         ("time,left,left,mark\n1,2,3,4\n", "told apart", 1),
-        ("time,left,right,mark\n", "no row of numbers", None),
+        ("time,left,right,mark\n", "no row of numbers", 1),
         ("0,1,2,3\n1,2,x,4\n", "not a number", 2),
         ("0,1,2,3\n1,2,3\n2,3,4,5\n", "number of columns", 2),
         ("0,1,2,3\n1,2,nan,4\n", "not a number", 2),
