@@ -127,7 +127,8 @@ def chosen(path: str, names: Sequence[str], channels: Sequence[str]) -> list[int
     """Indices of the columns or channels asked for, by name or by number from 1."""
     indices = []
     for asked in channels:
-        index = names.index(asked) if asked in names else int(asked) - 1 if asked.isdecimal() else -1
+        counted = asked.isdecimal() and not all(name.isdecimal() for name in names)
+        index = names.index(asked) if asked in names else int(asked) - 1 if counted else -1
         if not 0 <= index < len(names):
             raise InputError(
                 "no such channel", place=Place(path), found=asked,

@@ -84,7 +84,15 @@ BARE_RANGE: Final = re.compile(r"(?<=[\s_])[±+\-/]*\d+(?:\.\d+)?\s?[gG](?=$|[\s
 STRANGE: Final = re.compile(r".*rms|counts?|cnts?|lsb|adc|digits?|raw|bits?|gal|.*g", re.IGNORECASE)
 """Text in brackets that can only be a unit, and is none that is read."""
 FULL_WIDTH: Final = str.maketrans("（）［］，；：／", "()[],;:/")
-_PLAIN: Final = ((r"[\s·⋅*^()\[\]]", ""), ("²", "2"), ("⁻", "-"), ("¹", "1"), ("[µμ]", "u"), ("sec(?=2|$)", "s"))
+_PLAIN: Final = (
+    (r"[\s·⋅*^()\[\]]", ""),
+    ("(?<=/s)(Â²|�|\\?)", "2"),
+    ("²", "2"),
+    ("⁻", "-"),
+    ("¹", "1"),
+    ("[µμ]", "u"),
+    ("sec(?=2|$)", "s"),
+)
 
 
 @dataclass(frozen=True)

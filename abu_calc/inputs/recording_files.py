@@ -402,7 +402,7 @@ def _full_scale(
     return samples
 
 
-SUFFIXES: Final = (".csv", ".wav", ".txt", ".tsv", ".dat", ".lvm", ".asc", ".log", ".prn")
+SUFFIXES: Final = (".csv", ".wav", ".txt", ".tsv", ".dat", ".lvm", ".asc", ".log", ".prn", ".xlsx", ".mat", ".tdms")
 LARGEST: Final = 2**30
 """Bytes of a file that is read."""
 

@@ -29,11 +29,16 @@ SPAN: Final = re.compile(r"([-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)\s*(s|sec|second
 DATE: Final = re.compile(r"\d+\.\d+\.\d+")
 _NUMBER: Final = r"(\d{1,3}(?:,\d{3})+|\d+(?:\.\d+)?)"
 RATE: Final = re.compile(
-    r"(?:(?<!baud )(?<!bit )\brate|sampl\w*[ _-]?(?:rate|freq\w*)|data_rate|\bfs\b|\bodr\b|abtast\w*|дискретизаци\w*)"
-    rf"(?:[^\w.]*k?hz)?[^\w]*{_NUMBER}\s*(k?hz|гц|кгц)?",
+    r"(?:(?<!baud )(?<!bit )\brate|sampl\w*?[ _-]?(?:rate|freq\w*)|data_rate|\bfs\b|\bodr\b|abtast\w*|дискретизаци\w*|"
+    rf"échantillonnage|采样\w*)(?:[\W_]*(?:k?hz|гц|кгц))?[\W_]*{_NUMBER}\s*(k?hz|гц|кгц)?",
     re.IGNORECASE,
 )
-BARE_RATE: Final = re.compile(rf"{_NUMBER}\s*(k?hz|sps|гц|кгц)", re.IGNORECASE)
+INTERVAL: Final = re.compile(
+    r"(?:sampl\w*[ _-]?(?:period|interval)|\bdt\b|delta_x)\W*(?:(s|ms|us|µs)\b\W*)?(\d+(?:\.\d+)?(?:e[-+]?\d+)?)\s*"
+    r"(s|ms|us|µs)?\b",
+    re.IGNORECASE,
+)
+BARE_RATE: Final = re.compile(rf"{_NUMBER}\s*(k?hz|k?sps|k?sa/s|гц|кгц)", re.IGNORECASE)
 """A rate that stands alone on its line, or behind the names of the columns."""
 LOST: Final = re.compile(r"(?:overflows?|overruns?|drops|dropped|lost|missed)\W{0,3}(\d+)", re.IGNORECASE)
 UNITS: Final = re.compile(r"(?:\bunits?|einheit\w*|единиц\w*|unités?)\b\W*(.+)", re.IGNORECASE)
@@ -81,9 +86,12 @@ def decoded(path: str, content: bytes) -> str:
     """Text of a file in UTF-8, UTF-16 or a Windows code page. Raises InputError for what is no text."""
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return content.decode("utf-16", errors="replace")
+    if content[:2] == b"PK":
+        raise InputError("a workbook or another packed file", place=Place(path), remedy="Save it as CSV.")
     if b"\0" in content[:4096]:
         line = content[: content.index(b"\0")].count(b"\n") + 1
-        raise InputError("neither a table of text nor a WAV file", place=Place(path, line), found="a byte of zeros")
+        raise InputError("neither a table of text nor a WAV file", place=Place(path, line), found="a byte of zeros",
+                         remedy="Export it as CSV.")  # fmt: skip
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -283,8 +291,11 @@ def _rates(notes: Sequence[Row], heads: Sequence[Row]) -> Iterator[Told]:
         behind = line.rpartition(";")[2].strip() if number in names else ""
         match = RATE.search(line) or BARE_RATE.fullmatch(line.strip()) or BARE_RATE.fullmatch(behind)
         if match and "decimat" not in line.lower():
-            size = 1000 if (match[2] or "").lower() in ("khz", "кгц") else 1
+            size = 1000 if (match[2] or "").lower()[:1] in ("k", "к") else 1
             yield Told(float(match[1].replace(",", "")) * size, number)
+        elif step := INTERVAL.search(line):
+            seconds = float(step[2]) * TIME[plain_unit(step[1] or step[3] or "s")]
+            yield Told(round(1 / seconds, 6) if seconds else 0.0, number)
 
 
 def _unit_told(notes: Sequence[Row]) -> str:
