@@ -51,6 +51,16 @@ class RollingBearing(Table):
     radial_load_kN: float | None = entry(None, ge=0, le=1e5, usual=(0.01, 300), example=0.8).means(
         "Radial load [kN]; {range}. Without it whether a ring creeps is not known."
     )
+    cutting_force_N: float | None = entry(None, ge=0, le=1e8, usual=(10, 1e5), example=4100.0).means(
+        "Cutting force of the process [N]; {range}. With normal_to_cutting_ratio and bearings_sharing it gives the "
+        "radial load, in place of radial_load_kN."
+    )
+    normal_to_cutting_ratio: float | None = entry(None, ge=0, le=100, usual=(0.2, 5), example=2.8).means(
+        "Force normal to the work over the cutting force; {range}, in grinding 1.5 … 3. Default: 2.8, assumed."
+    )
+    bearings_sharing: int | None = entry(None, ge=1, le=100, usual=(1, 4), example=4).means(
+        "Number of bearings that share the load of the process alike; {range}. Default: 1."
+    )
     axial_load_kN: float | None = entry(None, ge=0, le=1e5, usual=(0.01, 300), example=0.2).means(
         "Axial load [kN]; {range}. With the radial load it gives the equivalent loads. Without it they are those of "
         "the radial load alone, and the check of the axial load is not evaluated."
@@ -85,6 +95,19 @@ class RollingBearing(Table):
         "contact bearings of 40° have CA, CB, CC, or with preload GA, GB, GC. When given, by this key or the "
         "designation's suffix, the clearance left after mounting is checked."
     )
+
+    @model_validator(mode="after")
+    def _loaded_one_way(self) -> Self:
+        if self.cutting_force_N is not None and self.radial_load_kN is not None:
+            raise problem(
+                "radial_load_kN and cutting_force_N both give the radial load",
+                "cutting_force_N",
+                remedy="keep the one or the other",
+            )
+        alone = next((key for key in ("normal_to_cutting_ratio", "bearings_sharing") if getattr(self, key)), None)
+        if self.cutting_force_N is None and alone is not None:
+            raise problem(f"{alone} without cutting_force_N", alone, remedy="add cutting_force_N, or leave it out")
+        return self
 
     def own_defaults(self) -> dict[str, object]:
         """Class and series have a default where no designation tells them."""
@@ -173,6 +196,18 @@ class Bearing(RollingBearing):
     housing_limits_um: Pair | None = entry(None, usual=(0.1, 500), example=[0.0, 25.0]).means(
         "Least and largest deviation of the housing from its nominal size as measured [µm], {usual} either way. In "
         "place of housing_fit, which may stand beside it as what the drawing asks for."
+    )
+    ring_bore_limits_um: Pair | None = entry(None, usual=(0.1, 100), example=[-8.0, -3.0]).means(
+        "Least and largest deviation of the bore of the bearing as measured [µm], {usual} either way. In place of the "
+        "limits of its accuracy class."
+    )
+    ring_outer_limits_um: Pair | None = entry(None, usual=(0.1, 100), example=[-7.0, -2.0]).means(
+        "Least and largest deviation of the outer diameter of the bearing as measured [µm], {usual} either way. In "
+        "place of the limits of its accuracy class."
+    )
+    mounting_clearance_um: float | None = entry(None, ge=0, le=1000, usual=(5, 100), example=20.0).means(
+        "Clearance wanted when a heated ring or housing is mounted [µm]; {range}. Default: a two-thousandth of the "
+        "diameter, at least 5, assumed."
     )
     shaft_rz_um: float | None = entry(None, ge=0, le=1000, usual=(0.1, 50), example=4.0).means(
         "Roughness Rz of the shaft [µm]; {range}. When given, its smoothing is taken off the interference."
@@ -280,7 +315,7 @@ class Bearing(RollingBearing):
 
     @model_validator(mode="after")
     def _limits_ascend(self) -> Self:
-        for key in ("shaft_limits_um", "housing_limits_um"):
+        for key in ("shaft_limits_um", "housing_limits_um", "ring_bore_limits_um", "ring_outer_limits_um"):
             pair = getattr(self, key)
             if pair is not None and not pair[0] <= pair[1]:
                 raise problem(

@@ -63,9 +63,9 @@ def advised(joint: Joint, start: Start, usual: MakerFits | None) -> Joint | None
     above = [candidate for candidate in _like(base) if candidate.mean > base.mean]
     below = [candidate for candidate in reversed(_like(base)) if candidate.mean < base.mean]
     if not joint.must_grip and not joint.runs_on_needles and base.loose_share() >= LOOSE_ENOUGH:
-        looser = [base, *below, *(fit for fit in reversed(_by_mean(joint)) if fit.mean < base.mean)]
-        free = (fit for fit in looser if fit.loose_share(fit.coldest_or_hottest.loss) >= LOOSE_ENOUGH)
-        return _best((*free, looser[-1]), start)
+        # In light alloys the class is one for warmth; what cold does to it no class of the row helps.
+        looser = (fit for fit in (base, *below) if not fit.turns_tight and not joint.light_alloy)
+        return _best((*looser, base), start)
     return _best((base, *above, *below), start)
 
 
@@ -283,7 +283,7 @@ def _with_neighbours(
         share = Mounting(bearing, *pair).share_below(group)
         things = "pairs" if bearing.kind in PAIRED else "bearings"
         text = f"no operating clearance is left in {of_all(share, things)} of group {group}"
-        return text if share > _share_to_order(*pair) else None
+        return text if share > share_to_order(*pair) else None
 
     if best is None or (bearing.drawn_cup and best.seat == "housing"):  # a drawn cup need not move
         return SeatAdvice(best, ())
@@ -331,11 +331,11 @@ def _group(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> str | None:
     if bearing.kind is None:
         return None
     mounting, groups = Mounting(bearing, shaft, housing), groups_of(bearing.kind)
-    first, most = groups.index(bearing.internal_clearance or usual_group(bearing.kind)), _share_to_order(shaft, housing)
+    first, most = groups.index(bearing.internal_clearance or usual_group(bearing.kind)), share_to_order(shaft, housing)
     return next((group for group in groups[first:] if mounting.share_below(group) <= most), None)
 
 
-def _share_to_order(shaft: Joint, housing: Joint) -> float:
+def share_to_order(shaft: Joint, housing: Joint) -> float:
     """Share of bearings without clearance up to which a group is the one to order with two seats."""
     own = shaft.maker is not None and shaft.tolerance_class in shaft.maker.classes
     loose = not housing.must_grip and housing.clearance_probability >= LOOSE_ENOUGH

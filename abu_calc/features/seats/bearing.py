@@ -10,7 +10,7 @@ from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.bearing_catalogue import Series
 from abu_calc.standards.catalogue import CatalogueBearing, Kind, Ratings
-from abu_calc.standards.tolerance_classes import BearingType, DeviationLimits, RingLoad
+from abu_calc.standards.tolerance_classes import NORMAL_RATIO, BearingType, DeviationLimits, RingLoad
 
 BEARING_SIZE: Final = Range("bearing size", 0.0, 10.0, "m", open_low=True)
 SEAT_DIAMETER: Final = Range("diameter of the seat", 0.0, 10.0, "m", open_low=True)
@@ -32,12 +32,16 @@ SEAT_FRICTION: Final = Range("friction coefficient of the seat", 0.0, 1.0)
 
 @dataclass(frozen=True)
 class Ring:
-    """One ring: diameter of its seat, width and chamfer of one edge [m] (None: not known), how the load meets it."""
+    """One ring: diameter of its seat, width and chamfer of one edge [m] (None: not known), how the load meets it.
+
+    `measured`: limits [m] in place of those of its accuracy class.
+    """
 
     diameter: float
     width: float
     chamfer: float | None
     load: RingLoad
+    measured: DeviationLimits | None = None
 
     def __post_init__(self) -> None:
         BEARING_SIZE.check(self.diameter)
@@ -81,6 +85,7 @@ class Service:
     coefficient of friction between ring and seat. `viscosity` [m²/s] of the lubricant at its temperature,
     `contamination` factor e_C, `required_life` [s] (None: the makers' guide).
     `load_kind`: "moderate" or "shock".
+    `mounting_clearance` [m] wanted of heated parts.
     """
 
     radial_load: float | None = None
@@ -97,6 +102,7 @@ class Service:
     required_life: float | None = None
     extremes: tuple[float, float] | None = None
     load_kind: str = "shock"
+    mounting_clearance: float | None = None
 
     def __post_init__(self) -> None:
         _check(AXIAL_LOAD, self.axial_load)
@@ -119,7 +125,7 @@ class SeatedBearing:
     `remarks`: what was taken from where the table does not say it; `designation` ISO's, where it is known. `entry`: the
     row of the makers' catalogue; `no_inner_ring`: the needles run on the shaft. `position` along the spindle from the
     wheel's centre [m]; `short_shares` of pairs above which a seat warns, and fails. `taken_as`: the bearing that stands
-    for sizes without a type, in a sentence.
+    for sizes without a type, in a sentence. `closed`: with seals or shields, and so with grease.
     """
 
     name: str
@@ -142,6 +148,7 @@ class SeatedBearing:
     position: float | None = None
     short_shares: tuple[float, float] = (0.01, 0.05)
     taken_as: str | None = None
+    closed: bool = False
 
     def __post_init__(self) -> None:
         for share in self.short_shares:
@@ -172,6 +179,13 @@ class SeatedBearing:
             return None if radial is None else (radial, radial)
         factors, _ = load_factors(self.kind, self.entry, self.ratings, axial)
         return equivalent_dynamic(radial, axial, factors), equivalent_static(radial, axial, factors)
+
+    @property
+    def normal_load(self) -> float | None:
+        """Radial load [N] taken where none is given, that of normal loads; else None, also where C is not known."""
+        if self.service.radial_load is not None or self.kind is None or self.ratings is None:
+            return None
+        return NORMAL_RATIO * self.ratings.dynamic
 
     @property
     def load_ratio(self) -> float | None:

@@ -7,10 +7,12 @@ from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.clearance import MOST
 from abu_calc.features.seats.creep import Creep
 from abu_calc.features.seats.equivalent_load import carries_by_flanges
-from abu_calc.features.seats.interference import of_all
+from abu_calc.features.seats.interference import Interval, of_all
 from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, LOOSE_ENOUGH, TEMPERATURE, Joint
+from abu_calc.features.seats.joints import ROOM, USUAL_RISE, assumes_warmth
+from abu_calc.features.seats.notes import selective_groups
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
-from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.catalogue import ROLLERS
@@ -224,22 +226,27 @@ def start_checks(
     ),)  # fmt: skip
 
 
-def clearance_checks(bearing: SeatedBearing, left: "Clearance | None") -> tuple[Check, ...]:
-    """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not.
+def clearance_checks(bearing: SeatedBearing, left: "Clearance | None", few: float) -> tuple[Check, ...]:
+    """Check that bearings keep clearance after mounting: pass if few do not, warn if some, fail if most do not.
 
-    Of a preloaded pair the preload is checked.
+    Of a preloaded pair the preload is checked. `few`: share of bearings without clearance with which a group is still
+    the one to order.
     """
     if left is None:
         return ()
     if left.group in groups_of("angular-contact")[:3]:
         return (_preload(bearing, left),)
-    passed, safe = left.below_zero_probability < MOST, left.probable.smallest >= 0
+    share = left.below_zero_probability
+    passed, safe = share < MOST, share <= few
     direction = "axial" if left.axial else "radial"
     things = "pairs" if left.axial or bearing.kind == "tapered" else "bearings"
+    message = (
+        f"{direction} clearance of group {left.group} after mounting: {of_all(share, things)} have none left, and "
+    )
+    message += f"the least probable is {_um(left.probable.smallest):.3g} µm"
     return (coded(
-        "ABU621", verdict(passed, safe), f"least probable {direction} clearance of group {left.group} after mounting; "
-        f"{of_all(left.below_zero_probability, things)} have none left", _um(left.probable.smallest), 0.0, "µm",
-        None if safe else NO_GROUP, "least", of=bearing.name,
+        "ABU621", verdict(passed, safe), message, round(100 * share, 6),
+        100 * (few if passed else MOST), "%", None if safe else NO_GROUP, of=bearing.name,
     ),)  # fmt: skip
 
 
@@ -272,9 +279,13 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
             code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
             "known", smallest, None, "µm", f"Specify {key}.", of=bearing.name,
         )  # fmt: skip
-    limit = f"the interference required under {ARTICLE[joint.ring.load]} load by {required.by}{_losses(joint)}"
+    normal = f" of {from_si(joint.radial_load or 0.0, 'kN'):.3g} kN (normal, assumed)" if joint.load_assumed else ""
+    limit = f"the interference required under {ARTICLE[joint.ring.load]} load{normal} by {required.by}{_losses(joint)}"
     mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
+    if joint.loosens_hot:
+        hot = _um(joint.mean - max(case.loss for case in joint.thermal_cases))
+        remark = f". Hot, {ROOM + USUAL_RISE:g} °C assumed, the mean is {hot:.3g} µm"
     return coded(
         code, joint.grip, f"least interference of {joint.class_text} against {limit}{remark}{_makers(bearing, joint)}"
         f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm",
@@ -294,7 +305,8 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         judgement = f"A load fixed in direction requires none, but {when} the seat is {low:.3g} … {high:.3g} µm tight"
         return coded(
             _CODES[joint.seat][0], "warn", f"least interference of {joint.class_text}. {judgement}",
-            _um(joint.interference.smallest), None, "µm", None, "least", of=bearing.name,
+            _um(joint.interference.smallest), None, "µm", _ways_out(joint) if joint.light_alloy else None, "least",
+            of=bearing.name,
         )  # fmt: skip
     if joint.clearance_probability >= LOOSE_ENOUGH:
         judgement = f"A load fixed in direction requires none; {share}, so the ring can creep and be moved"
@@ -309,6 +321,17 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         _um(joint.interference.smallest),
         None, "µm", None, "least", of=bearing.name,
     )  # fmt: skip
+
+
+def _ways_out(joint: Joint) -> str:
+    """What helps a light-alloy housing that no class suits cold and hot."""
+    low, high = (_um(end) for end in joint.interference)
+    gap = _um(max(case.loss for case in joint.thermal_cases) - joint.interference.smallest)
+    return (
+        f"No tabulated class is free cold and close hot. Put a steel sleeve into the housing: {low:.3g} … {high:.3g} "
+        f"µm at every temperature. Or hold the ring by an O-ring or adhesive: the gap is up to {gap:.3g} µm hot. Or "
+        "let it be tight cold, with a larger clearance in the bearing."
+    )
 
 
 def _cup(bearing: SeatedBearing, joint: Joint, recommended: str | None, share: str) -> Check:
@@ -361,18 +384,17 @@ def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
 
 
 def _expansion(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
-    """Warning of a part that expands otherwise than its ring while no temperature is given."""
-    shaft, service = joint.seat == "shaft", bearing.service
-    part, known = (bearing.shaft, service.ring_over_shaft) if shaft else (bearing.housing, service.housing_over_ring)
+    """The change of a part that expands otherwise than its ring, which the usual temperature at work is taken for."""
+    part = bearing.shaft if joint.seat == "shaft" else bearing.housing
     more = seat_material(part.material).expansion - seat_material("steel").expansion
-    if abs(more) < _LIKE_STEEL or known is not None or service.over_mounting is not None:
+    if abs(more) < _LIKE_STEEL or not assumes_warmth(bearing):
         return ()
     change = _um(more * joint.diameter * 10)
-    verb = "gains" if shaft else "loses"
+    verb = "gains" if joint.seat == "shaft" else "loses"
     return (coded(
-        _CODES[joint.seat][3], "warn", f"the seat in {part.material} {verb} {change:.3g} µm of interference for every "
-        "10 K that it warms with its ring, and no temperature is given", change, None, "µm",
-        "Specify temperature_rise_K.", of=bearing.name,
+        _CODES[joint.seat][3], "pass", f"the seat in {part.material} {verb} {change:.3g} µm of interference for every "
+        f"10 K. No temperature is given: {ROOM + USUAL_RISE:g} °C is assumed at work", change, None, "µm",
+        of=bearing.name,
     ),)  # fmt: skip
 
 
@@ -396,6 +418,27 @@ def _no_class(joint: Joint, recommended: str | None) -> str | None:
         wall = "shaft with a smaller bore" if joint.seat == "shaft" else "housing with a thicker wall, or of steel"
         return f"No tabulated class both holds the ring and is permitted. Specify a {wall}."
     return "No tabulated class both holds the ring and is permitted. Specify a longer seat or a larger bearing."
+
+
+def no_better(check: Check, joint: Joint) -> Action:
+    """What to do about a warning of the recommended class: no other one is better."""
+    if check.code == _CODES[joint.seat][1]:
+        return Action("No tabulated class holds the ring with less. Mount it by heat, not by a press.")
+    if joint.loosens_hot:
+        return Action(_ways_out(joint))
+    if joint.turns_tight:
+        return Action("No tabulated class stays free at every temperature. A part of steel keeps its fit.")
+    groups = None
+    if joint.required is not None and joint.required.value < joint.permitted.value:
+        band = Interval(joint.required.value, joint.permitted.value)
+        groups = selective_groups(*joint.male_and_female, band)
+    if groups is None or groups.groups < 2:
+        return Action("No tabulated class does better.")
+    least = _um(groups.interference.smallest)
+    return Action(
+        f"No tabulated class does better. Sort both parts into {groups.groups} groups: every pair then has at least "
+        f"{least:.3g} µm (calculated)."
+    )
 
 
 def _um(metres: float) -> float:

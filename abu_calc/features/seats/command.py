@@ -28,7 +28,7 @@ class BearingOption(NamedTuple):
     key: str
     usage: str
     panel: str
-    type: type[float] | type[str] | type[bool]
+    type: type[float] | type[int] | type[str] | type[bool]
     help: str
 
     @property
@@ -68,6 +68,11 @@ OPTIONS: Final = (
     BearingOption("static_load_rating_kN", "--static-load-rating KN", BEARING, float, "Basic static load rating C0."),
     BearingOption("name", "--name NAME", BEARING, str, "Name of the bearing in the report."),
     BearingOption("radial_load_kN", "--radial-load-kN KN", LOADS, float, "Radial load."),
+    BearingOption("cutting_force_N", "--cutting-force N", LOADS, float, "Cutting force, in place of the radial load."),
+    BearingOption(
+        "normal_to_cutting_ratio", "--normal-to-cutting RATIO", LOADS, float, "Normal force over cutting force (2.8)."
+    ),
+    BearingOption("bearings_sharing", "--bearings-sharing N", LOADS, int, "Bearings that share this load (1)."),
     BearingOption("axial_load_kN", "--axial-load-kN KN", LOADS, float, "Axial load."),
     BearingOption("load_kind", "--load-kind NAME", LOADS, str, "moderate (to 150 %) or shock (to 300 %)."),
     BearingOption("inner_ring_load", "--inner-ring-load NAME", LOADS, str, f"Inner ring: {KINDS}"),
@@ -86,6 +91,9 @@ OPTIONS: Final = (
     BearingOption("housing_fit", "--housing CLASS", SEATS, str, "Class of the housing: H7, or several."),
     BearingOption("shaft_limits_um", "--shaft-limits LOW:HIGH", SEATS, str, "Measured limits of the shaft, µm."),
     BearingOption("housing_limits_um", "--housing-limits LOW:HIGH", SEATS, str, "Measured limits of the housing, µm."),
+    BearingOption("ring_bore_limits_um", "--ring-bore-limits LOW:HIGH", SEATS, str, "Measured bore of the ring, µm."),
+    BearingOption("ring_outer_limits_um", "--ring-outer-limits LOW:HIGH", SEATS, str, "Measured outer diameter, µm."),
+    BearingOption("mounting_clearance_um", "--mounting-clearance UM", SEATS, float, "Clearance of a heated ring."),
     BearingOption(
         "asked_interference_um", "--asked-interference LOW:HIGH", SEATS, str, "Interference required of every pair, µm."
     ),
@@ -138,6 +146,8 @@ SELDOM: Final = (
     *(LIFE, PARTS, THERMAL),
     *("--chamfer", "--bearing-class", "--series", "--dynamic-load-rating", "--static-load-rating", "--name"),
     *("--load-kind", "--starting-torque", "--shaft-limits", "--housing-limits", "--asked-interference"),
+    *("--cutting-force", "--normal-to-cutting", "--bearings-sharing", "--mounting-clearance"),
+    *("--ring-bore-limits", "--ring-outer-limits"),
     *("--seat-friction", "--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet", "--no-color"),
 )
 """Panels and options that `--help` lists by name, so that it fits on a screen."""
@@ -146,7 +156,10 @@ NAMES: Final = {option.key: option.name for option in OPTIONS}
 
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 FITS: Final = ("shaft_fit", "housing_fit")
-BANDS: Final = ("asked_interference_um", "shaft_limits_um", "housing_limits_um", "temperature_range_K")
+BANDS: Final = (
+    *("asked_interference_um", "shaft_limits_um", "housing_limits_um", "temperature_range_K"),
+    *("ring_bore_limits_um", "ring_outer_limits_um"),
+)
 """Keys that an option gives as LOW:HIGH."""
 
 

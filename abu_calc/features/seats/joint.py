@@ -214,7 +214,8 @@ class Joint:
     share of the pressure that a solid shaft or a thick housing would give; `thermal_cases` at which the seat is judged;
     `short_shares` of pairs above which it warns, and fails; `runs_on_needles`: a shaft without inner ring;
     `cup_classes`: the makers' for the housing of a drawn cup; `usual_growth`: the centrifugal growth [m] that the
-    catalogue's experience includes, up to the limiting speed of the bearing.
+    catalogue's experience includes, up to the limiting speed of the bearing; `light_alloy` of a housing;
+    `warmth_assumed`: no temperature is given; `load_assumed`: the radial load is a normal one, since none is given.
     """
 
     seat: Seat
@@ -238,6 +239,9 @@ class Joint:
     runs_on_needles: bool = False
     cup_classes: tuple[str, ...] = ()
     usual_growth: float = 0.0
+    light_alloy: bool = False
+    warmth_assumed: bool = False
+    load_assumed: bool = False
 
     @property
     def diameter(self) -> float:
@@ -326,7 +330,19 @@ class Joint:
     def counted_losses(self) -> float:
         """Losses [m] that the interference must cover: those given, the thermal one of the loosest case."""
         others = sum(loss.amount for loss in self.losses if loss.name != TEMPERATURE)
-        return others + max(0.0, *(case.loss for case in self.thermal_cases))
+        return others + (0.0 if self._row_is_for_warmth else max(0.0, *(case.loss for case in self.thermal_cases)))
+
+    @property
+    def _row_is_for_warmth(self) -> bool:
+        """True if the catalogue's class stands for the usual warmth, and no temperature is given."""
+        return self.warmth_assumed and self.maker is not None
+
+    @property
+    def loosens_hot(self) -> bool:
+        """True if a class for usual warmth leaves the mean interference below what is required when hot."""
+        if not (self._row_is_for_warmth and self.must_grip) or self.required is None:
+            return False
+        return self.mean - max(case.loss for case in self.thermal_cases) < self.required.value <= self.mean
 
     @cached_property
     def catalogue_class(self) -> str | None:
@@ -383,7 +399,9 @@ class Joint:
         if self.short_pairs is None:
             return "not-done"
         warn, fail = self.short_shares
-        return "fail" if self.short_pairs > fail else "warn" if self.short_pairs > warn else "pass"
+        if self.short_pairs <= warn:
+            return "pass"
+        return "fail" if self.short_pairs > fail and not self.load_assumed else "warn"
 
     @property
     def coldest_or_hottest(self) -> ThermalCase:
@@ -457,20 +475,21 @@ class Joint:
 
     @cached_property
     def grip(self) -> Grade:
-        """Grade of the interference: pass by the loosest pair, warn by the mean, else fail.
+        """Grade of the interference: pass by the loosest pair, warn by the mean, else fail; not-done without a load.
 
-        It is not-done without a load. The catalogue's own class warns although its mean falls short, as long as the
-        share of short pairs does not fail: the maker specifies it so.
+        The catalogue's own class passes as long as few pairs are short of what it gives: the maker specifies it so.
         """
         if not self.must_grip:
             return "pass"
         if self.required is None:
             return "not-done"
+        if self.loosens_hot:
+            return "warn"
         if self.interference.smallest >= self.required.value:
             return "pass"
-        if self.mean >= self.required.value or self._as_the_catalogue_has_it:
-            return "warn"
-        return "fail"
+        if self._as_the_catalogue_has_it:
+            return "pass" if self.short_grade == "pass" else "warn"
+        return "warn" if self.mean >= self.required.value or self.load_assumed else "fail"
 
     @property
     def _as_the_catalogue_has_it(self) -> bool:
@@ -480,10 +499,12 @@ class Joint:
 
     @property
     def stress(self) -> Grade:
-        """Grade of the tightest pair: fail by stress, warn above the catalogues' d/1000."""
+        """Grade of the tightest pair: fail by stress, warn above d/1000 and above the catalogue's own class."""
         if self.tightest > self.stress_limit.value:
             return "fail"
-        return "pass" if self.tightest <= self.permitted.value else "warn"
+        listed = self.catalogue_class or (self.maker.classes[0] if self.maker else None)
+        own = listed is not None and self.tightest <= self.with_class(listed).tightest
+        return "pass" if own or self.tightest <= self.permitted.value else "warn"
 
     @property
     def pinched(self) -> bool:

@@ -29,10 +29,15 @@ from abu_calc.standards.tolerance_classes import (
     maker_fits,
     part_limits,
     ring_limits,
+    tolerance_classes,
 )
 
 ADVISED: Final = {"shaft": "k6", "housing": "H7"}
 """Classes that stand in until one is advised, where none is given."""
+ROOM: Final = 20.0
+"""Temperature of mounting [°C]."""
+USUAL_RISE: Final = 50.0
+"""Temperature of a bearing at work above mounting [K] where none is given: 70 °C, assumed."""
 HIGHEST_RATIO: Final = 0.5
 """P/C up to which the catalogue's rows and ISO 281 hold."""
 THIN: Final = 0.85
@@ -105,7 +110,39 @@ def makers_classes(bearing: SeatedBearing, seat: Seat, thin: bool = False) -> Ma
     kind = bearing.kind or "ball"
     if bearing.no_inner_ring and seat == "shaft":
         kind = "drawn-cup"  # the shaft is the raceway of machined rings, too
-    return maker_fits(seat, kind, ring.load, ratio, ring.diameter, bearing.bearing_class, split, thin)
+    row = maker_fits(seat, kind, ring.load, ratio, ring.diameter, bearing.bearing_class, split, thin)
+    light = seat == "housing" and bearing.housing.material in _LIGHT and kind != "drawn-cup"
+    return row if row is None or not light or split or ring.load == "rotating" else _for_light_alloy(row)
+
+
+TIGHTER: Final = {"G": "H", "H": "J", "J": "K", "JS": "K", "K": "M", "M": "N"}
+"""The next tighter letter of a hole."""
+
+
+def _for_light_alloy(row: MakerFits) -> MakerFits:
+    """The row's class a step tighter, since the housing grows twice as much as the ring when both are warm.
+
+    Source: SKF, Rolling bearings and seals in electric motors and generators (J7 where H7 stands for iron).
+    """
+    letter, grade = row.classes[0].rstrip("0123456789"), row.classes[0].lstrip("ABCDEFGHIJKLMNOPQRSTUVWXYZ")
+    next_class = f"{TIGHTER.get(letter, letter)}{grade}"
+    tighter = next_class if next_class in tolerance_classes("housing") else f"JS{grade}"
+    others = tuple(name for name in row.classes if name != tighter and name[0] >= tighter[0])
+    return MakerFits((tighter, *others), row.special, "a step tighter in light alloy")
+
+
+def expansions(bearing: SeatedBearing, seat: Seat) -> tuple[float, float]:
+    """Expansion [1/K] of the part around and of the part inside."""
+    ring = seat_material("steel").expansion
+    part = seat_material((bearing.shaft if seat == "shaft" else bearing.housing).material).expansion
+    return (ring, part) if seat == "shaft" else (part, ring)
+
+
+def assumes_warmth(bearing: SeatedBearing) -> bool:
+    """True if nothing is told of temperatures, so that the usual one at work is assumed."""
+    service = bearing.service
+    told = (service.over_mounting, service.extremes, service.ring_over_shaft, service.housing_over_ring)
+    return all(each is None for each in told)
 
 
 def warm_parts(
@@ -116,24 +153,26 @@ def warm_parts(
 
     `rise`: all parts at this temperature above that of mounting, whatever is given.
     """
-    service, steel = bearing.service, seat_material("steel").expansion
+    service, (around, inside) = bearing.service, expansions(bearing, seat)
     other = service.ring_over_shaft if seat == "shaft" else service.housing_over_ring
     if rise is None and other is None and service.over_mounting is None:
         return None
     warmth = (service.over_mounting or 0.0) if rise is None else rise
     difference = (other or 0.0) if rise is None else 0.0
     if seat == "shaft":
-        return (steel, warmth), (seat_material(bearing.shaft.material).expansion, warmth - difference)
-    return (seat_material(bearing.housing.material).expansion, warmth + difference), (steel, warmth)
+        return (around, warmth), (inside, warmth - difference)
+    return (around, warmth + difference), (inside, warmth)
 
 
 def _thermal_cases(bearing: SeatedBearing, seat: Seat, diameter: float) -> tuple[ThermalCase, ...]:
     """Losses at mounting, at work and at the lowest and highest temperature, as far as they are given."""
     service = bearing.service
-    working = warm_parts(bearing, seat)
+    assumed = USUAL_RISE if assumes_warmth(bearing) else None
+    working = warm_parts(bearing, seat, assumed)
     cases = [ThermalCase("mounting", 0.0, 0.0)]
     if working is not None:
-        cases.append(ThermalCase("working", service.over_mounting, temperature_loss(diameter, *working)))
+        rise = service.over_mounting if assumed is None else assumed
+        cases.append(ThermalCase("working", rise, temperature_loss(diameter, *working)))
     for name, rise in zip(("lowest", "highest"), service.extremes or (), strict=False):
         parts = warm_parts(bearing, seat, rise)
         assert parts is not None
@@ -171,16 +210,19 @@ def _joint(
     kept: float,
 ) -> Joint:
     pressure, stress, raceway, own = rates
-    known = bearing.load_ratio is not None and bearing.kind is not None
+    normal = bearing.normal_load
+    known = bearing.kind is not None and (bearing.load_ratio is not None or normal is not None)
     thin = seat == "housing" and kept < THIN
     return Joint(
         seat=seat,
         tolerance_class=part.fit or (MEASURED if part.measured else ADVISED[seat]),
         ring=ring,
-        ring_limits=ring_limits(
-            bearing.type, "inner" if seat == "shaft" else "outer", bearing.bearing_class, ring.diameter
-        ),
-        radial_load=bearing.service.radial_load,
+        ring_limits=ring.measured
+        or ring_limits(bearing.type, "inner" if seat == "shaft" else "outer", bearing.bearing_class, ring.diameter),
+        radial_load=bearing.service.radial_load if normal is None else normal,
+        load_assumed=normal is not None,
+        warmth_assumed=assumes_warmth(bearing),
+        light_alloy=seat == "housing" and part.material in _LIGHT,
         factor=SERIES_FACTORS[bearing.series],
         losses=losses,
         pressure_rate=pressure,

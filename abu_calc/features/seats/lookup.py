@@ -1,10 +1,13 @@
 """Lookup of the bearing that a table describes, if the table leaves it to the standards."""
 
-from typing import TYPE_CHECKING, NamedTuple
+import math
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing, Service
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.validity import Range
 from abu_calc.standards.bearing_catalogue import Dimensions, all_of_size, of_size, read_designation
 from abu_calc.standards.catalogue import (
     ESTIMATE_ERROR,
@@ -17,6 +20,8 @@ from abu_calc.standards.catalogue import (
 )
 from abu_calc.standards.internal_clearance import groups_of
 from abu_calc.standards.tolerance_classes import BearingType, DeviationLimits
+
+CUTTING_FORCE: Final = Range("cutting force", 0.0, 1e8, "N")
 
 if TYPE_CHECKING:
     from abu_calc.inputs.rolling_bearing import Bearing as BearingTable
@@ -59,8 +64,12 @@ def from_table(table: "BearingTable") -> SeatedBearing:
         type=size.type,
         kind=identity.kind or (like.kind if like else None),
         ratings=ratings,
-        inner=Ring(size.bore, size.inner_width, inner_chamfer, table.inner_ring_load),
-        outer=Ring(size.outer, size.outer_width, outer_chamfer, table.outer_ring_load),
+        inner=Ring(
+            size.bore, size.inner_width, inner_chamfer, table.inner_ring_load, _limits(table.ring_bore_limits_um)
+        ),
+        outer=Ring(
+            size.outer, size.outer_width, outer_chamfer, table.outer_ring_load, _limits(table.ring_outer_limits_um)
+        ),
         shaft=MatingPart(
             table.shaft_fit,
             _si(table.shaft_rz_um, "um"),
@@ -83,9 +92,10 @@ def from_table(table: "BearingTable") -> SeatedBearing:
         series=table.series or (size.series if size.designation else "light"),
         internal_clearance=group,
         asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
-        remarks=(*_angle(identity, group), *_lent(lent), *rated),
+        remarks=(*filter(None, (_radial(table)[1],)), *_angle(identity, group), *_lent(lent), *rated),
         taken_as=_taken_as(table, size, like),
         designation=size.designation or None,
+        closed=identity.closure is not None,
         entry=entry,
         no_inner_ring=identity.kind == "drawn-cup" or size.designation.startswith("RNA"),
         position=_si(table.position_mm, "mm"),
@@ -96,9 +106,48 @@ def from_table(table: "BearingTable") -> SeatedBearing:
     )
 
 
+RATIO: Final = 2.8
+"""Force normal to the work over the cutting force in grinding, where none is given (Afanasiev 2015)."""
+
+
+@formula(
+    "Radial load of a bearing by the process",
+    "F_r = F_c·√(1 + k_n²)/n",
+    "N",
+    where="k_n is the normal force over the cutting force; n bearings share the load alike.",
+    checked=(CUTTING_FORCE,),
+    assumed="forces at right angles, bearings alike",
+    source="Afanasiev 2015",
+)
+def process_load(cutting_force: float, ratio: float, bearings: int) -> float:
+    """
+    >>> round(process_load(4100.0, 2.8, 4))
+    3048
+    """
+    return CUTTING_FORCE.check(cutting_force) * math.hypot(1.0, ratio) / bearings
+
+
+def _radial(table: "BearingTable") -> tuple[float | None, str]:
+    """Radial load [N], and the process that it is from, in a sentence."""
+    force = table.cutting_force_N
+    if force is None:
+        return _si(table.radial_load_kN, "kN"), ""
+    ratio = RATIO if table.normal_to_cutting_ratio is None else table.normal_to_cutting_ratio
+    bearings = table.bearings_sharing or 1
+    load = process_load(force, ratio, bearings)
+    share = f", shared by {bearings} bearings" if bearings > 1 else ""
+    taken = " (assumed)" if table.normal_to_cutting_ratio is None else ""
+    return load, (
+        f"Radial load {from_si(load, 'kN'):.3g} kN: cutting force {force:g} N, {ratio:g} times it normal to the "
+        f"work{taken}{share}."
+    )
+
+
 def _service(table: "BearingTable") -> Service:
+    load, _ = _radial(table)
     return Service(
-        radial_load=_si(table.radial_load_kN, "kN"),
+        radial_load=load,
+        mounting_clearance=_si(table.mounting_clearance_um, "um"),
         speed=_si(table.speed_rpm, "rpm"),
         ring_over_shaft=_si(table.ring_temperature_difference_K, "K"),
         inner_over_outer=_si(table.raceway_temperature_difference_K, "K"),

@@ -18,7 +18,7 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.tables import toml_table
-from abu_calc.standards.tolerance_classes import DeviationLimits, Seat, source_of
+from abu_calc.standards.tolerance_classes import NORMAL_RATIO, DeviationLimits, Seat, source_of
 
 if TYPE_CHECKING:
     from abu_calc.features.seats.advice import JointAdvice, SeatAdvice
@@ -291,6 +291,9 @@ def least_text(length: float) -> str:
 
 
 def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
+    if joint.load_assumed:
+        load = from_si(joint.radial_load or 0.0, "kN")
+        return (f"No radial load is given: a normal one is judged, P/C = {NORMAL_RATIO:g}, {load:.3g} kN.",)
     intensity = seat_intensity(bearing, joint)
     if intensity is None:
         return ()
@@ -332,7 +335,10 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
                 f"{kind} bearing under normal load."
             )
     if joint.fit_name == MEASURED:
-        notes.append(f"The limits of the {joint.seat} are as measured, the ring's are those of a new bearing.")
+        ring = "the ring's, too" if joint.ring.measured else "the ring's are those of a new bearing"
+        notes.append(f"The limits of the {joint.seat} are as measured, {ring}.")
+    elif joint.ring.measured:
+        notes.append("The limits of the ring are as measured.")
     return tuple(notes)
 
 

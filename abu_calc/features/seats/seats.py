@@ -16,10 +16,19 @@ from abu_calc.features.seats.advice import (
     admissible,
     advice,
     rule_class,
+    share_to_order,
 )
+from abu_calc.features.seats.at_work import SeatMounting, at_work, clearance_at_work, seat_mounting
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.changes import actions
-from abu_calc.features.seats.checks import clearance_checks, life_checks, seat_checks, short_pair_checks, start_checks
+from abu_calc.features.seats.checks import (
+    clearance_checks,
+    life_checks,
+    no_better,
+    seat_checks,
+    short_pair_checks,
+    start_checks,
+)
 from abu_calc.features.seats.clearance import Clearance, clearance_left
 from abu_calc.features.seats.creep import Creep, creep
 from abu_calc.features.seats.drawing_requirements import (
@@ -103,6 +112,10 @@ class SeatResult(SeatRecord):
         float, Quantity("share of the pressure kept", "", 3, "of that in a solid shaft or a thick housing")
     ]
     interference_by_temperature: tuple[ThermalInterference, ...]
+    at_work: Annotated[
+        Mapping[str, Pair], Quantity("interference at work", "", 4, "cold and hot, given or assumed", unit="um")
+    ]
+    mounting: SeatMounting
     load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "P the equivalent dynamic load")]
     static_safety: Annotated[float | None, Quantity("static safety", "C0/P0", 3)]
     basic_rating_life: Annotated[float | None, Quantity("basic rating life", "L_10h", 3, unit="h")]
@@ -193,9 +206,23 @@ class BearingSeats(NamedTuple):
         return self.shaft, self.housing
 
     @property
+    def group_inside(self) -> str | None:
+        """Group whose clearance is told at work: given, else recommended; None for bearings without groups."""
+        return self.bearing.internal_clearance or self.group_of_recommended
+
+    @property
+    def clearance_at_work(self) -> Mapping[str, Pair]:
+        """Clearance inside the bearing [m] cold, as mounted and hot, that all but few have; empty without a group."""
+        group = self.group_inside
+        if group is None:
+            return {}
+        joints = self.shaft.joint, self.housing.joint
+        return clearance_at_work(self.bearing, *joints, group, share_to_order(*joints))
+
+    @property
     def checks(self) -> tuple[Check, ...]:
         """The checks of both seats, of the bearing's life, and of the clearance."""
-        left = clearance_checks(self.bearing, self.clearance)
+        left = clearance_checks(self.bearing, self.clearance, share_to_order(self.shaft.joint, self.housing.joint))
         in_use = self.life_in_use.checks if self.life_in_use else ()
         checks = (*self.shaft.checks, *self.housing.checks, *life_checks(self.bearing, self.life), *in_use, *left)
         return tuple(
@@ -222,6 +249,10 @@ def judge(bearing: SeatedBearing) -> BearingSeats:
         bearing, plain.checks, {key: value for key, value in classes.items() if value},
         [group for group in dict.fromkeys(groups) if group], lambda changed: _judged(changed).checks,
     )  # fmt: skip
+    for seat in plain.seats:
+        if seat.fit == seat.recommended_fit:
+            open_ = (check for check in seat.checks if check.status == "warn" and not check.remedy)
+            proposed |= {check.code: no_better(check, seat.joint) for check in open_ if check.code not in proposed}
     shaft, housing = (replace(seat, checks=_with(proposed, seat.checks)) for seat in plain.seats)
     return _graded(plain._replace(shaft=shaft, housing=housing, actions=proposed))
 
@@ -324,6 +355,8 @@ def _seat(
         short_pairs_share=joint.short_pairs,
         pressure_kept=joint.pressure_kept,
         interference_by_temperature=joint.interference_by_temperature,
+        at_work=at_work(joint),
+        mounting=seat_mounting(bearing, joint),
         maker_fits=(*maker.classes, *maker.special) if maker else (),
         catalogue_fit=joint.catalogue_class,
         rule_fit=rule,

@@ -8,10 +8,12 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final, TypeAlias
 
+from abu_calc.features.seats.at_work import coldest, hottest
 from abu_calc.features.seats.clearance import Clearance
 from abu_calc.features.seats.drawing_requirements import Repair, Requirements
-from abu_calc.features.seats.interference import Pair, of_all
-from abu_calc.features.seats.seats import SeatResult
+from abu_calc.features.seats.interference import Pair, of_all, um_pair
+from abu_calc.features.seats.joints import ROOM, assumes_warmth
+from abu_calc.features.seats.seats import BearingSeats, SeatResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.quantity import quantities
@@ -19,6 +21,7 @@ from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import BLANK, cut, one_screen, verdict_line
+from abu_calc.standards.tolerance_classes import NORMAL_RATIO
 
 Seats: TypeAlias = tuple[SeatResult, SeatResult]
 """Seats of one bearing: shaft, housing."""
@@ -212,6 +215,8 @@ def _order(shaft: SeatResult, housing: SeatResult) -> list[str]:
 
 
 def _ratio(shaft: SeatResult) -> str:
+    if shaft.joint.load_assumed:
+        return f" (P/C = {NORMAL_RATIO:g}, a normal load, assumed)"
     return "" if shaft.load_ratio is None else f" (P/C = {shaft.load_ratio:.2g})"
 
 
@@ -274,9 +279,9 @@ def _zone(row: int, step: int, limits: Pair, mark: str, name: str) -> str:
     return f"{bar if row in rows else '':5} {limit if row in rows else '':6}"
 
 
-SIGN = (
-    "Interference in µm, from the loosest to the tightest pair; negative: clearance. A ring whose load is fixed in "
-    "direction requires none."
+SIGN: Final = (
+    "Interference in µm, loosest to tightest pair; negative: clearance. A ring whose load is fixed in direction "
+    "requires none."
 )
 MOST_LINES: Final = 24
 """Most lines of the table of several bearings; the whole report has the rest."""
@@ -292,20 +297,74 @@ def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
         about += [BLANK, *cut([bearing_table(pairs)], MOST_LINES)]
     else:
         about += [line for pair in pairs for line in advice_lines(pair)]
-    header = ("bearing", "seat", "class", "interference", "required", "permitted", "specify")
-    body: list[Block] = [Grid(header, tuple(map(_row, result.seats)), frozenset({4, 5})), Paragraph(SIGN)]
+    body: list[Block] = []
+    for judged in result.judged:
+        body += _states(judged, several=len(pairs) > 1)
+    body.append(Paragraph(f"{SIGN} {_temperatures_told(result.judged)}"))
     for pair in pairs:
-        body += [*repair_lines(pair), *sorting_blocks(pair)]
+        repairs = repair_lines(pair)
+        body += [*repairs, *sorting_blocks(pair), *([] if repairs else mounting_lines(pair, named=len(pairs) > 1))]
     return one_screen(result, about, body, ("--explain, every formula with its numbers",))
 
 
-def _row(seat: SeatResult) -> tuple[str, ...]:
-    low, high = seat.interference_um
-    needed = "none" if seat.needs_no_grip else _required(seat.required_interference_um)
-    return (
-        shortened(seat.name, NAME) if seat.seat == "shaft" else "", seat.seat, seat.fit, f"{low:.4g} … {high:.4g}",
-        needed, _permitted(seat.permitted_interference_um), seat.recommended_fit or "none",
-    )  # fmt: skip
+def _states(judged: BearingSeats, *, several: bool) -> list[Block]:
+    """Both seats and the clearance inside the bearing: cold, as mounted, hot; required and permitted."""
+    rows = [
+        (seat.seat, seat.fit, *map(_whole, (seat.at_work_um["cold"], seat.interference_um, seat.at_work_um["hot"])),
+         "none" if seat.needs_no_grip else _required(seat.required_interference_um),
+         _permitted(seat.permitted_interference_um))
+        for seat in judged.seats
+    ]  # fmt: skip
+    inside = judged.clearance_at_work
+    if inside:
+        spans = (_whole(um_pair(inside[name])) for name in ("cold", "mounted", "hot"))
+        rows.append(("inside", judged.group_inside or "", *spans, "clearance", ""))
+    first = shortened(judged.shaft.name, 16) if several else ""
+    return [Grid((first, "class", "cold", "mounted", "hot", "required", "permitted"), tuple(rows), frozenset({5, 6}))]
+
+
+def _whole(span: tuple[float, float]) -> str:
+    """A span to whole micrometres where it is wide, else to three digits."""
+    return " … ".join(f"{each:.3g}" if abs(each) < 10 else f"{each:.0f}" for each in span)
+
+
+def _temperatures_told(judged: Sequence[BearingSeats]) -> str:
+    """Temperatures of the states, and whether they are assumed."""
+    told = dict.fromkeys(map(_told_of, judged))
+    return " ".join(told) if len(told) == 1 else "The temperatures of cold and hot are those of each bearing."
+
+
+def _told_of(judged: BearingSeats) -> str:
+    cold, hot = ({case(seat.joint).rise for seat in judged.seats} for case in (coldest, hottest))
+    if None in hot:
+        return "Hot: with the temperature differences given."
+    low, high = min(cold) or 0.0, max(hot) or 0.0  # type: ignore[type-var]
+    assumed = ", assumed (--temperature-range)" if assumes_warmth(judged.bearing) else ""
+    return f"Cold is {ROOM + low:g} °C, mounted {ROOM:g} °C, hot {ROOM + high:g} °C{assumed}."
+
+
+def mounting_lines(pair: Seats, *, named: bool) -> list[Block]:
+    """How each ring gets onto its seat, and when a housing lets it go."""
+    name = f"{pair[0].name}: " if named else ""
+    return [Paragraph(f"{name}{text}") for seat in pair if (text := _mounting(seat))]
+
+
+def _mounting(seat: SeatResult) -> str:
+    way = seat.mounting
+    hot = way.heat_ring_C if seat.seat == "shaft" else way.heat_housing_C
+    if hot is None or way.press_force_N is None:
+        return ""
+    least, most = (f"{force / 1e3:.3g}" for force in way.press_force_N)
+    press = f"or press with {least} … {most} kN"
+    clear = f"{way.mounting_clearance_um:.3g} µm of clearance"
+    if seat.seat == "housing":
+        apart = way.lets_go_at_C
+        go = "" if apart is None else f" It lets the ring go at {apart[0]:.0f} … {apart[1]:.0f} °C."
+        return f"Mount the outer ring: heat the housing to {hot:.0f} °C ({clear}), {press}.{go}"
+    if way.cool_part_C is not None:
+        heat = f"{way.hottest_C:g} °C, the hottest permitted, and cool the shaft to {way.cool_part_C:.0f} °C"
+        return f"Mount the inner ring: {press.removeprefix('or ')}. Or heat it to {heat} ({clear})."
+    return f"Mount the inner ring: heat it to {hot:.0f} °C ({clear}; at most {way.hottest_C:g} °C), {press}."
 
 
 def _required(value: float | None) -> str:

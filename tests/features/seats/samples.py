@@ -56,6 +56,12 @@ def table(**changes: Any) -> Any:
         "short_pairs_warn_percent": 1.0,
         "short_pairs_fail_percent": 5.0,
         "temperature_range_K": None,
+        "cutting_force_N": None,
+        "normal_to_cutting_ratio": None,
+        "bearings_sharing": None,
+        "ring_bore_limits_um": None,
+        "ring_outer_limits_um": None,
+        "mounting_clearance_um": None,
     }
     assert set(changes) <= set(example)
     return SimpleNamespace(**(example | changes))

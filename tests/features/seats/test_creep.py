@@ -44,10 +44,12 @@ def test_a_gain_by_warmth_stresses_and_does_not_grip():
 @pytest.mark.parametrize(
     ("material", "expansion"), [("aluminium", ALUMINIUM), ("magnesium", MAGNESIUM), ("stainless-steel", 16e-6)]
 )
-def test_a_light_housing_without_a_temperature_warns_with_the_loss(material, expansion):
+def test_a_light_housing_without_a_temperature_tells_the_loss(material, expansion):
     found = seats(housing_material=material)
     check = next(one for one in found.checks if one.code == "ABU614")
-    assert check.status == "warn" and check.value == pytest.approx(um((expansion - STEEL) * 0.140 * 10))
+    assert check.status == "pass" and check.value == pytest.approx(um((expansion - STEEL) * 0.140 * 10))
+    low, high = found.housing.at_work_um["hot"]  # 50 K, assumed
+    assert (low, high) == pytest.approx([each - um((expansion - STEEL) * 0.140 * 50) for each in (-30, 28)])
     for known in ("temperature_rise_K", "housing_temperature_difference_K"):
         assert "ABU614" not in [one.code for one in seats(housing_material=material, **{known: 0.0}).checks]
     assert not [one for one in seats(housing_material="cast-iron").checks if one.code == "ABU614"]

@@ -101,7 +101,7 @@ def test_2_the_row_governs_under_heavy_loads(found: Any, seat: str, expected: st
     assert (fit.recommended_fit, fit.catalogue_fit) == (expected, expected)
     assert fit.rule_fit != expected and any("governs" in note for note in fit.notes)
     code = {"shaft": "ABU601", "housing": "ABU611"}[seat]
-    assert status(result, code) == "warn"
+    assert status(result, code) == "pass"
 
 
 @pytest.mark.parametrize("number", range(12, 21))
@@ -181,16 +181,17 @@ def test_5_a_thin_aluminium_housing_takes_the_class_for_thin_walls() -> None:
     assert status(thin, "ABU615") in ("pass", "warn")
 
 
-def test_6_a_cold_aluminium_housing_is_tight_and_gets_a_looser_class() -> None:
+def test_6_a_cold_aluminium_housing_is_tight_and_gets_ways_out() -> None:
     """6208, −60 K: aluminium shrinks by 11.5e-6 · 80 mm · 60 K = 55.2 µm more than the ring: H7 is 12 … 55 µm tight."""
     found = judged("6208", radial_load_kN=3, housing_material="aluminium", temperature_rise_K=-60, housing_fit="H7")
     assert status(found, "ABU611") == "warn" and "12.2 … 55.2 µm tight" in message(found, "ABU611")
     assert found.shaft.recommended_fit == "k5"
-    assert found.housing.recommended_fit in ("F7", "F8", "E8")
+    assert found.housing.recommended_fit == "J7"
     again = judged("6208", radial_load_kN=3, housing_material="aluminium", temperature_rise_K=-60)
-    assert status(again, "ABU611") == "pass"
-    joint = again.housing.joint
-    assert joint.loose_share(joint.coldest_or_hottest.loss) >= 0.5
+    told = next(check for check in again.checks if check.code == "ABU611")
+    assert told.status == "warn" and "steel sleeve" in told.remedy and "O-ring" in told.remedy
+    # J7 of 80 mm: −12 … 18 µm, the ring 0 … −13 µm; the gap is that as mounted.
+    assert "-31 … 12 µm at every temperature" in told.remedy and "up to 31 µm hot" in told.remedy
 
 
 def test_6_the_fits_stand_for_each_temperature() -> None:
