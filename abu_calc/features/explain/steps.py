@@ -127,10 +127,12 @@ STEPS: Final[Mapping[str, Step]] = {
         "Bearing seats",
         "features.seats.interference: theoretical_interference probable_interference clearance_probability "
         "truncated_clearance_probability",
+        "features.seats.lookup: process_load",
         "features.seats.requirement: creep_interference load_loss smoothing_loss catalogue_smoothing_loss "
         "temperature_loss centrifugal_loss",
         "features.seats.joint: contact_pressure inner_ring_stress outer_ring_stress raceway_change",
         "features.seats.creep: slip_torque",
+        "features.seats.at_work: heated press_force",
         "features.seats.clearance: clearance_left",
         "features.seats.notes: selective_groups",
         "features.seats.drawing_requirements: seat_requirements seat_repair",

@@ -97,7 +97,7 @@ def seat_mounting(bearing: SeatedBearing, joint: Joint) -> SeatMounting:
     hot = heated(most, clearance, around, d) if tight else None
     top, on_shaft = HOTTEST_CLOSED if bearing.closed else HOTTEST_RING, joint.seat == "shaft"
     cool = None
-    if hot is not None and hot > top and on_shaft:
+    if hot is not None and hot > top + 0.5 and on_shaft:
         cool = ROOM - ((hot - top) * around) / inside
     length = joint.length or joint.ring.width
     forces = tuple(

@@ -147,7 +147,7 @@ SELDOM: Final = (
     *("--chamfer", "--bearing-class", "--series", "--dynamic-load-rating", "--static-load-rating", "--name"),
     *("--load-kind", "--starting-torque", "--shaft-limits", "--housing-limits", "--asked-interference"),
     *("--cutting-force", "--normal-to-cutting", "--bearings-sharing", "--mounting-clearance"),
-    *("--ring-bore-limits", "--ring-outer-limits"),
+    *("--ring-bore-limits", "--ring-outer-limits", "--bearing-type", "--explain"),
     *("--seat-friction", "--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet", "--no-color"),
 )
 """Panels and options that `--help` lists by name, so that it fits on a screen."""

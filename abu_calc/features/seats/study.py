@@ -1,11 +1,15 @@
 """Bearing seats judged: interference, probability of clearance, what is required, what is permitted."""
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
+from abu_calc.features.seats.at_work import hottest
+from abu_calc.features.seats.clearance import PRELOADED
 from abu_calc.features.seats.seats import BearingSeats, SeatResult, bearing_notes, seat_bearings
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import record
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
@@ -46,6 +50,7 @@ def check_fit(machine: Machine) -> CheckFitResult:
         warnings=(
             *machine.warnings,
             *bearing_notes(judged),
+            *_run_out_notes(machine, judged),
         ),
         # The other tables of a whole machine play no part here.
         provenance=replace(
@@ -54,6 +59,38 @@ def check_fit(machine: Machine) -> CheckFitResult:
         seats=tuple(seat for bearing in judged for seat in bearing.seats),
         judged=judged,
     )
+
+
+def _run_out_notes(machine: Machine, judged: tuple[BearingSeats, ...]) -> Iterator[str]:
+    """A floating outer ring beside the run-out of the spindle that an autobalancer leaves room for."""
+    autobalancer = getattr(machine.tables, "autobalancer", None)
+    if autobalancer is None:
+        return
+    first = autobalancer[0] if isinstance(autobalancer, tuple) else autobalancer
+    for bearing in judged:
+        housing = bearing.housing
+        low, high = housing.at_work_um["hot"]
+        float_um, asked_um = -low, 1e3 * first.race_eccentricity_mm
+        spring = bearing.bearing.internal_clearance in PRELOADED
+        if spring or not housing.needs_no_grip or bearing.bearing.drawn_cup or float_um <= asked_um:
+            continue
+        yield (
+            f"{bearing.bearing.name}: the outer ring floats by {abs(min(high, 0.0)):.0f} … {float_um:.0f} µm hot, and "
+            f"the spindle with it, while the autobalancer asks for at most {asked_um:.3g} µm off axis in all "
+            "(race_eccentricity_mm). A spring or a pair under preload holds the ring; a closer class leaves less: "
+            f"{_closer(bearing)}."
+        )
+
+
+CLOSER: Final = ("J7", "J6", "JS5")
+
+
+def _closer(judged: BearingSeats) -> str:
+    """Classes with the clearance that they leave hot."""
+    joint = judged.housing.joint
+    loss = hottest(joint).loss
+    spans = ((name, joint.with_class(name).interference) for name in CLOSER)
+    return ", ".join(f"{name} {max(from_si(loss - each.smallest, 'um'), 0.0):.0f} µm" for name, each in spans)
 
 
 def judged_seats(machine: Machine) -> tuple[BearingSeats, ...]:

@@ -50,8 +50,9 @@ def test_an_optional_table_reads_once_its_marks_are_taken_away(tmp_path: Path, h
     before, mark, after = template().partition(f"\n#{header}")
     assert mark
     block, gap, rest = after.partition("\n\n")
-    # The sizes of a bearing stand beside its designation: one may be used.
-    lines = [row for row in block.split("\n") if not re.match(r"#(bore|outer|width|position)_mm", row)]
+    # The sizes of a bearing stand beside its designation, its load beside that of the process: one may be used.
+    others = r"#(bore_mm|outer_mm|width_mm|position_mm|cutting_force_N|normal_to_cutting_ratio|bearings_sharing)"
+    lines = [row for row in block.split("\n") if not re.match(others, row)]
     used = "\n".join(row[1:] if re.match(r"#[a-z]", row) else row for row in lines)
     text = f"{before}\n{header}{used}{gap}{rest}"
     assert read(tmp_path, text).tables != read(tmp_path, template()).tables or header == "[expected]"
