@@ -132,7 +132,7 @@ STEPS: Final[Mapping[str, Step]] = {
         "temperature_loss centrifugal_loss",
         "features.seats.joint: contact_pressure inner_ring_stress outer_ring_stress raceway_change",
         "features.seats.creep: slip_torque",
-        "features.seats.at_work: heated press_force",
+        "features.seats.at_work: heated mounting_force",
         "features.seats.clearance: clearance_left",
         "features.seats.notes: selective_groups",
         "features.seats.drawing_requirements: seat_requirements seat_repair",

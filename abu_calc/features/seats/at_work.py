@@ -41,7 +41,7 @@ class SeatMounting(SeatRecord):
     hottest_C: Annotated[float, Quantity("hottest that the ring may be", "", 3)]
     mounting_clearance: Annotated[float, Quantity("clearance wanted when mounting", "", 3, unit="um")]
     press_force_N: Annotated[
-        Pair | None, Quantity("press force", "F", 3, "cold, of the loosest and the tightest pair; μ as given")
+        Pair | None, Quantity("mounting force", "F", 3, "cold, of the loosest and the tightest pair; μ as given")
     ]
     lets_go_at_C: Annotated[
         Pair | None,
@@ -70,14 +70,14 @@ def heated(interference: float, clearance: float, expansion: float, diameter: fl
     "Force that presses a ring onto its seat",
     "F = μ·p·π·d·b",
     "N",
-    where="p is the pressure of the joint (Lamé), b the length of the seat.",
+    where="p is the pressure of the joint (Lamé). b is the length of the seat.",
     checked=(SEAT_DIAMETER,),
     assumed="cold, pressure even along the seat",
     source="DIN 7190-1:2017",
 )
-def press_force(pressure: float, diameter: float, length: float, friction: float) -> float:
+def mounting_force(pressure: float, diameter: float, length: float, friction: float) -> float:
     """
-    >>> round(press_force(20e6, 0.080, 0.029, 0.12))
+    >>> round(mounting_force(20e6, 0.080, 0.029, 0.12))
     17492
     """
     return friction * pressure * math.pi * SEAT_DIAMETER.check(diameter) * length
@@ -101,7 +101,7 @@ def seat_mounting(bearing: SeatedBearing, joint: Joint) -> SeatMounting:
         cool = ROOM - ((hot - top) * around) / inside
     length = joint.length or joint.ring.width
     forces = tuple(
-        press_force(joint.pressure_rate * end, d, length, bearing.service.seat_friction) for end in (least, most)
+        mounting_force(joint.pressure_rate * end, d, length, bearing.service.seat_friction) for end in (least, most)
     )
     apart = (around - inside) * d
     return SeatMounting(
