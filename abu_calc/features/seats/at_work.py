@@ -68,9 +68,9 @@ def heated(interference: float, clearance: float, expansion: float, diameter: fl
 
 @formula(
     "Force that presses a ring onto its seat",
-    "F = μ·p·π·d·b",
+    "F = μ·p·π·d·b_s",
     "N",
-    where="p is the pressure of the joint (Lamé). b is the length of the seat.",
+    where="p is the pressure of the joint (Lamé).",
     checked=(SEAT_DIAMETER,),
     assumed="cold, pressure even along the seat",
     source="DIN 7190-1:2017",
@@ -84,7 +84,7 @@ def mounting_force(pressure: float, diameter: float, length: float, friction: fl
 
 
 def seat_mounting(bearing: SeatedBearing, joint: Joint) -> SeatMounting:
-    """Heat, press force, and the temperature that lets the ring go; without a chamfer the seat is as long as the ring.
+    """Heat, force of the press, and the temperature that lets the ring go; without a chamfer the seat is as long as the ring.
 
     A ring is heated for its shaft, a housing for its ring. A ring that would be hotter than it may be goes with a
     cooled shaft. The force is that of the apparent interference.
