@@ -84,7 +84,7 @@ def mounting_force(pressure: float, diameter: float, length: float, friction: fl
 
 
 def seat_mounting(bearing: SeatedBearing, joint: Joint) -> SeatMounting:
-    """Heat, force of the press, and the temperature that lets the ring go; without a chamfer the seat is as long as the ring.
+    """Heat, force of the press, and the temperature that lets the ring go; without a chamfer its width is the length.
 
     A ring is heated for its shaft, a housing for its ring. A ring that would be hotter than it may be goes with a
     cooled shaft. The force is that of the apparent interference.

@@ -278,7 +278,7 @@ def _with(proposed: "Mapping[str, Action]", checks: Sequence[Check]) -> tuple[Ch
 def _judged(bearing: SeatedBearing) -> BearingSeats:
     """Both seats of a bearing; one without a fit is judged with the field advised.
 
-    A band asked for is meant for the rings that must grip, else for both.
+    A band asked for is meant for every seat whose pairs may be tight.
     """
     given = shaft_joint(bearing), housing_joint(bearing)
     recommendation = advice(bearing, *given)
@@ -287,8 +287,7 @@ def _judged(bearing: SeatedBearing) -> BearingSeats:
         _stand_in(joint, own) if unsaid else joint
         for joint, own, unsaid in zip(given, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
     ]
-    asked_of = [joint for joint in joints if joint.must_grip] or joints
-    asked = None if bearing.asked_interference is None else Interval(*bearing.asked_interference)
+    asked = [_asked(bearing, joint, not unsaid) for joint, unsaid in zip(joints, open_seats, strict=True)]
     left, life, ratings = _clearance(bearing, *joints), rating_life(bearing), bearing.ratings
     alike = {
         "load_ratio": bearing.load_ratio, "static_safety": life.static_safety, "basic_rating_life": life.basic,
@@ -301,10 +300,26 @@ def _judged(bearing: SeatedBearing) -> BearingSeats:
         "internal_clearance": left,
     }  # fmt: skip
     shaft, housing = (
-        _seat(bearing, joint, own, not unsaid, asked if joint in asked_of else None, recommendation, alike)
-        for joint, own, unsaid in zip(joints, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
+        _seat(bearing, joint, own, not unsaid, band, recommendation, alike)
+        for joint, own, unsaid, band in zip(
+            joints, (recommendation.shaft, recommendation.housing), open_seats, asked, strict=True
+        )
     )
     return BearingSeats(bearing, shaft, housing, life, left, recommendation.group, recommendation.own_group)
+
+
+def _asked(bearing: SeatedBearing, joint: Joint, given: bool) -> Interval | None:
+    """Band of interference for selective assembly: asked for, else from what a ring needs to what it bears.
+
+    None of a ring that needs none, and of one whose every pair has what it needs.
+    """
+    if bearing.asked_interference is not None:
+        meant = joint.must_grip or (given and joint.interference.largest > 0)
+        return Interval(*bearing.asked_interference) if meant else None
+    needed = joint.required
+    if not joint.must_grip or needed is None or joint.load_assumed or joint.interference.smallest >= needed.value:
+        return None
+    return Interval(needed.value, joint.permitted.value) if needed.value < joint.permitted.value else None
 
 
 def _stand_in(joint: Joint, own: SeatAdvice) -> Joint:

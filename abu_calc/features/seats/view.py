@@ -303,7 +303,12 @@ def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
     body.append(Paragraph(f"{SIGN} {_temperatures_told(result.judged)}"))
     for pair in pairs:
         repairs = repair_lines(pair)
-        body += [*repairs, *sorting_blocks(pair), *([] if repairs else mounting_lines(pair, named=len(pairs) > 1))]
+        asked = result.judged[pairs.index(pair)].bearing.asked_interference is not None
+        body += [
+            *repairs,
+            *(sorting_blocks(pair) if asked else ()),
+            *([] if repairs else mounting_lines(pair, named=len(pairs) > 1)),
+        ]
     return one_screen(result, about, body, ("--explain, every formula with its numbers",))
 
 
