@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from abu_calc.inputs.read_machine import Machine, read
     from abu_calc.inputs.recording import Recording
     from abu_calc.inputs.recording_files import read_recording
-    from abu_calc.inputs.scene import SceneDescription, read_scene
+    from abu_calc.simulation.scene_file import SceneDescription, read_scene
 
 _ROOMS: Final = {
     "dynamics.race": "Race",
@@ -85,7 +85,7 @@ _ROOMS: Final = {
     "inputs.read_machine": "Machine read",
     "inputs.recording": "Recording",
     "inputs.recording_files": "read_recording",
-    "inputs.scene": "SceneDescription read_scene",
+    "simulation.scene_file": "SceneDescription read_scene",
 }
 """Public names of each module."""
 

@@ -4,10 +4,11 @@ Effects are in `effects/`, one file each; `effects/__init__.py` tells how they g
 """
 
 from functools import cached_property
-from typing import Any, ClassVar, Literal, Protocol
+from typing import Annotated, Any, ClassVar, Final, Literal, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
@@ -15,8 +16,21 @@ from abu_calc.dynamics.rotor import STEADY, Rotation
 from abu_calc.dynamics.scene_context import Circumstances, Holding
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import quantity_and_unit
+from abu_calc.inputs.reading.table import Table
 
 Kind = Literal["conservative", "dissipative", "driven"]
+
+STAGES: Final = ("rotor", "races", "across", "forces", "impacts", "friction")
+"""Order in which the effects of a scene act.
+
+First what turns the rotor, then what moves the races, then what opens the direction across them, then forces, last what
+decides by all forces.
+"""
+
+BallRadius = Annotated[
+    float, Field(description="Radius of a ball [mm]; {range}, the same in all effects.", examples=[8.0], gt=0, le=1000)
+]
 
 ACROSS = "across"
 """Name of the state of each ball that is its place across the race [m], of whichever effect lets it move there."""
@@ -118,6 +132,8 @@ class SwitchPoint:
 class Effect:
     """One effect. Its fields are its numbers in SI; subclasses are final and say what they add.
 
+    `keys` declares them for scene files: unit, range, default and meaning, each under the name of its field.
+
     It reads the shared kinematics, the circumstances and its own numbers, never another effect. `act` and `rates` use
     plain arithmetic and m.xp.sin, m.xp.cos alone, so that they serve real, complex and symbolic numbers.
     """
@@ -128,8 +144,12 @@ class Effect:
     detail: ClassVar[str] = ""
     """Further text of `abu explain NAME`, if any."""
     """Description of the effect in one line, shown where people choose effects."""
+    keys: ClassVar[type[Table] | None] = None
+    """Its table in a scene file, `scene.effects.NAME`; None: it comes with another `table`."""
     table: ClassVar[str] = ""
-    """The table of a scene file that it comes with; empty: a table of its own, `scene.effects.NAME`."""
+    """The table of a scene file that it comes with, if that is not its own."""
+    stage: ClassVar[Literal["rotor", "races", "across", "forces", "impacts", "friction"]] = "forces"
+    """Its place in the order of a scene."""
     ball_states: ClassVar[tuple[str, ...]] = ()
     """Names of the states it adds for each ball."""
     switches: ClassVar[bool] = False
@@ -148,6 +168,13 @@ class Effect:
     """True if its remarks need samples of the whole run at once; a long run gives some of them."""
     balls_meet: ClassVar[bool] = False
     """True if the effect gives balls a size, so that they cannot pass each other."""
+
+    @classmethod
+    def of(cls, table: Any) -> Self:
+        """The effect of its table in a file; what the file leaves open, or has no part in it, has its default here."""
+        silent = {quantity_and_unit(key)[0] for key in table.unused()}
+        given = table.in_si().items()
+        return cls(**{name: value for name, value in given if value is not None and name not in silent})
 
     # Properties others ask an effect for, so that nobody needs to ask which effect it is.
 

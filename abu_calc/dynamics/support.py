@@ -5,7 +5,7 @@ these names.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Self
 
@@ -16,6 +16,7 @@ from abu_calc.dynamics.parameters import Frame, Geometry
 from abu_calc.dynamics.race import Balls, Race
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading.table import Table
 
 if TYPE_CHECKING:
     from abu_calc.formulas.swing_arm import Arm
@@ -136,6 +137,27 @@ class Support(ABC):
 
     bearings: tuple[float, ...] = ()
     """Places along the spindle [m] where motion is reported beside that of the axis."""
+
+    # What a scene file says of it.
+
+    kind: ClassVar[str]
+    """Value of the key `support`."""
+    about: ClassVar[str]
+    """Meaning of that value in a few words."""
+    needs: ClassVar[tuple[str, ...]]
+    """Keys of the scene that it needs."""
+    keys: ClassVar[Mapping[str, type[Table]]]
+    """Tables of the scene that only it takes."""
+
+    @classmethod
+    def of(cls, scene: Any) -> Self:
+        """The support of the tables of a scene file. Raises InputError."""
+        raise NotImplementedError
+
+    def started(self, scene: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Places and velocities at the start: the axis, the first two, as the file says, all else at rest."""
+        start, rest = scene.initial, (0.0,) * (len(self.names) - 2)
+        return (start.x, start.y, *rest), (start.vx, start.vy, *rest)
 
     # What the equations need.
 

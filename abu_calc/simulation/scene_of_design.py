@@ -365,9 +365,8 @@ def running_up(design: Design) -> float:
 
 def _motor(table: MotorTable) -> "MotorEffect":
     from abu_calc.dynamics.effects.motor import MotorEffect
-    from abu_calc.simulation.scene_of_file import motor_numbers
 
-    return MotorEffect(**motor_numbers(table))
+    return MotorEffect.of(table)
 
 
 def level_without(design: Design) -> float:

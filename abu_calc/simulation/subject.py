@@ -17,11 +17,11 @@ from abu_calc.foundation.units import from_si, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.document import FileReading
-from abu_calc.inputs.scene import SceneDescription
 from abu_calc.simulation.arguments import check_effects, one_of
 from abu_calc.simulation.durations import lasting
 from abu_calc.simulation.effect_selection import Ledger, chosen
 from abu_calc.simulation.result import Provenance
+from abu_calc.simulation.scene_file import SceneDescription
 from abu_calc.simulation.scene_of_design import SCENES, STARTS, WORST, contact_half_angle, scene_of_design
 from abu_calc.simulation.scene_of_file import scene_from
 from abu_calc.sizing import size

@@ -3,7 +3,7 @@
 import ast
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, ClassVar, get_args
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -22,9 +22,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.switching.modes import starting
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene import NEEDED, REFUSED, SceneTable
 from abu_calc.simulation.response import evaluate, needed_times
-from abu_calc.simulation.scene_of_file import SUPPORTS as KINDS
 from tests.dynamics.energy import mass_matrix
 from tests.dynamics.scenes import dimensionless, scene_on, with_effects
 from tests.house import structure
@@ -34,7 +32,7 @@ DYNAMICS = Path(abu_calc.dynamics.__file__).parent
 PACKAGE = DYNAMICS.parent
 ROOMS = ("", "supports", "equations", "switching", "effects", "codegen", "integrators", "averaging", "stability")
 """Of dynamics, in order; the first are its own files."""
-BELOW = {"version", "foundation", "standards", "formulas"}
+BELOW = {"version", "foundation", "standards", "formulas", "inputs"}
 
 
 def imports(path: Path) -> set[str]:
@@ -187,12 +185,6 @@ def test_a_new_support_takes_effects_and_drives():
         replace(scene, couple=0.1)
     with pytest.raises(InputError, match="no work"):
         scene.support.plane(0.0)
-
-
-def test_a_kind_of_support_stands_in_three_lists():
-    """What people write, what it needs, and what makes it."""
-    kinds = set(get_args(SceneTable.model_fields["support"].annotation))
-    assert kinds == set(NEEDED) == set(REFUSED) == set(KINDS)
 
 
 # The balls' mass on an arm

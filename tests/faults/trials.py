@@ -71,7 +71,7 @@ MODULES = (
     "abu_calc.features.sweep.study",
     "abu_calc.features.sweep.store",
     "abu_calc.features.sweep.answers",
-    "abu_calc.inputs.scene",
+    "abu_calc.simulation.scene_file",
     "abu_calc.dynamics.equations.assemble",
     "abu_calc.dynamics.integrators.choice",
     "abu_calc.features.sweep.view",

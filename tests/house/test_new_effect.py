@@ -35,16 +35,7 @@ def add_churning(copy: Copy) -> None:
     copy.change(
         "abu_calc/dynamics/effects/registry.py",
         (behind, imported),
-        ('    ("gravity", GravityEffect),', '    ("churning", Churning),\n'),
-    )
-    copy.change(
-        "abu_calc/inputs/scene_effects.py",
-        ("BALL_RADIUS = ", TABLE),
-        ("    gravity: Gravity | None", "    churning: Churning | None = None\n"),
-    )
-    copy.change(
-        "abu_calc/simulation/scene_of_file.py",
-        ("NUMBERS: Final", '    "churning": lambda table: {"coefficient": table.coefficient_s},\n'),
+        ("    GravityEffect,", "    Churning,\n"),
     )
     copy.change(
         "tests/dynamics/examples.py",
@@ -53,15 +44,6 @@ def add_churning(copy: Copy) -> None:
         ("UNITS: dict", '    "coefficient": (0, 0, 1),\n'),
         ("NOTHING: list", "    Churning(0.0),\n"),
     )
-
-
-TABLE = '''
-
-class Churning(Table):
-    """Grease that balls churn: a drag that grows with the third power of their speed along the race."""
-
-    coefficient_s: float = Field(description="Torque over m·R_p²·speed³ [s]; {range}.", examples=[0.1], ge=0, le=1e6)
-'''
 
 
 @pytest.fixture

@@ -26,47 +26,14 @@ rolling_drag_per_s = 10.0
 start_angles_deg = []
 """
 
-RAIL_TABLE = '''
-
-class Rail(Table):
-    """A rotor that slides along one line: support = "rail"."""
-
-    stiffness_N_per_m: Stiffness = Field(description="Stiffness along the rail [N/m]; {range}.", examples=[2e4])
-    damping_N_s_per_m: Damping = Field(description="Damping along the rail [N·s/m]; {range}.", examples=[60.0])
-    angle_deg: float = Field(default=0.0, description="From +x to it [degrees]; {range}. Default: {default}.", ge=-360,
-                             le=360)
-'''
-
-RAIL_SCENE = '''
-
-def _rail(table: SceneTable) -> Held:
-    """On a rail, at the place of it that is next to where the file says."""
-    rail, start = _given(table.rail), table.initial
-    made = Rail(table.mass_kg or 0.0, rail.stiffness_N_per_m, rail.damping_N_s_per_m, to_si(rail.angle_deg, "deg"))
-    along = made.unit[:, 0]
-    place = along @ (to_si(start.x_mm, "mm"), to_si(start.y_mm, "mm"))
-    velocity = along @ (to_si(start.vx_mm_per_s, "mm_per_s"), to_si(start.vy_mm_per_s, "mm_per_s"))
-    return made, (float(place),), (float(velocity),)
-'''
-
 
 def add_rail(copy: Copy) -> None:
     copy.add("rail.py", "abu_calc/dynamics/supports/rail.py")
-    copy.change("abu_calc/inputs/scene_parts.py", ("PER_BEARING: Final", RAIL_TABLE))
     copy.change(
-        "abu_calc/inputs/scene.py",
-        ("from pydantic import", "from abu_calc.inputs.scene_parts import Rail\n"),
-        ("NEEDED: Final", '    "rail": ("mass_kg", "rail"),\n'),
-        ("REFUSED: Final", '    "rail": (*SPRINGS, "tilting", "swing_arm", "body"),\n'),
-        ("    body: Body | None", "    rail: Rail | None = None\n"),
-    )
-    copy.replace("abu_calc/inputs/scene.py", 'Literal["planar", ', 'Literal["rail", "planar", ')
-    copy.change(
-        "abu_calc/simulation/scene_of_file.py",
+        "abu_calc/dynamics/supports/registry.py",
         ("from abu_calc.dynamics.supports.planar import", "from abu_calc.dynamics.supports.rail import Rail\n"),
-        ('"""A support, and places and velocities', RAIL_SCENE),
-        ("SUPPORTS: Final", '    "rail": _rail,\n'),
     )
+    copy.replace("abu_calc/dynamics/supports/registry.py", "(PlanarSupport, ", "(PlanarSupport, Rail, ")
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import pytest
 
 from abu_calc.features.grinding.work import at_work
 from abu_calc.foundation.progress import silent
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.simulate import simulate
 from abu_calc.simulation.subject import subject_of
 from abu_calc.sizing import size

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene import SceneDescription, read_scene
+from abu_calc.simulation.scene_file import SceneDescription, read_scene
 
 SCENE = """\
 # two balls on a planar rotor

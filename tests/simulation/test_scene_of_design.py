@@ -20,7 +20,7 @@ from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading import sources as presets
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.scene_of_design import SCENES, STARTS, contact_half_angle, idle_scene, scene_of_design
 from abu_calc.sizing import Design, size
 from tests.sizing.machines import machine

@@ -22,7 +22,7 @@ from typing import Any, Final
 import numpy as np
 
 import abu_calc
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from tests.benchmarks.measuring import keep, machine
 from tests.features.identification.recorded import record
 

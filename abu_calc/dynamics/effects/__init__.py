@@ -27,10 +27,10 @@ What is coupled by physics, and where:
                                                  `switching.contact_stop`
     gravity shakes balls loose                   its weight reads `Circumstances.holding`
 
-ORDER: that of the registry. What moves the rotor and the races comes before what acts on the balls, what opens a
+ORDER: that of their stages. What moves the rotor and the races comes before what acts on the balls, what opens a
 direction before what rubs in it, and what decides by all forces comes last.
 
-A new effect is a file here, its line in `registry.py`, its table in `inputs.scene_effects`, its line in
-`simulation.scene_of_file`, and its example in `tests/dynamics/examples.py`. One that comes with its support names the
-support's table instead, as `table`.
+A new effect is a file here, its line in `registry.py`, and its example in `tests/dynamics/examples.py`. Its file
+declares its table in scene files, too, as `keys`. One that comes with its support names the support's table instead, as
+`table`.
 """

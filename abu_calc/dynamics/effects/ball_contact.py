@@ -16,10 +16,6 @@ Approaches so slow that the rebound would lift the balls by less than `LIFT` bef
 again are resolved at once: those pairs get equal speeds. Without that balls would bounce without end. The cost of a
 scene is its number of impacts times that of an impact, which grows with the pairs that touch: pressed elastic balls
 bounce ever faster as they come to rest.
-
-    parameter    unit  range  default       source
-    ball_radius  m     > 0    required      geometry
-    restitution  1     0 … 1  0.5 in files  assumed: oiled steel balls
 """
 
 import math
@@ -29,7 +25,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.chains import Chains
-from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Rule, SwitchPoint
+from abu_calc.dynamics.effect import BallRadius, Effect, EffectInfluence, Kind, Rule, SwitchPoint
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
@@ -39,6 +35,7 @@ from abu_calc.dynamics.switching.stick_slip import AT_REST
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.reading.table import Table, entry
 
 TOUCHING = 1e-9
 """Gaps [rad] up to this are closed: events are located no better."""
@@ -97,6 +94,15 @@ def _rounding(theta: AnyArray) -> float:
     return float(1e-13 + 8 * np.spacing(np.abs(theta).max()))
 
 
+class BallContact(Table):
+    """Balls have a size: neighbours meet, press and part. Without it they pass through each other."""
+
+    ball_radius_mm: BallRadius
+    restitution: float = entry(0.5, ge=0, le=1).means(
+        "Speed after an impact over the speed before it; {range}. Default: {default}, assumed."
+    )
+
+
 @dataclass(frozen=True)
 class BallContactEffect(Effect):
     """`ball_radius` r [m], `restitution` e, 0 … 1. Mode: `Neighbours`; None where no race has two balls."""
@@ -105,7 +111,9 @@ class BallContactEffect(Effect):
     restitution: float
 
     name: ClassVar[str] = "ball_contact"
+    keys = BallContact
     kind: ClassVar[Kind] = "dissipative"
+    stage = "impacts"
     about: ClassVar[str] = "Ball contact: balls of one race cannot pass each other; they collide, press and separate"
     detail: ClassVar[str] = (
         "Rule of impacts: touching pairs collide one after the other, the fastest approach first. Each pair leaves at "

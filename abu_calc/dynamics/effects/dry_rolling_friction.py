@@ -10,10 +10,6 @@ the sums of their forces. A ball that also rolls across its race, by v, is rubbe
 its race while the others roll: below a millionth of R_p Ω its friction is proportional to its velocity. Source:
 Coulomb's rolling friction with the lever arm k_r; balls may rest where |Im(w e^{−iθ})| ≤ f R_p. The inner side is taken
 to be as hard as the outer one.
-
-    parameter    unit  range            default   source
-    lever_arm    m     0 … ball_radius  required  5e-7 … 5e-6 m on hard ground races, practice
-    ball_radius  m     > 0              required  geometry
 """
 
 import math
@@ -22,7 +18,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.effect import ACROSS_RATE, Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
+from abu_calc.dynamics.effect import ACROSS_RATE, BallRadius, Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.scene_context import Circumstances, Holding
@@ -32,6 +28,7 @@ from abu_calc.dynamics.trajectory import Samples, at_samples, merged
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.reading.table import Table, entry
 
 LEAVES = 1e-4
 """A ball pulled inward by more of m R_p Ω² than this is worth a warning: near standstill less means nothing."""
@@ -44,6 +41,15 @@ ASKED = 200
 """Samples of a run that are asked whether balls leave their race, twice: evenly spread, and where balls are slow."""
 
 
+class DryRollingFriction(Table):
+    """Dry rolling friction: a ball sticks until it is pulled harder than its normal force times k_r/r."""
+
+    lever_arm_mm: float = entry(ge=0, le=1, example=0.002).means(
+        "Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005."
+    )
+    ball_radius_mm: BallRadius
+
+
 @dataclass(frozen=True)
 class DryRollingFrictionEffect(Effect):
     """`lever_arm` k_r [m], `ball_radius` r [m]. Mode: `Rolling`; None without friction."""
@@ -52,7 +58,9 @@ class DryRollingFrictionEffect(Effect):
     ball_radius: float
 
     name: ClassVar[str] = "dry_rolling_friction"
+    keys = DryRollingFriction
     kind: ClassVar[Kind] = "dissipative"
+    stage = "friction"
     about: ClassVar[str] = (
         "Dry rolling friction: a ball rests in its race until the pull on it exceeds f times its normal force"
     )

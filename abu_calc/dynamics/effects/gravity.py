@@ -23,9 +23,14 @@ from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import GRAVITY
+from abu_calc.inputs.reading.table import Table
 
 SHAKES = 0.1
 """Share of what dry friction holds from which gravity is taken to help balls loose: they are pulled otherwise, too."""
+
+
+class Gravity(Table):
+    """Weight of the balls, toward -y; the axis is counted from static equilibrium. No keys."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +40,7 @@ class GravityEffect(Effect):
     acceleration: float = GRAVITY
 
     name: ClassVar[str] = "gravity"
+    keys = Gravity
     kind: ClassVar[Kind] = "conservative"
     about: ClassVar[str] = "Gravity on the balls of a horizontal spindle, toward −y"
     averaged: ClassVar[bool] = True

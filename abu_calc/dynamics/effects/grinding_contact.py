@@ -18,17 +18,6 @@ If T brakes a driven rotor, it turns round with the sliding, and at rest holds b
 Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and a remark
 tells where that cannot be. There T = s f N may feed the balls: N grows with the square of their speed and their power
 with its cube, so that it is infinite after a finite time. Compliance, one-sided contact and torque are derived.
-
-    parameter            unit  range                   default    source
-    press_force          N     ≥ 0                     required   measured
-    cutting_coefficient  1     ≥ 0                     required   Kladiev 1996
-    contact                    compliant, rigid, face  compliant  wheel and workpiece
-    contact_stiffness    N/m   > 0 if compliant        0          measured
-    rotation_sense             −1, 1                   −1         geometry
-    runout               m     ≥ 0                     0          dial gauge, half of TIR
-    runout_angle         rad   any                     0          from the zero mark
-    wheel_radius         m     ≥ 0; 0: not known       0          geometry
-    plane_offset         m     any                     0          geometry, supports that tilt
 """
 
 import cmath
@@ -49,6 +38,8 @@ from abu_calc.dynamics.trajectory import Samples, at_samples
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.duty import Grinding
+from abu_calc.inputs.reading.table import entry
 
 Contact = Literal["compliant", "rigid", "face"]
 
@@ -86,6 +77,24 @@ LEAST_DEPTH = 1e-9
 """A depth [m] that counts as something where there is neither press nor runout."""
 
 
+class GrindingContact(Grinding):
+    """Wheel and work under load."""
+
+    runout_mm: float = entry(0.0, ge=0, le=10).means(
+        "Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}. Default: {default}, "
+        "a true wheel."
+    )
+    runout_angle_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Angle of the high spot from the zero mark [degrees]; {range}. Default: {default}."
+    )
+    wheel_radius_mm: float | None = entry(None, gt=0, le=1e4, example=75.0).means(
+        "Radius of the wheel [mm]; {range}. With it cutting brakes a rotor that a motor drives."
+    )
+    plane_offset_mm: float = entry(0.0, ge=-1e5, le=1e5).means(
+        "Tilting support: place of the wheel along +z from the centre of mass [mm]; {range}. Default: {default}."
+    )
+
+
 @dataclass(frozen=True)
 class GrindingContactEffect(Effect):
     """`press_force` N₀ [N], `cutting_coefficient` f, `contact_stiffness` c_n [N/m] where compliant, `rotation_sense` s.
@@ -105,6 +114,7 @@ class GrindingContactEffect(Effect):
     plane_offset: float = 0.0
 
     name: ClassVar[str] = "grinding_contact"
+    keys = GrindingContact
     kind: ClassVar[Kind] = "driven"
     about: ClassVar[str] = "Grinding contact: the wheel is pressed to the workpiece on its −y side, and cuts there"
     switches: ClassVar[bool] = True

@@ -6,13 +6,11 @@ With too little torque the speed sticks at a resonance (Sommerfeld 1902): the po
 Blekhman 1988, Synchronization in Science and Technology, ch. 6. The rotor starts at the scene's speed, or from rest in
 a run-up.
 
-    parameter      unit   range         default   source
-    stall_torque   N m    > 0 in files  required  data sheet
-    no_load_speed  rad/s  > 0 in files  required  data sheet
-    inertia        kg m²  > 0 in files  required  data sheet, all that turns
+    parameter  unit   range  default   source
+    inertia    kg m²  > 0    required  data sheet, all that turns
 """
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -22,6 +20,8 @@ from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import DRIVEN, Rotation
 from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import to_si
+from abu_calc.inputs.duty import Motor
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,15 @@ class MotorEffect(Effect):
     inertia: float
 
     name: ClassVar[str] = "motor"
+    keys = Motor
     kind: ClassVar[Kind] = "driven"
+    stage = "rotor"
     about: ClassVar[str] = "Motor of limited power: its torque falls linearly from standstill to the no-load speed"
+
+    @classmethod
+    def of(cls, table: Motor) -> Self:
+        """Motor of a table of a machine or of a scene."""
+        return cls(table.stall_torque_N_m, to_si(table.no_load_speed_rpm, "rpm"), table.rotor_inertia_kg_m2)
 
     @property
     def rotor(self) -> Rotation:

@@ -3,10 +3,6 @@
     Δ e_r(turn + φ),    accelerated by Δ (Ω' e_t − Ω² e_r)
 
 The balls centre the race, so the axis keeps a whirl of radius Δ, whatever the speed. Source: derived.
-
-    parameter  unit  range         default   source
-    magnitude  m     ≥ 0 in files  required  5e-6 … 2e-5 m, practice
-    angle      rad   any           0         from the zero mark
 """
 
 import cmath
@@ -18,6 +14,18 @@ from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.supports.steady_motion import weighing_amplitude
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading.table import Table, entry
+
+
+class RaceEccentricity(Table):
+    """The race's centre stands off the axis of rotation."""
+
+    magnitude_mm: float = entry(ge=0, le=100, example=0.01).means(
+        "Distance of the race's centre from the axis of rotation [mm]; {range}, usually 0.005 … 0.020."
+    )
+    angle_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Angle of the centre of the race from the zero mark [degrees]; {range}. Default: {default}."
+    )
 
 
 @dataclass(frozen=True)
@@ -28,7 +36,9 @@ class RaceEccentricityEffect(Effect):
     angle: float = 0.0
 
     name: ClassVar[str] = "race_eccentricity"
+    keys = RaceEccentricity
     kind: ClassVar[Kind] = "driven"
+    stage = "races"
     about: ClassVar[str] = (
         "Race eccentricity: the centres of the races are off the axis of rotation by Δ, at the angle φ in the rotor"
     )

@@ -1,11 +1,11 @@
 """Registry of all effects.
 
-A new effect is a file beside this one, a line here, and its table in `inputs.scene_effects`.
+A new effect is a file beside this one and a line here.
 """
 
 from typing import Final
 
-from abu_calc.dynamics.effect import Effect
+from abu_calc.dynamics.effect import STAGES, Effect
 from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
 from abu_calc.dynamics.effects.gravity import GravityEffect
@@ -16,19 +16,18 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 
-REGISTRY: Final[tuple[tuple[str, type[Effect]], ...]] = (
-    ("run_up", RunUpEffect),
-    ("motor", MotorEffect),
-    ("race_eccentricity", RaceEccentricityEffect),
-    ("transverse_motion", TransverseMotionEffect),
-    ("gravity", GravityEffect),
-    ("grinding_contact", GrindingContactEffect),
-    ("lift_off", LiftOffEffect),
-    ("ball_contact", BallContactEffect),
-    ("dry_rolling_friction", DryRollingFrictionEffect),
+EFFECTS: Final[tuple[type[Effect], ...]] = (
+    GravityEffect,
+    DryRollingFrictionEffect,
+    BallContactEffect,
+    RaceEccentricityEffect,
+    GrindingContactEffect,
+    LiftOffEffect,
+    RunUpEffect,
+    MotorEffect,
+    TransverseMotionEffect,
 )
-"""Effects in the order in which a scene holds them.
+"""Effects in the order of scene files."""
 
-Effects that move the rotor and the races come before those that act on the balls. Effects that decide
-by all forces come last.
-"""
+REGISTRY: Final = tuple((kind.name, kind) for kind in sorted(EFFECTS, key=lambda kind: STAGES.index(kind.stage)))
+"""Effects by their names, in the order in which a scene holds them: that of their stages."""

@@ -19,9 +19,10 @@ rest, its torque sets the pace, and in the run-down it is switched off.
     rise       s      ≥ 0                   0         chosen
 """
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
+from pydantic import model_validator
 
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
@@ -31,6 +32,30 @@ from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading.table import Table, entry, problem
+
+
+class SceneRunUp(Table):
+    """A speed that rises from 0 to speed_rpm, or falls from it to 0, at an even pace."""
+
+    time_s: float | None = entry(None, gt=0, le=3600, example=1.0).means(
+        "Time from standstill to speed_rpm [s]; {range}."
+    )
+    run_down_s: float | None = entry(None, gt=0, le=3600, example=3.0).means(
+        "Time from speed_rpm to standstill, at the end of the run [s]; {range}."
+    )
+    rotor_inertia_kg_m2: float | None = entry(None, gt=0, le=1e6, example=2e-3).means(
+        "Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. With it a swing arm feels what "
+        "the change of speed takes; a motor has its own."
+    )
+
+    @model_validator(mode="after")
+    def _up_or_down(self) -> Self:
+        if self.time_s is None and self.run_down_s is None:
+            raise problem(
+                "the run-up has no time", "time_s", allowed="time_s, run_down_s or both", remedy="add time_s = 1.0"
+            )
+        return self
 
 
 @dataclass(frozen=True)
@@ -50,10 +75,17 @@ class RunUpEffect(Effect):
     rise: float = 0.0
 
     name: ClassVar[str] = "run_up"
+    keys = SceneRunUp
     kind: ClassVar[Kind] = "driven"
+    stage = "rotor"
     about: ClassVar[str] = (
         "Run-up and run-down: the rotor's speed rises evenly from 0 to Ω, or falls evenly to 0 at the end of the run"
     )
+
+    @classmethod
+    def of(cls, table: SceneRunUp) -> Self:
+        """Run-up of a scene file."""
+        return cls(table.time_s or 0.0, table.run_down_s or 0.0, table.rotor_inertia_kg_m2 or 0.0)
 
     @property
     def rotor(self) -> Rotation:

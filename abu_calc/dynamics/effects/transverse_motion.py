@@ -20,21 +20,16 @@ Locked, J = 7/5: ω_t = Ω at 5 (R − r) = 7 (R_g − r), at every speed (Kladi
 then an axial runout "shakes out" dry friction. In print the locked spin is not mentioned; with free spin it is at
 R_g = R. The axial runout is a motion of the machine along the spindle, once per turn: a swash of the race itself stands
 still in the rotor. Left out: w Θ in the plane where races tilt by Θ, and w/b times the rotor's acceleration in ν'.
-
-    parameter      unit  range          default   source
-    groove_radius  m     > ball_radius  required  drawing of the race
-    ball_radius    m     > 0            required  geometry
-    axial_runout   m     ≥ 0            0         dial gauge, 0–peak
-    free_spin            true, false    false     assumed: the contact locks the spin
 """
 
 import math
 import sys
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
+from pydantic import model_validator
 
-from abu_calc.dynamics.effect import ACROSS, ACROSS_RATE, Effect, EffectInfluence, Kind, SwitchPoint
+from abu_calc.dynamics.effect import ACROSS, ACROSS_RATE, BallRadius, Effect, EffectInfluence, Kind, SwitchPoint
 from abu_calc.dynamics.motion import Across, AnyArray, Axial, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
@@ -43,10 +38,37 @@ from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weigh
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.reading.table import Table, entry, problem
 
 _LARGEST = sys.float_info.max
 _EDGE = 1e-9
 """Share of the groove that is left at a located event."""
+
+
+class TransverseMotion(Table):
+    """Balls also move across the race, in its toroidal groove (Kladiev 1996, eq. (12))."""
+
+    groove_radius_mm: float = entry(gt=0, le=1e4, example=24.4).means(
+        "Radius of the groove across the race [mm]; above ball_radius_mm, up to {most}."
+    )
+    ball_radius_mm: BallRadius
+    axial_runout_mm: float = entry(0.0, ge=0, le=10).means(
+        "Axial runout of the race, 0-peak [mm]; {range}. Default: {default}."
+    )
+    free_spin: bool = entry(False).means(
+        "Whether balls spin freely about the contact's normal: true or false. Default: {default}."
+    )
+
+    @model_validator(mode="after")
+    def _groove_holds_the_ball(self) -> Self:
+        if self.groove_radius_mm <= self.ball_radius_mm:
+            raise problem(
+                "the ball does not fit into the groove",
+                "groove_radius_mm",
+                found=f"{self.groove_radius_mm:g} mm",
+                allowed=f"above ball_radius_mm, {self.ball_radius_mm:g} mm",
+            )
+        return self
 
 
 @dataclass(frozen=True)
@@ -59,7 +81,9 @@ class TransverseMotionEffect(Effect):
     free_spin: bool = False
 
     name: ClassVar[str] = "transverse_motion"
+    keys = TransverseMotion
     kind: ClassVar[Kind] = "driven"
+    stage = "across"
     about: ClassVar[str] = "Transverse motion: balls also roll across the race, in its groove, by w along the spindle"
     switches: ClassVar[bool] = True
 

@@ -6,6 +6,5 @@ swing_arm.py   a rotor at the end of an arm
 pressed.py     remarks on a wheel pressed to its workpiece
 receptance.py  steady motion of any support without balls
 
-A new kind is a file here, its table in `inputs.scene_parts`, its key in `inputs.scene`, and its line in
-`simulation.scene_of_file.SUPPORTS`.
+A new kind is a file here, which declares its tables in scene files, too, and its line in `registry.py`.
 """

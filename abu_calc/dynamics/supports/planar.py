@@ -8,10 +8,11 @@ in_hands     a machine held in two hands, whose masses move on their own
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Self, final
+from typing import Annotated, Any, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from abu_calc.dynamics.motion import AnyArray, Levers, Motion
 from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
@@ -21,6 +22,7 @@ from abu_calc.formulas.suspension import hand_masses, joined
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.reading.table import Table, entry
 from abu_calc.standards.vibration import Hand
 
 Matrix = tuple[tuple[float, ...], ...]
@@ -34,6 +36,25 @@ DAMPING = Range("support damping", 0, LARGEST, "N·s/m")
 
 QUARTERS = np.array((0.0, math.pi / 2, 0.0, math.pi / 2))
 """y is what x is a quarter turn later."""
+
+Stiffness = Annotated[float, Field(ge=0, le=1e15)]
+Damping = Annotated[float, Field(ge=0, le=1e12)]
+StiffnessPair = Annotated[tuple[Stiffness, ...], Field(strict=False, min_length=2, max_length=2)]
+DampingPair = Annotated[tuple[Damping, ...], Field(strict=False, min_length=2, max_length=2)]
+
+
+class Body(Table):
+    """Planar support: a further body on the rotor by a spring and a damper, such as a casing or a handle. It starts
+    at rest at its place.
+    """
+
+    mass_kg: float = Field(description="Mass of the body [kg]; {range}.", examples=[0.5], gt=0, le=1e9)
+    stiffness_N_per_m: StiffnessPair = entry(example=[20000.0, 20000.0]).means(
+        "Stiffness between rotor and body along x and y [N/m]; {range}."
+    )
+    damping_N_s_per_m: DampingPair = entry(example=[5.0, 5.0]).means(
+        "Damping between rotor and body along x and y [N·s/m]; {range}."
+    )
 
 
 def rows(matrix: AnyArray) -> Matrix:
@@ -229,6 +250,17 @@ class PlanarGeometry(LinearGeometry):
 @dataclass(frozen=True)
 class PlanarSupport(LinearSupport):
     """A linear support whose frame has the rows x and y of the race centre, all races in one plane."""
+
+    kind, about = "planar", "springs along x and y"
+    needs = ("mass_kg", "stiffness_N_per_m", "damping_N_s_per_m")
+    keys = {"body": Body}  # noqa: RUF012
+
+    @classmethod
+    def of(cls, scene: Any) -> "PlanarSupport":
+        """Support on springs, with a further body if the file has one."""
+        own = scene.mass_kg, scene.stiffness_N_per_m, scene.damping_N_s_per_m
+        hung = scene.body
+        return with_body(*own, hung.mass_kg, hung.stiffness_N_per_m, hung.damping_N_s_per_m) if hung else planar(*own)
 
     def geometry(self, unbalance: Unbalance) -> Geometry:
         """Geometry in one plane."""

@@ -3,27 +3,56 @@
 import math
 from collections.abc import Sequence
 from dataclasses import field, replace
-from typing import Any, ClassVar, Self, final
+from typing import Any, ClassVar, Final, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
 
 from abu_calc.dynamics.motion import AnyArray, Levers, Motion
 from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
 from abu_calc.dynamics.race import LARGEST, NON_NEGATIVE, Balls, Race, finite
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.formulas.swing_arm import Arm, contact_gain, damping_limit, resonance
-from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.duty import GRIP, SwingArm
+from abu_calc.inputs.reading.table import entry, problem
 
 CONTACT_STIFFNESS = Range("contact stiffness", 0, LARGEST, "N/m")
 FRICTION = Range("cutting coefficient", 0, 1.5)
 CONTACT_ANGLE = Range("contact angle", 0, math.pi, "rad")
 WHEEL_RADIUS = Range("wheel radius", 0, LARGEST, "m", open_low=True)
 ARM_LENGTH = Range("arm length", 0, LARGEST, "m", open_low=True)
+TOUCHING: Final = 1e-12
+"""Rounding of an angle [rad]."""
 
 Numbers = NDArray[np.float64]
+
+
+class SceneSwingArm(SwingArm):
+    """The rotor at the end of a swing arm (Kovalenko 2010): support = "swing-arm". The defaults are an example."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"wheel_radius_mm"})
+
+    wheel_radius_mm: float | None = entry(None, gt=0, le=1e4, example=115.0).means(
+        "Radius of the wheel that cuts [mm]; {range}. With cutting = true."
+    )
+    cutting: bool = entry(False).means(
+        "Whether the wheel is pressed to the work: true or false. Default: {default}, idle."
+    )
+
+    def unused(self) -> frozenset[str]:
+        """Keys of the pressing to the workpiece, while the wheel is not pressed."""
+        return frozenset() if self.cutting else frozenset({*GRIP, "wheel_radius_mm"})
+
+    @model_validator(mode="after")
+    def _cutting_needs_a_radius(self) -> Self:
+        if self.cutting and self.wheel_radius_mm is None:
+            raise problem("cutting = true needs wheel_radius_mm", "wheel_radius_mm", remedy="add wheel_radius_mm = …")
+        return self
 
 
 @final
@@ -78,6 +107,44 @@ class SwingArmSupport(Support):
     names: tuple[str, ...] = field(default=("arm_angle",), init=False)
 
     turns: ClassVar[bool] = True
+    kind, about = "swing-arm", "[scene.swing_arm]"
+    needs = ("swing_arm",)
+    keys = {"swing_arm": SceneSwingArm}  # noqa: RUF012
+
+    @classmethod
+    def of(cls, scene: Any) -> "SwingArmSupport":
+        """Arm of the file, idle or pressed to the work."""
+        own: SceneSwingArm = scene.swing_arm
+        arm = Arm(
+            length=own.arm_length,
+            inertia=own.moment_of_inertia,
+            joint_stiffness=own.joint_stiffness,
+            joint_damping=own.joint_damping,
+            contact_stiffness=own.contact_stiffness,
+            friction=own.cutting_coefficient,
+            disk_radius=own.wheel_radius or 0.0,  # which no arm that cuts takes
+            contact_angle=own.contact_angle,
+            touch_angle=own.touch_angle,
+            pressing_moment=own.pressing_moment,
+        )
+        return cutting_arm(arm) if own.cutting else idle_arm(arm)
+
+    def started(self, scene: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """At rest where it stands. Raises InputError if it does not, or if the disk does not touch the workpiece."""
+        own: SceneSwingArm = scene.swing_arm
+        try:
+            (angle,) = self.resting_position()
+        except InputError as error:
+            raise error.at(Place(key="scene.swing_arm.contact_angle_deg")) from None
+        if own.cutting and angle < own.touch_angle - TOUCHING:
+            raise InputError(
+                "the disk is not pressed to the work",
+                place=Place(key="scene.swing_arm.pressing_moment_N_m"),
+                found=f"the arm rests at {from_si(angle, 'deg'):.4g}°",
+                allowed=f"at least touch_angle_deg, {own.touch_angle_deg:g}°",
+                remedy="a larger moment, or cutting = false",
+            )
+        return (angle,), (0.0,)
 
     def __post_init__(self) -> None:
         Range("arm length", 0, LARGEST, "m", open_low=True).check(self.length)

@@ -1,18 +1,104 @@
 """A rigid rotor on bearings, which moves in its plane and tilts, with gyroscopic moments."""
 
 from collections.abc import Sequence
-from typing import Any, ClassVar, final
+from typing import Annotated, Any, ClassVar, Final, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field, model_validator
 
 from abu_calc.dynamics.motion import AnyArray, Axial, Leaning, Levers, Motion
 from abu_calc.dynamics.parameters import Geometry, Parameters
 from abu_calc.dynamics.race import LARGEST, Race
 from abu_calc.dynamics.support import Unbalance
-from abu_calc.dynamics.supports.planar import DAMPING, MASS, STIFFNESS, LinearGeometry, LinearSupport, Pair, rows
+from abu_calc.dynamics.supports.planar import (
+    DAMPING,
+    MASS,
+    STIFFNESS,
+    DampingPair,
+    LinearGeometry,
+    LinearSupport,
+    Pair,
+    StiffnessPair,
+    rows,
+)
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.reading.table import Table, entry, problem
+
+Position = Annotated[float, Field(ge=-1e5, le=1e5)]
+
+PER_BEARING: Final = ("bearing_stiffness_N_per_m", "bearing_damping_N_s_per_m")
+
+
+class CoupleImbalance(Table):
+    """Couple imbalance: the polar principal axis of inertia leans against the axis of rotation."""
+
+    magnitude_rad: float = entry(ge=0, le=0.1, usual=(1e-7, 5e-3), example=6.8e-5).means(
+        "Angle between the polar principal axis and the axis of rotation [rad]; {range}."
+    )
+    angle_deg: float = entry(0.0, ge=-360, le=360).means(
+        "Angle to which the +z end of the principal axis leans, from the zero mark [degrees]; {range}. Default: "
+        "{default}."
+    )
+
+
+class Tilting(Table):
+    """A rigid rotor on bearings, which moves in its plane and tilts: support = "tilting"."""
+
+    transverse_inertia_kg_m2: float = entry(gt=0, le=1e9, example=0.0138).means(
+        "Moment of inertia about an axis across the spindle through the centre of mass, without balls [kg·m²]; {range}."
+    )
+    polar_inertia_kg_m2: float = entry(ge=0, le=1e9, example=0.00124).means(
+        "Moment of inertia of what rotates about the spindle, without balls [kg·m²]; {range}, at most twice the "
+        "transverse one."
+    )
+    bearing_positions_mm: Annotated[tuple[Position, ...], Field(strict=False, min_length=1, max_length=20)] = entry(
+        example=[110.0, -150.0]
+    ).means("Places of the bearings along +z, from the centre of mass [mm]; {range}, one or more.")
+    bearing_stiffness_N_per_m: Annotated[tuple[StiffnessPair, ...], Field(strict=False, max_length=20)] = entry(
+        example=[[21500.0, 15800.0], [21500.0, 15800.0]]
+    ).means("Stiffness of each bearing along x and y [N/m]; {range}.")
+    bearing_damping_N_s_per_m: Annotated[tuple[DampingPair, ...], Field(strict=False, max_length=20)] = entry(
+        example=[[5.375, 3.95], [5.375, 3.95]]
+    ).means("Damping of each bearing along x and y [N·s/m]; {range}.")
+    couple_imbalance_angle: CoupleImbalance | None = None
+    ball_tilt_inertia: bool = entry(True).means(
+        "Whether balls move axially with the race as it tilts: true or false. Default: {default}."
+    )
+
+    @model_validator(mode="after")
+    def _numbers_for_each_bearing(self) -> Self:
+        bearings = len(self.bearing_positions_mm)
+        for key in PER_BEARING:
+            given = len(getattr(self, key))
+            if given != bearings:
+                raise problem(
+                    "one pair [x, y] for each bearing of bearing_positions_mm",
+                    key,
+                    found=f"{given} of them",
+                    allowed=f"{bearings}",
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _inertia_of_a_body(self) -> Self:
+        if self.polar_inertia_kg_m2 > 2 * self.transverse_inertia_kg_m2:
+            raise problem(
+                "no body has such moments of inertia",
+                "polar_inertia_kg_m2",
+                found=f"{self.polar_inertia_kg_m2:g} kg·m²",
+                allowed=f"at most twice transverse_inertia_kg_m2, {2 * self.transverse_inertia_kg_m2:g} kg·m²",
+            )
+        return self
+
+    @property
+    def couple(self) -> tuple[float, float]:
+        """χ(J_t − J_p) [kg m²] and where it points [rad]."""
+        lean = self.couple_imbalance_angle
+        if lean is None:
+            return 0.0, 0.0
+        return lean.magnitude * (self.transverse_inertia - self.polar_inertia), lean.angle
 
 
 @final
@@ -67,9 +153,21 @@ class TiltingSupport(LinearSupport):
     """
 
     couples: ClassVar[bool] = True
+    kind, about = "tilting", "a rigid rotor on bearings, [scene.tilting]"
+    needs = ("mass_kg", "tilting")
+    keys = {"tilting": Tilting}  # noqa: RUF012
 
     axial_inertia: bool = False
     bearings: tuple[float, ...] = ()
+
+    @classmethod
+    def of(cls, scene: Any) -> "TiltingSupport":
+        """Support on the bearings of the file."""
+        own: Tilting = scene.tilting
+        bearings = own.bearing_positions, own.bearing_stiffness, own.bearing_damping
+        return tilting(
+            scene.mass_kg, own.transverse_inertia, own.polar_inertia, *bearings, axial_inertia=own.ball_tilt_inertia
+        )
 
     def geometry(self, unbalance: Unbalance) -> Geometry:
         """Geometry in planes that tilt."""

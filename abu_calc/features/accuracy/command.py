@@ -34,7 +34,7 @@ def accuracy(
 ) -> Outcome:
     """Compare methods of simulation by error and computing time."""
     from abu_calc.features.accuracy.study import accuracy as study
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     with progress(how) as tell:
         result = study(

@@ -72,7 +72,7 @@ def _measured(
     """Recorded starts beside the starts that files of machines or scenes predict."""
     from abu_calc.features.compare.measured import compare_measured
     from abu_calc.inputs.read_machine import Machine, variant_of
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     read = [read_any(file, overrides) for file in files]
     if variants and not isinstance(read[0], Machine):

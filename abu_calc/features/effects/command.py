@@ -30,7 +30,7 @@ def effects(
     """
     from abu_calc.features.effects.study import effects as study
     from abu_calc.features.effects.study import known_effects
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     if file is None:
         if set_ or scene or with_effects or without_effects:

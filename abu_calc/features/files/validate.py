@@ -16,7 +16,6 @@ from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.document import Document, FileReading, open_document
 from abu_calc.inputs.reading.kinds import KINDS
-from abu_calc.inputs.scene import SceneDescription
 from abu_calc.reporting.blocks import Block, Paragraph
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.screen import many
@@ -31,11 +30,11 @@ def refuse_unusable(source: FileReading) -> None:
     Raises InputError with file, line and key for what sizing, seats or the scenes of the file would refuse.
     """
     with source.located():
-        if isinstance(source, SceneDescription):
+        if scene := getattr(source, "scene", None):  # a machine's check loads no equations
             from abu_calc.simulation.durations import lasting
             from abu_calc.simulation.scene_of_file import scene_from
 
-            lasting(scene_from(source.scene), None, "scene.duration_s")
+            lasting(scene_from(scene), None, "scene.duration_s")
         if isinstance(source, Machine):
             _machine(source)
 

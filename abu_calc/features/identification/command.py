@@ -37,7 +37,7 @@ def identify(
     columns are t_s, vx_mm_per_s (or ax_m_per_s2) and mark, one pulse per revolution.
     """
     from abu_calc.features.identification.study import identify as study
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     if write is not None:
         check_target(write, force=how.force, suffixes=(".toml",), option="--write")

@@ -26,7 +26,7 @@ def measure_plan(
     Starts of this machine are simulated and identified like recordings: the intervals are those to expect.
     """
     from abu_calc.features.identification.plan import measure_plan as study
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     with progress(how) as tell:
         result = study(read_any(file, set_ or ()), runs=runs, noise_um=noise_um, run_up_s=run_up, progress=tell)

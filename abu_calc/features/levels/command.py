@@ -76,7 +76,7 @@ def levels(
     from abu_calc.features.levels.study import levels as study
     from abu_calc.foundation.errors import InputError, Place
     from abu_calc.inputs.recording_files import is_recording
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     recorded, handles = is_recording(source), _handles(handle)
     if recorded and set_:

@@ -33,11 +33,11 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.recording import Recording
 from abu_calc.inputs.recording_columns import QUANTITIES
 from abu_calc.inputs.recording_files import is_recording, read_recording
-from abu_calc.inputs.scene import SceneDescription, read_any
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.effect_selection import simulate_chosen
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.result import Provenance, Result
+from abu_calc.simulation.scene_file import SceneDescription, read_any
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.subject import Subject, subject_of
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place

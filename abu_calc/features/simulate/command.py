@@ -68,8 +68,8 @@ def simulate(
     """Simulate one scene: amplitude, level, quiet and rest time, ball angles."""
     from abu_calc.features.simulate.study import simulate as study
     from abu_calc.features.simulate.view import TrajectoryCsv
-    from abu_calc.inputs.scene import read_any
     from abu_calc.reporting.write import Target
+    from abu_calc.simulation.scene_file import read_any
 
     _check_files(how, trajectory, samples)
     with progress(how) as tell:

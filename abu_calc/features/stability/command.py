@@ -48,7 +48,7 @@ def stability(
     The report gives eigenvalues or Floquet multipliers, the growth rate and the stability boundaries.
     """
     from abu_calc.features.stability.study import stability as study
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     speeds = None if speeds_rpm is None else _two(speeds_rpm)
     with progress(how) as tell:

@@ -90,7 +90,7 @@ def sweep(
     from abu_calc.features.sweep.store_faults import checked_path
     from abu_calc.features.sweep.study import WAIT
     from abu_calc.features.sweep.study import sweep as study
-    from abu_calc.inputs.scene import read_any
+    from abu_calc.simulation.scene_file import read_any
 
     WAIT.check(cluster_wait_s)
     if resume and store is None:

@@ -31,7 +31,6 @@ from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.scene import SceneDescription, SceneFile
 from abu_calc.inputs.two_races import MOST_WHEELS, TwoRaceFile
 from abu_calc.inputs.variation import (
     MOST_RUNS,
@@ -46,6 +45,7 @@ from abu_calc.inputs.variation import (
 )  # fmt: skip
 from abu_calc.inputs.variation import RUNS as USUAL
 from abu_calc.simulation.arguments import one_of
+from abu_calc.simulation.scene_file import SceneDescription, SceneFile
 from abu_calc.simulation.scene_of_file import scene_from
 from abu_calc.simulation.start_cases import KINDS
 from abu_calc.sizing import size as sized

@@ -24,12 +24,12 @@ from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.scene import SceneFile
 from abu_calc.inputs.variation import Variants
 from abu_calc.simulation.ensemble import MORE, TOLERANCE, WORK, first_tolerance, integrated, run_of_start
 from abu_calc.simulation.ensemble_results import StartOutcome
 from abu_calc.simulation.residual_criteria import HALF, allowed_imbalance, allowed_of_scene, balances, slip
 from abu_calc.simulation.response import Response, evaluate, needed_times
+from abu_calc.simulation.scene_file import SceneFile
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import scene_from
 from abu_calc.simulation.start_cases import OPPOSITE, Member, Variation, idle_speed, turned, usual_run_up

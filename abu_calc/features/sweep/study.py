@@ -28,9 +28,9 @@ from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.scene import SceneDescription
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance
+from abu_calc.simulation.scene_file import SceneDescription
 from abu_calc.simulation.simulate import ACCURACY
 
 WAIT: Final = Range("wait for a cluster", 0, 1e6, unit="s", open_low=True, key="cluster_wait_s")

@@ -40,7 +40,8 @@ KINDS: Final = (
     ),
     Kind(
         "scene", "a scene", ("scene",), "simulate",
-        "inputs.scene:scene_from", "inputs.reading.template:scene_template", "inputs.reading.schema:scene_schema",
+        "simulation.scene_file:described_scene", "simulation.scene_file:scene_template",
+        "simulation.scene_file:scene_schema",
     ),
     Kind(
         "readings", "readings of a rig", ("rig", "rotor", "run"), "balance",

@@ -10,7 +10,6 @@ from abu_calc.inputs.machine import BearingFile, MachineFile
 from abu_calc.inputs.reading.format import FORMAT, KEY
 from abu_calc.inputs.reading.table import Table, all_tables
 from abu_calc.inputs.reading.values_with_units import canonical_keys
-from abu_calc.inputs.scene import SceneFile
 from abu_calc.inputs.two_races import TwoRaceFile
 
 HOME: Final = "https://json.schemastore.org/"
@@ -27,11 +26,6 @@ def machine_schema() -> dict[str, Any]:
     """The schema of machine files: a whole machine with one race or two, or bearings alone."""
     kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, TwoRaceFile.__name__, BearingFile.__name__)]
     return schema_of("machine", MachineFile, TwoRaceFile, BearingFile) | {"anyOf": kinds}
-
-
-def scene_schema() -> dict[str, Any]:
-    """The schema of scene files."""
-    return schema_of("scene", SceneFile) | {"allOf": [{"$ref": f"#/definitions/{SceneFile.__name__}"}]}
 
 
 def schema_of(kind: str, *models: type[Table]) -> dict[str, Any]:

@@ -4,11 +4,14 @@ A key's usual range is data beside its field: narrower than the permitted range,
 outside is read and warned of: most such numbers are in the wrong unit. Zero is not, it says "none" (of levels it does
 not); of a negative number the size counts.
 
+A key with a unit is read in SI by the name of its quantity: `wheel.diameter` [m] is `wheel.diameter_mm`.
+
 A description writes {range} ("above 0 … 100, usually 1 … 20"), {most} ("100"), {usual} ("usually 1 … 20")
 and {default} where they belong in its sentence; the key's bounds and defaults are put in.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import Annotated, Any, ClassVar, Final, NamedTuple, Self, cast, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
@@ -168,6 +171,17 @@ class Table(BaseModel):
                     )
         return self
 
+    def __getattr__(self, name: str) -> Any:
+        """The value of a key in SI, by the name of its quantity.
+
+        >>> class Wheel(Table):
+        ...     radius_mm: float = 50.0
+        >>> Wheel().radius
+        0.05
+        """
+        key, size = in_si(type(self)).get(name, (None, 1.0))
+        return super().__getattr__(name) if key is None else _times(getattr(self, key), size)  # type: ignore[misc]
+
     @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
         """The keys that make no sense beside `key = value`: an override of one takes the others' place.
@@ -201,8 +215,7 @@ class Table(BaseModel):
         >>> Wheel().in_si()
         {'radius': 0.05, 'count': 2}
         """
-        named = {key: quantity_and_unit(key) for key in type(self).model_fields}
-        return {name: _times(getattr(self, key), SI_PER_UNIT.get(unit, 1.0)) for key, (name, unit) in named.items()}
+        return {name: _times(getattr(self, key), size) for name, (key, size) in in_si(type(self)).items()}
 
     def own_defaults(self) -> dict[str, object]:
         """The defaults in force in this table, in the order of its keys."""
@@ -236,6 +249,13 @@ class Table(BaseModel):
                 for index, item in enumerate(value):
                     if isinstance(item, Table):
                         yield from item.tables((*path, key, index))
+
+
+@cache
+def in_si(model: type[Table]) -> Mapping[str, tuple[str, float]]:
+    """The keys of a table by the names of their quantities, and the SI value of one unit of each."""
+    named = ((key, *quantity_and_unit(key)) for key in model.model_fields)
+    return {name: (key, SI_PER_UNIT.get(unit, 1.0)) for key, name, unit in named}
 
 
 def _times(value: Any, factor: float) -> Any:

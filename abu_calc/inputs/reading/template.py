@@ -9,7 +9,6 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.format import FORMAT, KEY
 from abu_calc.inputs.reading.table import Table, is_array, subtable
 from abu_calc.inputs.reading.text import key_path, shown
-from abu_calc.inputs.scene import SceneFile
 
 WIDTH: Final = 90
 HEAD: Final = (
@@ -32,11 +31,6 @@ def template() -> str:
     Required keys carry example values, keys with a default carry it, all others are commented out.
     """
     return template_of("machine", MachineFile)
-
-
-def scene_template() -> str:
-    """The text of a complete scene file, likewise."""
-    return template_of("scene", SceneFile)
 
 
 def template_of(kind: str, model: type[Table]) -> str:

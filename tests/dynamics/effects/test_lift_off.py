@@ -17,7 +17,7 @@ from abu_calc.dynamics.switching.modes import starting
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.formulas.swing_arm import Arm
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene import read_scene
+from abu_calc.simulation.scene_file import read_scene
 from abu_calc.simulation.scene_of_file import scene_from
 from tests.dynamics.scenes import scene_on
 

@@ -8,7 +8,7 @@ import pytest
 
 from abu_calc.features.compare.measured import CourseNumbers, compare_measured
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.scene_of_file import scene_from
 from tests.cli.runner import abu
 from tests.features.identification.recorded import record, scene_file

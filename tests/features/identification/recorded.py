@@ -9,7 +9,7 @@ import numpy as np
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.scene_of_file import scene_from
 
 SCENE = """[scene]

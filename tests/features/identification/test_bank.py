@@ -11,7 +11,7 @@ from abu_calc.features.identification.estimate import end_of
 from abu_calc.features.identification.tracks import window_centres
 from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.progress import silent
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.scene_of_file import scene_from
 from tests.features.identification.recorded import scene_file
 

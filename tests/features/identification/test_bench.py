@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from abu_calc.features.identification.bench import bench_text, bench_values, decay, read_decay
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.scene_of_file import scene_from
 from tests.features.identification.recorded import scene_file
 

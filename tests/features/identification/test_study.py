@@ -13,7 +13,7 @@ from abu_calc.features.identification.estimate import Best
 from abu_calc.features.identification.fit import Estimate, identified_values
 from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from tests.features.identification.recorded import record, scene_file
 
 DRAG, LEVER, OFFSET = 14.0, 1.5e-6, 12e-6 * np.exp(1j * math.radians(70))

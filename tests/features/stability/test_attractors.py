@@ -18,8 +18,8 @@ from abu_calc.features.stability.attractor_search import alike, grouped, search
 from abu_calc.features.stability.attractor_starts import designed_starts, drawn_starts, started
 from abu_calc.features.stability.attractors import attractors_of
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene import read_any
 from abu_calc.registry import known
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.subject import subject_of
 from tests.cli.runner import abu
 from tests.dynamics.scenes import dimensionless, straight_grinder

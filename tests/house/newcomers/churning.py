@@ -12,6 +12,13 @@ from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.inputs.reading.table import Table, entry
+
+
+class GreaseChurning(Table):
+    """Grease that balls churn: a drag that grows with the third power of their speed along the race."""
+
+    coefficient_s: float = entry(ge=0, le=1e6, example=0.1).means("Torque over m·R_p²·speed³ [s]; {range}.")
 
 
 @dataclass(frozen=True)
@@ -21,6 +28,7 @@ class Churning(Effect):
     coefficient: float
 
     name: ClassVar[str] = "churning"
+    keys = GreaseChurning
     kind: ClassVar[Kind] = "dissipative"
     about: ClassVar[str] = "Grease that balls churn: a drag by the third power of their speed along the race"
 

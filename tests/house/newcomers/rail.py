@@ -14,6 +14,15 @@ from abu_calc.dynamics.motion import Levers, Motion
 from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
 from abu_calc.dynamics.race import Balls, Race
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
+from abu_calc.inputs.reading.table import Table, entry
+
+
+class OnRail(Table):
+    """A rotor that slides along one line: support = "rail"."""
+
+    stiffness_N_per_m: float = entry(ge=0, le=1e15, example=2e4).means("Stiffness along the rail [N/m]; {range}.")
+    damping_N_s_per_m: float = entry(ge=0, le=1e12, example=60.0).means("Damping along the rail [N·s/m]; {range}.")
+    angle_deg: float = entry(0.0, ge=-360, le=360).means("From +x to it [degrees]; {range}. Default: {default}.")
 
 
 @dataclass(frozen=True)
@@ -46,6 +55,20 @@ class Rail(Support):
     damping: float
     angle: float
     names: tuple[str, ...] = ("way",)
+
+    kind, about = "rail", "a line along which the rotor slides, [scene.rail]"
+    needs = ("mass_kg", "rail")
+    keys = {"rail": OnRail}  # noqa: RUF012
+
+    @classmethod
+    def of(cls, scene: Any) -> "Rail":
+        rail: OnRail = scene.rail
+        return cls(scene.mass_kg, rail.stiffness, rail.damping, rail.angle)
+
+    def started(self, scene: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """At the place of the rail that is next to where the file says."""
+        along, start = self.unit[:, 0], scene.initial
+        return (float(along @ (start.x, start.y)),), (float(along @ (start.vx, start.vy)),)
 
     @property
     def unit(self) -> Any:

@@ -11,7 +11,7 @@ UNSAID = {("Bearing", "shaft_bore_mm", "le"), ("SceneTable", "duration_s", "gt")
 
 
 def _tables(above: type[Table] = Table) -> Iterator[type[Table]]:
-    for name in ("inputs.machine", "inputs.scene", "features.balancing.tables"):
+    for name in ("inputs.machine", "simulation.scene_file", "features.balancing.tables"):
         importlib.import_module(f"abu_calc.{name}")
     for table in above.__subclasses__():
         if table.__module__.startswith("abu_calc."):

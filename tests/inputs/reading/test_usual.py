@@ -13,9 +13,9 @@ from abu_calc.inputs.read_machine import read_file, read_machine
 from abu_calc.inputs.reading import sources as presets
 from abu_calc.inputs.reading.schema import machine_schema
 from abu_calc.inputs.reading.table import Table, Usual, all_tables, usual_of
-from abu_calc.inputs.reading.template import scene_template, template
+from abu_calc.inputs.reading.template import template
 from abu_calc.inputs.reading.text import unit_suffix
-from abu_calc.inputs.scene import SceneFile
+from abu_calc.simulation.scene_file import SceneFile, scene_template
 from tests.inputs import scenes
 from tests.inputs.samples import BASIC, read, refused
 

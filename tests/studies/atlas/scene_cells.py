@@ -7,7 +7,7 @@ from typing import Final
 import abu_calc
 from abu_calc.features.stability.attractor_search import search
 from abu_calc.features.stability.attractors import searched_scene
-from abu_calc.inputs.scene import read_any
+from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.subject import subject_of
 from tests.studies.atlas.charts import AtlasChart
 from tests.studies.atlas.recipe import RPM, CellValue, Recipe, Result, plain

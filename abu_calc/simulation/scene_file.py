@@ -1,14 +1,19 @@
 """A scene file: one simulation given outright, the rules between its tables, and its reading.
 
+Its effects and its support declare their own tables, see `dynamics.effects.registry` and `dynamics.supports.registry`.
 `read_any` reads a file that may hold either a scene or a machine.
 """
 
+import math
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, create_model, model_validator
 
+from abu_calc.dynamics.effects.registry import EFFECTS
+from abu_calc.dynamics.supports.planar import DampingPair, StiffnessPair
+from abu_calc.dynamics.supports.registry import SUPPORTS
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.read_machine import Machine, machine_from
 from abu_calc.inputs.reading.document import (
@@ -20,44 +25,169 @@ from abu_calc.inputs.reading.document import (
     validate,
 )
 from abu_calc.inputs.reading.kinds import kind_of, refuse_others
+from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.reading.table import Table, entry, problem
+from abu_calc.inputs.reading.template import template_of
 from abu_calc.inputs.reading.text import Part
-from abu_calc.inputs.scene_effects import Effects
-from abu_calc.inputs.scene_parts import (
-    Body,
-    DampingPair,
-    SceneRace,
-    SceneSwingArm,
-    StiffnessPair,
-    Tilting,
-    refuse_overlap,
-)
 from abu_calc.inputs.variation import Sweep
 
 if TYPE_CHECKING:
     from abu_calc.inputs.reading.overrides import Override
 
-__all__ = ["Body", "Effects", "Initial", "SceneFile", "SceneRace", "SceneSwingArm", "SceneTable", "Tilting"]
-
+Mass = Annotated[float, Field(gt=0, le=1e12)]
+Angle = Annotated[float, Field(ge=-1e6, le=1e6)]
+BallSpeed = Annotated[float, Field(ge=-1e6, le=1e6)]
 Place = Annotated[float, Field(ge=-1e6, le=1e6)]
 Velocity = Annotated[float, Field(ge=-1e9, le=1e9)]
 
+MOST_BALLS: Final = 100
+TOUCHING: Final = 1e-6
+"""Balls that overlap by less than this at the start [rad] touch."""
+
 SPRINGS: Final = ("stiffness_N_per_m", "damping_N_s_per_m")
-NEEDED: Final = {
-    "planar": ("mass_kg", *SPRINGS),
-    "tilting": ("mass_kg", "tilting"),
-    "swing-arm": ("swing_arm",),
-}
-REFUSED: Final = {
-    "planar": ("tilting", "swing_arm"),
-    "tilting": (*SPRINGS, "swing_arm", "body"),
-    "swing-arm": (*SPRINGS, "tilting", "body"),
-}
 EXAMPLES: Final = {
     "mass_kg": "1.0",
     "stiffness_N_per_m": "[1.0, 1.0]",
     "damping_N_s_per_m": "[0.02, 0.02]",
 }
+KINDS: Final = {kind.kind: kind for kind in SUPPORTS}
+
+
+class SceneRace(Table):
+    """A race and its balls; all angles are measured in the rotor, from its zero mark in the sense of rotation."""
+
+    pitch_radius_mm: float = entry(gt=0, le=1e6, example=23.0).means(
+        "Radius of the circle on which the balls' centres run [mm]; {range}."
+    )
+    plane_offset_mm: float = entry(0.0, ge=-1e5, le=1e5).means(
+        "Tilting support: place of the race along +z from the centre of mass [mm]; {range}. Default: {default}."
+    )
+    ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = entry(
+        example=[16.7, 16.7, 16.7, 16.7]
+    ).means("Mass of each ball [g]; {range}, up to 100 balls, none for the rotor alone.")
+    ball_radius_mm: float | None = entry(None, gt=0, le=1000, example=8.0).means(
+        "Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. Required for "
+        "rolling balls of a rotor that changes its speed. Default: the radius of the effects. Without any radius, "
+        "balls count as small, with a warning."
+    )
+    corrector: Literal["ball", "roller"] = entry("ball").means(
+        "Rolling body in the race, with scene.rolling_inertia = true: ball (solid, inertia factor 7/5) or roller "
+        "(3/2). Default: {default}."
+    )
+    rolling_drag_per_s: float = entry(ge=0, le=1e7, example=15.0).means(
+        "Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; {range}, 0 switches "
+        "it off."
+    )
+    start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = entry(
+        example=[-41.5, -0.5, 40.5, 81.5]
+    ).means("Angle of each ball at the start [degrees]; {range}.")
+    start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = entry(
+        None, example=[0.0, 0.0, 0.0, 0.0]
+    ).means("Speed of each ball at the start, relative to the race [rpm]; {range}. Without it: at rest in the race.")
+
+    def own_defaults(self) -> dict[str, object]:
+        """The speeds of the balls are the one default as long as another list."""
+        still = {} if self.start_speeds_rpm is not None else {"start_speeds_rpm": (0.0,) * len(self.ball_masses_g)}
+        return {**super().own_defaults(), **still}
+
+    @model_validator(mode="after")
+    def _lists_are_of_one_length(self) -> Self:
+        balls = len(self.ball_masses_g)
+        for key in ("start_angles_deg", "start_speeds_rpm"):
+            given = getattr(self, key)
+            if given is not None and len(given) != balls:
+                message = "one value for each ball of ball_masses_g"
+                raise problem(message, key, found=str(len(given)), allowed=str(balls))
+        return self
+
+    @model_validator(mode="after")
+    def _balls_are_smaller_than_the_race(self) -> Self:
+        if self.ball_radius_mm is not None and self.ball_radius_mm >= self.pitch_radius_mm:
+            raise problem(
+                "the balls are larger than their race",
+                "ball_radius_mm",
+                found=f"{self.ball_radius_mm:g} mm",
+                allowed=f"below pitch_radius_mm, {self.pitch_radius_mm:g} mm",
+            )
+        return self
+
+
+def refuse_overlap(index: int, race: SceneRace, ball_radius: float) -> None:
+    """Balls that have a size [mm] cannot start in one place, and need room to move."""
+    half_angle = math.asin(ball_radius / race.pitch_radius_mm)
+    order = sorted(range(len(race.start_angles_deg)), key=lambda k: race.start_angles_deg[k] % 360)
+    angles = [math.radians(race.start_angles_deg[k] % 360) for k in order]
+    if 2 * half_angle * len(angles) > math.tau - TOUCHING:
+        raise problem(
+            "the balls fill their race and cannot move against each other",
+            *("race", index, "ball_masses_g"),
+            found=f"{len(angles)} balls",
+            allowed=f"at most {int((math.pi - TOUCHING) / half_angle)} of ball_radius_mm = {ball_radius:g}",
+            remedy="fewer or smaller balls, or leave [scene.effects.ball_contact] out",
+        )
+    # A ball alone on its race is its own neighbour, a whole turn away.
+    for place, angle in enumerate(angles):
+        gap = (angles[(place + 1) % len(angles)] - angle) % math.tau or math.tau * (len(angles) == 1)
+        if gap < 2 * half_angle - TOUCHING:
+            first_ball, other = sorted((order[place] + 1, order[(place + 1) % len(angles)] + 1))
+            raise problem(
+                f"balls {first_ball} and {other} overlap at the start",
+                *("race", index, "start_angles_deg"),
+                found=f"{math.degrees(gap):.6g}° apart",
+                allowed=f"at least {math.degrees(2 * half_angle):.6g}°",
+                remedy="part them, or leave [scene.effects.ball_contact] out",
+            )
+
+
+_TABLES: Final[dict[str, Any]] = {kind.name: (kind.keys | None, None) for kind in EFFECTS if kind.keys}
+
+
+class Effects(create_model("_Effects", __base__=Table, **_TABLES)):  # type: ignore[misc]
+    """The effects of the scene: an effect is on when its table is here."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The effects that are on, in the order of this list."""
+        return tuple(name for name in type(self).model_fields if getattr(self, name) is not None)
+
+    @property
+    def ball_radii_mm(self) -> dict[str, float]:
+        """The ball's radius [mm] as each effect that needs it gives it."""
+        tables = {name: getattr(self, name) for name in self.names}
+        return {name: table.ball_radius_mm for name, table in tables.items() if hasattr(table, "ball_radius_mm")}
+
+    @property
+    def rotor_inertias(self) -> dict[str, float]:
+        """The rotor's moment of inertia [kg·m²] as each effect that knows it gives it."""
+        given = {name: getattr(getattr(self, name), "rotor_inertia_kg_m2", None) for name in self.names}
+        return {name: inertia for name, inertia in given.items() if inertia is not None}
+
+    @model_validator(mode="after")
+    def _one_rotor(self) -> Self:
+        inertias = self.rotor_inertias
+        if len(set(inertias.values())) > 1:
+            raise problem(
+                "a rotor has one moment of inertia",
+                *("run_up", "rotor_inertia_kg_m2"),
+                found=f"{inertias['run_up']:g} kg·m², and {inertias['motor']:g} kg·m² in motor",
+                remedy="leave it out here: the motor's counts",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _one_ball_radius(self) -> Self:
+        radii = self.ball_radii_mm
+        for name, radius in radii.items():
+            first, value = next(iter(radii.items()))
+            if radius != value:
+                raise problem(
+                    "a ball has one radius",
+                    name,
+                    "ball_radius_mm",
+                    found=f"{radius:g} mm, and {value:g} mm in {first}",
+                    remedy="write the same radius in all effects",
+                )
+        return self
 
 
 class Initial(Table):
@@ -71,15 +201,8 @@ class Initial(Table):
     vy_mm_per_s: Velocity = Field(default=0.0, description="Velocity along y [mm/s]; {range}. Default: {default}.")
 
 
-class SceneTable(Table):
-    """One simulation: the rotor, its support, its speed, how long and from where."""
-
-    shown_in_template: ClassVar[frozenset[str]] = frozenset({"mass_kg", *SPRINGS, "rolling_inertia"})
-
-    support: Literal["planar", "tilting", "swing-arm"] = entry("planar").means(
-        "Support of the rotor: planar (springs along x and y), tilting (a rigid rotor on bearings, [scene.tilting]) or "
-        "swing-arm ([scene.swing_arm]). Default: {default}."
-    )
+class _SceneKeys(Table):
+    support: str
     mass_kg: float | None = entry(None, gt=0, le=1e9, example=6.37).means(
         "Mass of the rotor and what moves with it, WITHOUT balls [kg]; {range}. Planar and tilting supports need it; a "
         "swing arm holds it in its moment of inertia."
@@ -107,19 +230,34 @@ class SceneTable(Table):
     race: Annotated[tuple[SceneRace, ...], Field(strict=False, min_length=1, max_length=10)] = entry().means(
         "Races and their balls: [[scene.race]], one or more."
     )
-    body: Body | None = None
-    tilting: Tilting | None = None
-    swing_arm: SceneSwingArm | None = None
+
+
+*_FIRST, _LAST = (f"{kind} ({each.about})" for kind, each in KINDS.items())
+_OF_SUPPORTS: Final[dict[str, Any]] = {
+    "support": (
+        Literal[tuple(KINDS)],
+        entry("planar").means(f"Support of the rotor: {', '.join(_FIRST)} or {_LAST}. Default: {{default}}."),
+    ),
+    **{key: (table | None, None) for kind in SUPPORTS for key, table in kind.keys.items()},
+}
+
+
+class SceneTable(create_model("_Scene", __base__=_SceneKeys, **_OF_SUPPORTS)):  # type: ignore[misc]
+    """One simulation: the rotor, its support, its speed, how long and from where."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"mass_kg", *SPRINGS, "rolling_inertia"})
+
     effects: Effects = Field(default_factory=Effects)
 
     @model_validator(mode="after")
     def _support_has_its_numbers(self) -> Self:
-        for key in NEEDED[self.support]:
+        own = KINDS[self.support]
+        for key in own.needs:
             if getattr(self, key) is None:
                 given = f"{key} = …, such as {EXAMPLES[key]}" if key in EXAMPLES else f"[scene.{key}]"
                 raise problem(f'support = "{self.support}" needs {key}', key, remedy=f"add {given}")
-        for key in REFUSED[self.support]:
-            if getattr(self, key) is not None:
+        for key in (*SPRINGS, *(key for kind in SUPPORTS for key in kind.keys)):
+            if key not in own.needs and key not in own.keys and getattr(self, key) is not None:
                 raise problem(
                     f'support = "{self.support}" takes no {key}', key, remedy=f"leave {key} out, or change support"
                 )
@@ -248,7 +386,7 @@ class SceneDescription(FileReading):
         """
         from abu_calc.inputs.reading.overrides import following, overrides_of
 
-        return scene_from(self.document, following(self.overrides, overrides_of(values), SceneFile))
+        return described_scene(self.document, following(self.overrides, overrides_of(values), SceneFile))
 
 
 def read_scene(
@@ -259,19 +397,29 @@ def read_scene(
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
     """
     with document_from(source) as document:
-        return scene_from(document, parsed_overrides(overrides))
+        return described_scene(document, parsed_overrides(overrides))
 
 
 def read_any(source: str, overrides: Sequence[str] = ()) -> Machine | SceneDescription:
     """Reads a scene file, or a machine file, or a machine preset by its name: whichever it is."""
     document, replaced = open_document(source), parsed_overrides(overrides)
     if kind_of(document.content).name == "scene":
-        return scene_from(document, replaced)
+        return described_scene(document, replaced)
     return machine_from(document, replaced)
 
 
-def scene_from(document: Document, overrides: "Sequence[Override]" = ()) -> SceneDescription:
+def described_scene(document: Document, overrides: "Sequence[Override]" = ()) -> SceneDescription:
     """The scene of a document that is open already; raises as `read_scene` does."""
     refuse_others(document, "scene")
     file, reading = validate(document, overrides, SceneFile, lambda _: SceneFile)
     return SceneDescription(**vars(reading), scene=file.scene, sweep=file.sweep)
+
+
+def scene_template() -> str:
+    """The text of a complete scene file."""
+    return template_of("scene", SceneFile)
+
+
+def scene_schema() -> dict[str, Any]:
+    """The schema of scene files."""
+    return schema_of("scene", SceneFile) | {"allOf": [{"$ref": f"#/definitions/{SceneFile.__name__}"}]}

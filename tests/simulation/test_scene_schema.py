@@ -8,10 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft4Validator
 
-from abu_calc.inputs.reading.schema import scene_schema
 from abu_calc.inputs.reading.table import all_tables
-from abu_calc.inputs.reading.template import WIDTH, scene_template
-from abu_calc.inputs.scene import SceneFile
+from abu_calc.inputs.reading.template import WIDTH
+from abu_calc.simulation.scene_file import SceneFile, scene_schema, scene_template
 from tests.inputs.agreeing import check_schema, right_but_for_rules
 from tests.inputs.reading.test_schema import VALUES, places
 from tests.inputs.samples import document, mutated
