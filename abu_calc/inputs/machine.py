@@ -67,7 +67,7 @@ def rim_too_fast(
     path, speed = ("machine", key), machine.speed_range[1]
     if motor is not None and motor.no_load_speed_rpm > speed:
         path, speed = ("motor", "no_load_speed_rpm"), motor.no_load_speed_rpm
-    rim = to_si(speed, "rpm") * to_si(wheel.diameter_mm, "mm") / 2
+    rim = to_si(speed, "rpm") * wheel.diameter / 2
     if rim <= FASTEST_RIM:
         return
     yield (

@@ -27,7 +27,7 @@ from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate
 from abu_calc.formulas.suspension import Hands, Springs, resonance_factor
 from abu_calc.formulas.swing_arm import pressed_angle
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
-from abu_calc.foundation.units import to_si, velocity_from_level
+from abu_calc.foundation.units import velocity_from_level
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.duty import Motor as MotorTable
 from abu_calc.inputs.machine import SwingArm as SwingArmTable
@@ -140,7 +140,7 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         support = arm = arm_of_design(design, table.swing_arm, cutting=which.endswith("cutting"))
         felt, ball_rate = 1.0, slowest_rate(design, partial(ball_rate_on_arm, design, arm))
         if which.endswith("cutting"):
-            joint, touch = table.swing_arm.joint_stiffness_N_per_m, to_si(table.swing_arm.touch_angle_deg, "deg")
+            joint, touch = table.swing_arm.joint_stiffness_N_per_m, table.swing_arm.touch_angle
             effects = in_order((*effects, *lift_off(arm, joint, touch)))
     else:
         ball_rate = slowest_in_hand(design)
@@ -243,7 +243,7 @@ def _race(design: Design, start: Start, *, turning: bool) -> Race:
     back = -case.speed if start == "standstill" and turning else 0.0
     speeds = (back,) * autobalancer.ball_count
     if start == "placed" and turning and case.table.start is not None and case.table.start.speeds_rpm is not None:
-        speeds = tuple(to_si(speed, "rpm") for speed in case.table.start.speeds_rpm)
+        speeds = case.table.start.speeds
     return Race(
         pitch_radius=autobalancer.pitch_radius,
         ball_masses=(autobalancer.ball_mass,) * autobalancer.ball_count,
@@ -287,7 +287,8 @@ def _angles_of_file(design: Design) -> tuple[float, ...]:
             "an angle for each ball", place=Place(key="start.angles_deg"), found=f"{len(table.angles_deg)} angles",
             allowed=f"{count}, as many as the design has balls",
         )  # fmt: skip
-    return tuple(to_si(angle, "deg") for angle in table.angles_deg)
+    angles: tuple[float, ...] = table.angles
+    return angles
 
 
 def _effects(design: Design, which: str, race_centre: float) -> Iterator[Effect]:
@@ -313,7 +314,7 @@ def _effects(design: Design, which: str, race_centre: float) -> Iterator[Effect]
 def _across(design: Design) -> Iterator[Effect]:
     """Balls across their race, which a face wheel at work drives by its axial runout; rollers do not go there."""
     case, groove = design.case, design.track.groove_radius
-    runout = to_si(case.table.wheel.axial_runout_mm, "mm")
+    runout = case.table.wheel.axial_runout
     if runout and groove and case.contact is not None and case.contact.kind == "face":
         from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 
@@ -332,8 +333,8 @@ def _contact(design: Design) -> GrindingContactEffect | None:
         contact_stiffness=contact.stiffness,
         rotation_sense=contact.sense,
         runout=case.runout,
-        runout_angle=to_si(wheel.runout_angle_deg, "deg"),
-        wheel_radius=to_si(wheel.diameter_mm, "mm") / 2,
+        runout_angle=wheel.runout_angle,
+        wheel_radius=wheel.diameter / 2,
         plane_offset=0.0,
     )
 
@@ -346,7 +347,7 @@ def guided(design: Design, up: float) -> RunUpEffect:
     given, speed = design.case.table.run_up, design.case.speed
     if given is None or given.pause_speed_rpm is None:
         return RunUpEffect(up)
-    low = to_si(given.pause_speed_rpm, "rpm")
+    low = given.pause_speed
     fall = (1 - low / speed) * given.run_down_s
     return RunUpEffect(up, low=low, fall=fall, pause=given.pause_s, rise=given.pause_rise_s)
 

@@ -58,7 +58,7 @@ def ball_diameters(case: Case) -> tuple[float, ...]:
     if not _fits_width(case, smallest):
         least = from_si(width(abu.design, smallest), "mm")
         raise impossible("max_width_mm", abu.max_width_mm, "too narrow for the smallest ball", f"at least {least:.1f}")
-    least = 2 * from_si(least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), smallest), "mm")
+    least = 2 * from_si(least_race_radius(abu.design, abu.bore_diameter, smallest), "mm")
     least += abu.max_outer_diameter_mm - 2 * from_si(_greatest(case), "mm")
     raise impossible(
         "max_outer_diameter_mm", abu.max_outer_diameter_mm, "no room for balls round this bore", f"at least {least:.1f}"
@@ -70,10 +70,10 @@ def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
     abu = case.autobalancer
     if abu.design == "bearing-ring":
         return _ring_radii(case, diameter)
-    least = least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter)
+    least = least_race_radius(abu.design, abu.bore_diameter, diameter)
     greatest = _greatest(case)
     if abu.race_radius_mm is not None:
-        pinned = to_si(abu.race_radius_mm, "mm")
+        pinned = abu.race_radius
         return (pinned,) if least - 1e-9 <= pinned <= greatest + 1e-9 else ()
     if least > greatest:
         return ()
@@ -84,18 +84,17 @@ def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
 
 def _ring_radii(case: Case, diameter: float) -> tuple[float, ...]:
     """Radii [m] of the spheres of bearings' rings that fit; the pinned one, as measured, if it is one of them."""
-    rings, given = fitting_rings(case, diameter), case.autobalancer.race_radius_mm
+    rings, given = fitting_rings(case, diameter), case.autobalancer.race_radius
     if given is None:
         return tuple(dict.fromkeys(ring.sphere_radius for ring in rings))
-    pinned = pinned_ring(case, to_si(given, "mm"))
-    return (to_si(given, "mm"),) if pinned in rings else ()
+    return (given,) if pinned_ring(case, given) in rings else ()
 
 
 def _no_ring(case: Case, diameter: float) -> InputError:
     """The refusal of the design "bearing-ring" where no ring of a bearing fits, or none has the pinned race."""
     given, fitting = case.autobalancer.race_radius_mm, fitting_rings(case, diameter)
     if given is not None and fitting:
-        ring = min(fitting, key=lambda each: abs(each.sphere_radius - to_si(given, "mm")))
+        ring = min(fitting, key=lambda each: abs(each.sphere_radius - case.autobalancer.race_radius))
         low, high = (from_si(radius, "mm") for radius in sphere_band(ring))
         return impossible(
             "race_radius_mm", given, f"no ring of a bearing in this envelope has this sphere; the nearest is "
@@ -125,11 +124,11 @@ def ball_counts(case: Case, diameter: float, race_radius: float) -> range:
 
 def _greatest(case: Case) -> float:
     abu = case.autobalancer
-    return greatest_race_radius(abu.design, to_si(abu.max_outer_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm"))
+    return greatest_race_radius(abu.design, abu.max_outer_diameter, abu.min_wall)
 
 
 def _fits_width(case: Case, diameter: float) -> bool:
-    return width(case.autobalancer.design, diameter) <= to_si(case.autobalancer.max_width_mm, "mm") + 1e-9
+    return bool(width(case.autobalancer.design, diameter) <= case.autobalancer.max_width + 1e-9)
 
 
 def _pinned_diameter(case: Case, given_mm: float) -> float:
@@ -142,7 +141,7 @@ def _pinned_diameter(case: Case, given_mm: float) -> float:
     if not race_radii(case, diameter):
         if abu.design == "bearing-ring":
             raise _no_ring(case, diameter)
-        least = from_si(least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter), "mm")
+        least = from_si(least_race_radius(abu.design, abu.bore_diameter, diameter), "mm")
         greatest = from_si(_greatest(case), "mm")
         key = "race_radius_mm" if abu.race_radius_mm is not None else "ball_diameter_mm"
         pinned_mm = given_mm if abu.race_radius_mm is None else abu.race_radius_mm
@@ -364,7 +363,7 @@ def _ball_mass(case: Case, diameter: float) -> float:
 
 def _housing(case: Case, diameter: float, radius: float) -> Housing:
     abu = case.autobalancer
-    bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
+    bore, wall = abu.bore_diameter, abu.min_wall
     return _known_housing(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
 
 
@@ -375,7 +374,7 @@ _known_housing = lru_cache(4096)(housing)
 def _fills(case: Case, count: int, diameter: float, radius: float) -> bool:
     """True if the balls go into the race through the open side."""
     abu = case.autobalancer
-    bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
+    bore, wall = abu.bore_diameter, abu.min_wall
     size = dimensions(abu.design, radius, diameter, bore, wall, abu.corrector == "ball", ring_of(case, radius))
     return balls_go_in(size, count, diameter)
 

@@ -182,7 +182,7 @@ def read_case(machine: MachineFile) -> Case:
             place=Place(key="autobalancer.max_outer_diameter_mm"),
             remedy="Add a table [autobalancer] with max_outer_diameter_mm and max_width_mm.",
         )
-    body, eccentricity = _body(machine), to_si(abu.race_eccentricity_mm, "mm")
+    body, eccentricity = _body(machine), abu.race_eccentricity
     suspension = _suspension(machine, body)
     idle = _idle_speed(machine.motor, suspension, eccentricity)
     return Case(
@@ -191,17 +191,17 @@ def read_case(machine: MachineFile) -> Case:
         machine_mass=top.mass_kg,
         body=body,
         suspension=suspension,
-        speed=to_si(top.speed_rpm, "rpm"),
+        speed=top.speed,
         speed_range=_judged_range(working_speeds(machine), idle),
         runout=to_si(machine.wheel.runout, "mm"),
         contact=_contact(machine.grinding),
         handles=tuple(HandlePlace(handle.name, _in_metres(handle.position)) for handle in top.handle),
         race_eccentricity=eccentricity,
         drag=abu.rolling_drag_per_s,
-        friction_arm=to_si(abu.rolling_friction_mm, "mm"),
+        friction_arm=abu.rolling_friction,
         inertia_factor=INERTIA_FACTORS[abu.corrector],
-        race_offset=to_si(abu.plane_offset_mm, "mm"),
-        wheel_radius=to_si(machine.wheel.diameter_mm, "mm") / 2,
+        race_offset=abu.plane_offset,
+        wheel_radius=machine.wheel.diameter / 2,
         level_limit=machine.limits.vibration_level_db,
         background_level=top.background_level_db,
         idle_speed=idle,
@@ -232,7 +232,7 @@ def _idle_speed(motor: Motor | None, suspension: SuspensionReaction, displacemen
         """Reaction of both axes [N/m] at a speed [rad/s]."""
         return suspension.reaction(0, speed) + suspension.reaction(1, speed)
 
-    return idle_speed(motor.stall_torque_N_m, to_si(motor.no_load_speed_rpm, "rpm"), displacement, reaction)
+    return idle_speed(motor.stall_torque_N_m, motor.no_load_speed, displacement, reaction)
 
 
 def _body(machine: MachineFile) -> RigidMachine:
@@ -240,15 +240,15 @@ def _body(machine: MachineFile) -> RigidMachine:
     mass = top.mass_kg + machine.wheel.mass_kg
     if top.transverse_inertia_kg_m2 is not None and top.center_of_mass_to_wheel_mm is not None:
         J = top.transverse_inertia_kg_m2
-        return RigidMachine(RigidBody(mass, Inertia(J, J, J)), (0.0, 0.0, to_si(top.center_of_mass_to_wheel_mm, "mm")))
+        return RigidMachine(RigidBody(mass, Inertia(J, J, J)), (0.0, 0.0, top.center_of_mass_to_wheel))
     given = top.center_of_mass_from_wheel_mm
     wheel = None if given is None else _in_metres(given, -1.0)
     if top.inertia_kg_m2 is not None and wheel is not None:
         return RigidMachine(_given_body(machine, mass, *top.inertia_kg_m2), wheel, in_space=True)
     if not top.estimates:
         return RigidMachine(RigidBody(mass))
-    lengths = {name: to_si(value, "mm") for name, value in (("L", top.length_mm), ("H", top.height_mm)) if value}
-    radius = to_si(machine.wheel.diameter_mm, "mm") / 2
+    lengths = {name: value for name, value in (("L", top.length), ("H", top.height)) if value}
+    radius = machine.wheel.diameter / 2
     polar = top.rotor_polar_inertia_kg_m2
     try:
         estimate = estimated_body(

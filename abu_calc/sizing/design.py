@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
 from abu_calc.sizing.case import Case, read_case
@@ -105,8 +104,8 @@ def _made(case: Case, imbalance: float, chosen: Candidate) -> Candidate:
         case,
         imbalance,
         chosen.ball_count if own.ball_count is None else own.ball_count,
-        chosen.ball_diameter if own.ball_diameter_mm is None else to_si(own.ball_diameter_mm, "mm"),
-        chosen.race_radius if own.race_radius_mm is None else to_si(own.race_radius_mm, "mm"),
+        chosen.ball_diameter if own.ball_diameter_mm is None else own.ball_diameter,
+        chosen.race_radius if own.race_radius_mm is None else own.race_radius,
     )
 
 

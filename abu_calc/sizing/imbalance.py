@@ -7,7 +7,7 @@ from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import level_from_velocity, to_si, velocity_from_level
+from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.instruments import in_words, velocity_shown
@@ -47,7 +47,7 @@ def find_imbalance(case: Case) -> Imbalance:
     """The imbalance from the one source that the file gives."""
     wheel = case.table.wheel
     if wheel.imbalance_g_mm is not None:
-        return Imbalance(to_si(wheel.imbalance_g_mm, "g_mm"), "given")
+        return Imbalance(wheel.imbalance, "given")
     if wheel.balance_grade is not None:
         value = permissible_imbalance(wheel.balance_grade, wheel.mass_kg, case.speed)
         return Imbalance(value, f"{wheel.balance_grade} of ISO 21940-11 for the wheel at the rated speed")

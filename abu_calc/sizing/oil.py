@@ -18,7 +18,7 @@ from abu_calc.formulas.oil import (
     viscosity_at_100,
 )
 from abu_calc.foundation.errors import AbuError, InputError, Place
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.identified import identified_note
 from abu_calc.inputs.oil import Oil
 from abu_calc.sizing.actions import with_entries
@@ -48,7 +48,7 @@ def oil_drag(case: Case, candidate: Candidate) -> OilDrag | None:
         candidate.race_radius,
         groove_radius(candidate.race_radius, radius),
         candidate.ball_diameter + 2 * GROOVE_CLEARANCE,
-        to_si(case.autobalancer.bore_diameter_mm, "mm") / 2 + rules.hub_wall,
+        case.autobalancer.bore_diameter / 2 + rules.hub_wall,
         candidate.ball_count,
         radius,
     )

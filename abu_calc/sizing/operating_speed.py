@@ -7,7 +7,7 @@ from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.sizing.case import Case, working_speeds
 
@@ -173,7 +173,7 @@ def _speed_under_load(case: Case) -> float | None:
     if motor is None or contact is None:
         return None
     torque = contact.cutting_coefficient * contact.press_force * case.wheel_radius
-    return working_speed(motor.stall_torque_N_m, to_si(motor.no_load_speed_rpm, "rpm"), torque)
+    return working_speed(motor.stall_torque_N_m, motor.no_load_speed, torque)
 
 
 def _rpm(speed: float) -> str:

@@ -208,8 +208,8 @@ def roundness(case: Case, force: float, race_radius: float, ball_diameter: float
     The webs reach from the hub to the race. The race ring alone is the wall between them.
     """
     abu = case.autobalancer
-    rules, wall = RULES[abu.design], to_si(abu.min_wall_mm, "mm")
-    hub, between = to_si(abu.bore_diameter_mm, "mm") / 2 + rules.hub_wall, ball_diameter + 2 * GROOVE_CLEARANCE
+    rules, wall = RULES[abu.design], abu.min_wall
+    hub, between = abu.bore_diameter / 2 + rules.hub_wall, ball_diameter + 2 * GROOVE_CLEARANCE
     ring = ring_of(case, race_radius)
     if ring is not None:
         wall, between = ring.outside_diameter / 2 - race_radius, ring.width

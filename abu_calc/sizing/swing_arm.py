@@ -29,7 +29,7 @@ from abu_calc.formulas.swing_arm import (
 )
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import SwingArm
 from abu_calc.sizing.case import Case
 
@@ -120,7 +120,7 @@ def doubted(checks: tuple[Check, ...], borrowed: tuple[str, ...]) -> tuple[Check
 
 def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
     """The table [swing_arm] in SI."""
-    length = to_si(table.arm_length_mm, "mm")
+    length = table.arm_length
     return Arm(
         length=length,
         inertia=table.moment_of_inertia_kg_m2 + added_mass * length**2,
@@ -129,8 +129,8 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
         contact_stiffness=table.contact_stiffness_N_per_m,
         friction=table.cutting_coefficient,
         disk_radius=case.wheel_radius,
-        contact_angle=to_si(table.contact_angle_deg, "deg"),
-        touch_angle=to_si(table.touch_angle_deg, "deg"),
+        contact_angle=table.contact_angle,
+        touch_angle=table.touch_angle,
         pressing_moment=table.pressing_moment_N_m,
     )
 

@@ -26,7 +26,7 @@ from abu_calc.formulas.type_test import (
 )
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.actions import CALCULATED
 from abu_calc.sizing.balls import Candidate
@@ -49,13 +49,12 @@ IN_FILE = "machine file"
 def chosen_wheel(table: MachineFile) -> TestWheel | None:
     """The test wheel that the file gives, else the built-in one of its diameter; None if there is none."""
     test = table.type_test
-    given = None if test is None else test.test_wheel_diameter_mm
-    known = test_wheel(to_si(table.wheel.diameter_mm if given is None else given, "mm"))
-    if test is not None and test.test_wheel_imbalance_g_mm is not None:
-        diameter = None if given is None else to_si(given, "mm")
-        imbalance = to_si(test.test_wheel_imbalance_g_mm, "g_mm")
-        return TestWheel(diameter=diameter, imbalance=imbalance, feed_force=None, source=IN_FILE, status="given")
-    return known
+    given = None if test is None else test.test_wheel_diameter
+    if test is not None and test.test_wheel_imbalance is not None:
+        return TestWheel(
+            diameter=given, imbalance=test.test_wheel_imbalance, feed_force=None, source=IN_FILE, status="given"
+        )
+    return test_wheel(table.wheel.diameter if given is None else given)
 
 
 def type_test_body(case: Case, candidate: Candidate | None = None) -> TypeTestBody:

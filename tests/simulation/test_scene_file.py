@@ -205,7 +205,6 @@ def test_defaults_in_force_are_told(tmp_path: Path) -> None:
     assert told["scene.race[0].start_speeds_rpm"] == (0.0, 0.0)
     assert told["scene.imbalance_angle_deg"] == 0.0 and told["scene.initial.vy_mm_per_s"] == 0.0
     assert dict(read(tmp_path, PLANAR).defaults_used) == {}
-    assert read(tmp_path, SCENE).scene.race[0].start_speeds == (0.0, 0.0)
 
 
 def test_a_key_that_plays_no_part_is_told(tmp_path: Path) -> None:

@@ -51,7 +51,7 @@ def test_planar_scene_in_si(tmp_path: Path) -> None:
     assert (found.imbalance, found.duration, found.effects) == (0.01, 700.0, ())
     race = found.races[0]
     assert (race.pitch_radius, race.drag, race.inertia_factor, race.ball_radius) == (1.0, 0.01, 1.0, 0.0)
-    assert race.ball_masses == (0.05, 0.05)
+    assert race.ball_masses == (0.05, 0.05) and race.start_speeds == (0.0, 0.0)
     assert race.start_angles == pytest.approx((math.pi / 2, -math.pi / 2))
 
 

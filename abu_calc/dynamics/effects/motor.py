@@ -20,7 +20,6 @@ from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import DRIVEN, Rotation
 from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 from abu_calc.inputs.duty import Motor
 
 
@@ -41,7 +40,7 @@ class MotorEffect(Effect):
     @classmethod
     def of(cls, table: Motor) -> Self:
         """Motor of a table of a machine or of a scene."""
-        return cls(table.stall_torque_N_m, to_si(table.no_load_speed_rpm, "rpm"), table.rotor_inertia_kg_m2)
+        return cls(table.stall_torque_N_m, table.no_load_speed, table.rotor_inertia_kg_m2)
 
     @property
     def rotor(self) -> Rotation:

@@ -74,7 +74,7 @@ def taken_runs(readings: Readings) -> tuple[RunReadings, ...]:
 def _taken(readings: Readings, file: ReadingsFile, index: int, run: Run) -> RunReadings:
     weights = tuple(mass_of(file, trial) for trial in run.trial)
     sensor = math.radians(run.sensor_to_mark_deg)
-    given = None if run.speed_rpm is None else to_si(run.speed_rpm, "rpm")
+    given = run.speed
     if run.file is not None:
         return _recorded(readings, run, given, sensor, weights, len(file.planes))
     if given is None:
@@ -131,7 +131,7 @@ def mass_of(file: ReadingsFile, trial: Trial) -> TrialMass:
     plane = 0 if trial.plane is None else PLANES.index(trial.plane)
     radius = file.radii_mm[plane] if trial.radius_mm is None else trial.radius_mm
     angle = behind_the_mark(file, trial.angle_deg)
-    return TrialMass(plane, to_si(trial.mass_g, "g"), to_si(radius, "mm"), angle)
+    return TrialMass(plane, trial.mass, to_si(radius, "mm"), angle)
 
 
 def behind_the_mark(file: ReadingsFile, angle_deg: float) -> float:

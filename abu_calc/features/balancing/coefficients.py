@@ -24,7 +24,7 @@ from abu_calc.features.balancing.methods import Solution
 from abu_calc.features.balancing.runs import Balancing, Coefficients
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.inputs.reading.table import LEAST, Name, Table, entry, problem
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def coefficients_from(document: "Document") -> Stored:
     tables, reading = validate(document, (), CoefficientsFile, lambda _: CoefficientsFile)
     own = tables.coefficients
     values = Coefficients(
-        tuple(to_si(at.speed_rpm, "rpm") for at in own.at),
+        tuple(at.speed for at in own.at),
         tuple(tuple(tuple(complex(*value) for value in row) for row in at.influence_um_per_g_mm) for at in own.at),
         tuple(at.standard_error_um_per_g_mm for at in own.at),
     )

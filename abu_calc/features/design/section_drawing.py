@@ -11,7 +11,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from abu_calc.features.design.records import AutobalancerRecord, Section
-from abu_calc.foundation.units import to_si
 from abu_calc.reporting.drawings.callouts import balloon
 from abu_calc.reporting.drawings.dimensions import arrow, datum, extent, fits, leader, moved, roughness, tolerance_frame
 from abu_calc.reporting.drawings.shapes import (
@@ -277,7 +276,7 @@ def balls_text(abu: AutobalancerRecord) -> str:
 
 def ball_size(abu: AutobalancerRecord) -> str:
     """Diameter of a ball, with the fraction of an inch by which it is ordered."""
-    inch = inch_size(to_si(abu.ball_diameter_mm, "mm")) if abu.corrector == "ball" else ""
+    inch = inch_size(abu.ball_diameter) if abu.corrector == "ball" else ""
     return f"Ø{digits(abu.ball_diameter_mm)}{f' ({inch})' if inch else ''}"
 
 

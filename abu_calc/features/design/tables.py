@@ -11,7 +11,6 @@ from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_line
 from abu_calc.foundation.checks import Check
-from abu_calc.foundation.units import to_si
 from abu_calc.reporting.blocks import Block, Grid, Paragraph, Picture, level_text, number
 from abu_calc.reporting.parts import WORD, SaidSentences, paste_lines, unlike, value_and_limit
 from abu_calc.reporting.screen import BLANK, many
@@ -487,7 +486,7 @@ def balls(autobalancer: AutobalancerRecord) -> str:
 
 def inch(autobalancer: AutobalancerRecord) -> str:
     """The fraction of an inch by which balls are ordered, in brackets; nothing for metric ones and rollers."""
-    inch = inch_size(to_si(autobalancer.ball_diameter_mm, "mm")) if autobalancer.corrector == "ball" else ""
+    inch = inch_size(autobalancer.ball_diameter) if autobalancer.corrector == "ball" else ""
     return f" ({inch})" if inch else ""
 
 

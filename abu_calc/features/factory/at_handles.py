@@ -55,8 +55,8 @@ def at_handles(table: MachineFile, design: SizeResult, geometry: HandleGeometry)
 
     The balls leave the race a displacement, whatever the body is; a load at the race that causes it moves the handles.
     """
-    speed, mass = to_si(table.machine.speed_rpm, "rpm"), design.system_mass_kg
-    polar = table.wheel.mass_kg * to_si(table.wheel.diameter_mm, "mm") ** 2 / 8
+    speed, mass = table.machine.speed, design.system_mass_kg
+    polar = table.wheel.mass_kg * table.wheel.diameter**2 / 8
     layout: Layout = table.machine.layout
     estimate = estimated_body(layout, mass, geometry.lengths, polar)
     places = tuple(geometry.handles.values())

@@ -22,7 +22,7 @@ from abu_calc.foundation.checks import Status
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import level_from_velocity, to_si, velocity_from_level
+from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.measured import MeasuredOctave
 from abu_calc.inputs.read_machine import Machine, read
 from abu_calc.simulation.arguments import checked
@@ -245,7 +245,7 @@ def _predicted(machine: Machine, design: SizeResult, row: MeasuredOctave, progre
     Pressed to the work when the balls have settled, as one works; `louder`: pressed before.
     """
     table = machine.whole()
-    own = octave(to_si(table.machine.speed_rpm, "rpm")).nominal
+    own = octave(table.machine.speed).nominal
     if row.state == "loaded" and table.grinding is not None and table.grinding.contact != "face":
         usual, hard = (_octaves(machine, start, progress) for start in ("settled", "bunched"))
         loudest, loaded = max(hard, key=hard.__getitem__), design.vibration_loaded

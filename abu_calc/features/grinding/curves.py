@@ -28,7 +28,7 @@ from abu_calc.features.grinding.work import Work
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import to_si, wrapped_deg
+from abu_calc.foundation.units import wrapped_deg
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
@@ -79,7 +79,7 @@ def _across(design: Design) -> Shaken | None:
     case, autobalancer, groove = design.case, design.autobalancer, design.track.groove_radius
     if groove is None or case.contact is None:
         return None
-    radius, given = autobalancer.ball_diameter / 2, to_si(case.table.wheel.axial_runout_mm, "mm")
+    radius, given = autobalancer.ball_diameter / 2, case.table.wheel.axial_runout
     amplitude = given or TRIED * shaking_threshold(case.friction_arm, autobalancer.pitch_radius, radius)
     full = scene_of_design(design, "grinding")
     scene = replace(full, effects=(DryRollingFrictionEffect(case.friction_arm, radius),))
@@ -233,7 +233,7 @@ def loaded_resonance(design: Design) -> float | None:
 
 def largest_runout(case: Case, steady: SteadyWork) -> float | None:
     """The largest runout [m] at the file's angle at which wheel and work stay together; None where any or none does."""
-    contact, direction = steady.contact, cmath.rect(1.0, to_si(case.table.wheel.runout_angle_deg, "deg"))
+    contact, direction = steady.contact, cmath.rect(1.0, case.table.wheel.runout_angle)
     if steady.imbalance is None or case.contact is None or contact.pressing == 0:
         return None
     press = case.contact.press_force
@@ -264,7 +264,7 @@ def friction(work: Work, run: Shaken | None) -> FrictionBand:
     case, autobalancer, steady = design.case, design.autobalancer, work.fitted.steady
     threshold = shaking_threshold(case.friction_arm, autobalancer.pitch_radius, autobalancer.ball_diameter / 2)
     face = case.contact is not None and case.contact.kind == "face"
-    axial = to_si(case.table.wheel.axial_runout_mm, "mm") if face and design.track.groove_radius else 0.0
+    axial = case.table.wheel.axial_runout if face and design.track.groove_radius else 0.0
     axis = steady.axis
     whirl = None if axis is None else abs(axis[0] - 1j * axis[1]) / 2
     creep = None

@@ -14,7 +14,6 @@ from abu_calc.features.grinding.formulas import BallArrangement, characteristic,
 from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
@@ -98,7 +97,7 @@ def contact_presses(case: Case) -> bool:
 
 def runout_of(case: Case) -> complex:
     """E [m] of the file."""
-    return cmath.rect(case.runout, to_si(case.table.wheel.runout_angle_deg, "deg"))
+    return cmath.rect(case.runout, case.table.wheel.runout_angle)
 
 
 def bare(design: Design, runout: complex, *, speed: float | None = None, rigid: bool = False) -> SteadyWork:

@@ -26,7 +26,7 @@ from abu_calc.features.grinding.work import Side, Work
 from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import to_si, wrapped_deg
+from abu_calc.foundation.units import wrapped_deg
 from abu_calc.sizing.budget import permitted_displacement
 from abu_calc.sizing.design import Design
 
@@ -315,8 +315,8 @@ def claim(work: Work) -> Claim | None:
 
 
 def _usable(design: Design) -> float:
-    given = design.case.table.wheel.usable_wear_mm
-    return USABLE * design.case.wheel_radius if given is None else to_si(given, "mm")
+    given = design.case.table.wheel.usable_wear
+    return USABLE * design.case.wheel_radius if given is None else float(given)
 
 
 def _course(design: Design, wear: Wear) -> WearCourse:
@@ -324,7 +324,7 @@ def _course(design: Design, wear: Wear) -> WearCourse:
     wheel = design.case.table.wheel
     pace = None
     if wheel.life_min and wheel.usable_wear_mm:
-        pace = to_si(wheel.life_min, "min") / to_si(wheel.usable_wear_mm, "mm")
+        pace = wheel.life / wheel.usable_wear
     away = cmath.phase(wear.pressure) - cmath.phase(runout_of(design.case))
     stages = tuple(
         WearStage(

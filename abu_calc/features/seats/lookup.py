@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing, Service
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.bearing_catalogue import Dimensions, all_of_size, of_size, read_designation
 from abu_calc.standards.catalogue import (
@@ -58,51 +58,45 @@ def from_table(table: "BearingTable") -> SeatedBearing:
     if entry is not None and identity.closure is not None:
         entry = closed(entry, identity.closure)
     lent = like if not size.designation and table.chamfer_mm is None else None
-    asked = table.asked_interference_um
     return SeatedBearing(
         name=table.name,
         type=size.type,
         kind=identity.kind or (like.kind if like else None),
         ratings=ratings,
-        inner=Ring(
-            size.bore, size.inner_width, inner_chamfer, table.inner_ring_load, _limits(table.ring_bore_limits_um)
-        ),
+        inner=Ring(size.bore, size.inner_width, inner_chamfer, table.inner_ring_load, _limits(table.ring_bore_limits)),
         outer=Ring(
-            size.outer, size.outer_width, outer_chamfer, table.outer_ring_load, _limits(table.ring_outer_limits_um)
+            size.outer, size.outer_width, outer_chamfer, table.outer_ring_load, _limits(table.ring_outer_limits)
         ),
         shaft=MatingPart(
             table.shaft_fit,
-            _si(table.shaft_rz_um, "um"),
-            _si(table.shaft_bore_mm, "mm"),
+            table.shaft_rz,
+            table.shaft_bore,
             table.shaft_material,
-            _limits(table.shaft_limits_um),
-            _si(table.shaft_strength_MPa, "MPa"),
+            _limits(table.shaft_limits),
+            table.shaft_strength,
         ),
         housing=MatingPart(
             table.housing_fit,
-            _si(table.housing_rz_um, "um"),
-            _si(table.housing_outer_mm, "mm"),
+            table.housing_rz,
+            table.housing_outer,
             table.housing_material,
-            _limits(table.housing_limits_um),
-            _si(table.housing_strength_MPa, "MPa"),
+            _limits(table.housing_limits),
+            table.housing_strength,
             table.housing_split,
         ),
         service=_service(table),
         bearing_class=accuracy,
         series=table.series or (size.series if size.designation else "light"),
         internal_clearance=group,
-        asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
+        asked_interference=table.asked_interference,
         remarks=(*filter(None, (_radial(table)[1],)), *_angle(identity, group), *_lent(lent), *rated),
         taken_as=_taken_as(table, size, like),
         designation=size.designation or None,
         closed=identity.closure is not None,
         entry=entry,
         no_inner_ring=identity.kind == "drawn-cup" or size.designation.startswith("RNA"),
-        position=_si(table.position_mm, "mm"),
-        short_shares=(
-            to_si(table.short_pairs_warn_percent, "percent"),
-            to_si(table.short_pairs_fail_percent, "percent"),
-        ),
+        position=table.position,
+        short_shares=(table.short_pairs_warn, table.short_pairs_fail),
     )
 
 
@@ -131,7 +125,7 @@ def _radial(table: "BearingTable") -> tuple[float | None, str]:
     """Radial load [N], and the process that it is from, in a sentence."""
     force = table.cutting_force_N
     if force is None:
-        return _si(table.radial_load_kN, "kN"), ""
+        return table.radial_load, ""
     ratio = RATIO if table.normal_to_cutting_ratio is None else table.normal_to_cutting_ratio
     bearings = table.bearings_sharing or 1
     load = process_load(force, ratio, bearings)
@@ -147,18 +141,18 @@ def _service(table: "BearingTable") -> Service:
     load, _ = _radial(table)
     return Service(
         radial_load=load,
-        mounting_clearance=_si(table.mounting_clearance_um, "um"),
-        speed=_si(table.speed_rpm, "rpm"),
-        ring_over_shaft=_si(table.ring_temperature_difference_K, "K"),
-        inner_over_outer=_si(table.raceway_temperature_difference_K, "K"),
-        housing_over_ring=_si(table.housing_temperature_difference_K, "K"),
-        over_mounting=_si(table.temperature_rise_K, "K"),
-        starting_torque=_si(table.starting_torque_N_m, "N_m"),
+        mounting_clearance=table.mounting_clearance,
+        speed=table.speed,
+        ring_over_shaft=table.ring_temperature_difference,
+        inner_over_outer=table.raceway_temperature_difference,
+        housing_over_ring=table.housing_temperature_difference,
+        over_mounting=table.temperature_rise,
+        starting_torque=table.starting_torque,
         seat_friction=table.seat_friction,
-        axial_load=_si(table.axial_load_kN, "kN"),
-        viscosity=_si(table.lubricant_viscosity_mm2_per_s, "mm2_per_s"),
+        axial_load=table.axial_load,
+        viscosity=table.lubricant_viscosity,
         contamination=table.contamination_factor,
-        required_life=_si(table.required_life_h, "h"),
+        required_life=table.required_life,
         load_kind=table.load_kind or "shock",
         extremes=None if table.temperature_range_K is None else (*table.temperature_range_K,),  # type: ignore[arg-type]
     )
@@ -187,9 +181,8 @@ def _by_sizes(table: "BearingTable") -> _Found:
             allowed="designation, or bore_mm, outer_mm and width_mm",
             remedy="Give the one or the other.",
         )
-    bore, outer, width = (to_si(size, "mm") for size in (table.bore_mm, table.outer_mm, table.width_mm))
     rings: BearingType = "tapered" if table.bearing_type == "tapered" else "radial"
-    size = Dimensions("", rings, bore, outer, width, 0.0, width, 0.0)
+    size = Dimensions("", rings, table.bore, table.outer, table.width, 0.0, table.width, 0.0)
     return _Found(size, table.bearing_type, None, None)
 
 
@@ -199,8 +192,7 @@ def _chamfers(table: "BearingTable", like: Dimensions | None) -> tuple[float | N
     They are not known if neither the table nor a tabulated bearing gives them.
     """
     if table.chamfer_mm is not None or like is None:
-        given = _si(table.chamfer_mm, "mm")
-        return given, given
+        return table.chamfer, table.chamfer
     return like.inner_chamfer, like.outer_chamfer
 
 
@@ -234,7 +226,7 @@ def _ratings(
 ) -> tuple[Ratings | None, tuple[str, ...]]:
     """Ratings and where they are from: what the table gives wins, then the catalogue's row, then the estimate."""
     listed = entry.ratings if entry else None
-    given = _si(table.dynamic_load_rating_kN, "kN"), _si(table.static_load_rating_kN, "kN")
+    given = table.dynamic_load_rating, table.static_load_rating
     if given[0] is not None and given[1] is not None:
         return Ratings(given[0], given[1]), ()
     named = size.kind if size.designation else table.bearing_type
@@ -306,8 +298,4 @@ def _check_group(group: str | None, identity: _Found) -> None:
 
 
 def _limits(pair: tuple[float, ...] | None) -> DeviationLimits | None:
-    return None if pair is None else DeviationLimits(to_si(pair[0], "um"), to_si(pair[1], "um"))
-
-
-def _si(value: float | None, unit: str) -> float | None:
-    return None if value is None else to_si(value, unit)
+    return None if pair is None else DeviationLimits(*pair)

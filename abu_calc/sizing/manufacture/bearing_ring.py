@@ -6,7 +6,7 @@ from typing import Final
 
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import (
     GROOVE_CLEARANCE,
@@ -88,7 +88,7 @@ def fitting_rings(case: Case, ball_diameter: float) -> tuple[BearingRing, ...]:
 def _inside(case: Case, ring: BearingRing) -> bool:
     outer, width = _envelope(ring)
     abu = case.autobalancer
-    return outer <= to_si(abu.max_outer_diameter_mm, "mm") + 1e-9 and width <= to_si(abu.max_width_mm, "mm") + 1e-9
+    return bool(outer <= abu.max_outer_diameter + 1e-9 and width <= abu.max_width + 1e-9)
 
 
 def _envelope(ring: BearingRing) -> tuple[float, float]:
@@ -99,12 +99,12 @@ def _envelope(ring: BearingRing) -> tuple[float, float]:
 
 def _takes(case: Case, ring: BearingRing, ball_diameter: float) -> bool:
     abu, rules = case.autobalancer, RULES["bearing-ring"]
-    bore = to_si(abu.bore_diameter_mm, "mm")
+    bore = abu.bore_diameter
     wall = ring.outside_diameter / 2 - ring.sphere_radius + rules.body_wall
     edge = ring.sphere_radius - groove_depth(ring.sphere_radius, ring.width)
     return (
         ring.width >= ball_diameter + 2 * GROOVE_CLEARANCE - 1e-9
-        and wall >= to_si(abu.min_wall_mm, "mm") - 1e-9
+        and wall >= abu.min_wall - 1e-9
         and ring.sphere_radius >= least_race_radius("bearing-ring", bore, ball_diameter) - 1e-9
         and filling_gap(edge, ball_diameter, bore / 2 + rules.hub_wall) >= LEAST_FILLING - 1e-9
     )

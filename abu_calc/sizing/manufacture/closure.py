@@ -6,7 +6,7 @@ from typing import Final
 from abu_calc.formulas.press_fit import MATERIALS, Ring, RingMaterial, spin_stress
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import LEAST_FILLING, balls_go_in, filling_gap, last_ball_passes
 from abu_calc.sizing.parts.housing_parts import HousingParts
@@ -119,8 +119,8 @@ def _ball_energy(parts: HousingParts, top: float) -> float:
 
 def contained(case: Case, parts: HousingParts, top: float) -> bool:
     """True if the guard stops a ball, or no guard is given."""
-    given = case.autobalancer.guard_thickness_mm
-    return given is None or to_si(given, "mm") >= perforated_thickness(_ball_energy(parts, top), parts.balls.diameter)
+    given = case.autobalancer.guard_thickness
+    return given is None or bool(given >= perforated_thickness(_ball_energy(parts, top), parts.balls.diameter))
 
 
 def containment_check(case: Case, parts: HousingParts, top: float) -> tuple[Check, ...]:

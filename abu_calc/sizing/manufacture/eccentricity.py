@@ -115,7 +115,7 @@ def split_eccentricity(case: Case, candidate: Candidate) -> EccentricitySplit:
     Run-outs of race and spindle get what the fit and the housing leave, in proportion to their tolerance grades.
     """
     total, rule = case.race_eccentricity, case.autobalancer.eccentricity_sum
-    bore, fits = to_si(case.autobalancer.bore_diameter_mm, "mm"), _fits(case, candidate)
+    bore, fits = case.autobalancer.bore_diameter, _fits(case, candidate)
     grade, housing = _housing(case, candidate, total)
     least = _least(case, candidate, fits, bore)
 

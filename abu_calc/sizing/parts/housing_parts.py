@@ -3,7 +3,6 @@
 from typing import Final
 
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, RULES, STEEL, HousingDimensions, dimensions
@@ -169,6 +168,6 @@ def candidate_dimensions(case: Case, candidate: Candidate) -> HousingDimensions:
     """Lengths of a candidate's housing."""
     abu = case.autobalancer
     return dimensions(
-        abu.design, candidate.race_radius, candidate.ball_diameter, to_si(abu.bore_diameter_mm, "mm"),
-        to_si(abu.min_wall_mm, "mm"), abu.corrector == "ball", ring_of(case, candidate.race_radius),
+        abu.design, candidate.race_radius, candidate.ball_diameter, abu.bore_diameter,
+        abu.min_wall, abu.corrector == "ball", ring_of(case, candidate.race_radius),
     )  # fmt: skip
