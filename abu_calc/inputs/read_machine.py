@@ -38,7 +38,7 @@ def read_file(source: str, overrides: Sequence[str] = ()) -> FileReading:
 
 def read_document(document: Document, overrides: Sequence[str] = ()) -> FileReading:
     """Reads a document that is open already, as `read_file` does."""
-    reading: FileReading = kind_of(document.content).call("reads", document, parsed_overrides(overrides))
+    reading: FileReading = kind_of(document.content).read(document, parsed_overrides(overrides))
     return reading
 
 
@@ -60,15 +60,6 @@ class Machine(FileReading):
     def title(self) -> str:
         """The machine's name."""
         return self.tables.machine.name
-
-    def changed(self, values: Mapping[str, object]) -> "Machine":
-        """The machine with entries of its file replaced, by key path: `changed({"wheel.mass_kg": 0.5})`.
-
-        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
-        """
-        from abu_calc.inputs.reading.overrides import following, overrides_of
-
-        return machine_from(self.document, following(self.overrides, overrides_of(values), _whole()))
 
     @property
     def two_races(self) -> "TwoRaceFile | None":

@@ -25,9 +25,7 @@ from abu_calc.inputs.reading.document import (
     validate,
 )
 from abu_calc.inputs.reading.kinds import kind_of, refuse_others
-from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.reading.table import Table, entry, problem
-from abu_calc.inputs.reading.template import template_of
 from abu_calc.inputs.reading.text import Part
 from abu_calc.inputs.variation import Sweep
 
@@ -379,15 +377,6 @@ class SceneDescription(FileReading):
     scene: SceneTable
     sweep: "Sweep | None" = None
 
-    def changed(self, values: Mapping[str, object]) -> "SceneDescription":
-        """The scene with entries of its file replaced, by key path: `changed({"scene.speed_rpm": 5800.0})`.
-
-        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
-        """
-        from abu_calc.inputs.reading.overrides import following, overrides_of
-
-        return described_scene(self.document, following(self.overrides, overrides_of(values), SceneFile))
-
 
 def read_scene(
     source: str | os.PathLike[str] | Mapping[str, object], overrides: Sequence[str] = ()
@@ -413,13 +402,3 @@ def described_scene(document: Document, overrides: "Sequence[Override]" = ()) ->
     refuse_others(document, "scene")
     file, reading = validate(document, overrides, SceneFile, lambda _: SceneFile)
     return SceneDescription(**vars(reading), scene=file.scene, sweep=file.sweep)
-
-
-def scene_template() -> str:
-    """The text of a complete scene file."""
-    return template_of("scene", SceneFile)
-
-
-def scene_schema() -> dict[str, Any]:
-    """The schema of scene files."""
-    return schema_of("scene", SceneFile) | {"allOf": [{"$ref": f"#/definitions/{SceneFile.__name__}"}]}

@@ -182,8 +182,9 @@ def static_texts() -> Iterator[tuple[str, str]]:
     from abu_calc.dynamics.effects.registry import REGISTRY
     from abu_calc.features.explain.steps import STEPS
     from abu_calc.foundation.checks import CHECK_CODES
-    from abu_calc.inputs.reading.kinds import BY_NAME
+    from abu_calc.inputs.reading.schema import schema_of
     from abu_calc.inputs.reading.sources import names, text_of
+    from abu_calc.inputs.reading.template import template_of
     from tests.cli.runner import abu
 
     yield "abu --help", abu("--help").out
@@ -196,9 +197,9 @@ def static_texts() -> Iterator[tuple[str, str]]:
     for subject in (*STEPS, *CHECK_CODES, *(name for name, _ in REGISTRY)):
         yield f"abu explain {subject}", abu("explain", subject).out
     for kind in ("machine", "scene", "readings"):
-        for text in dict.fromkeys(described(BY_NAME[kind].call("schema"))):
+        for text in dict.fromkeys(described(schema_of(kind))):
             yield f"abu schema {kind}", text
-        yield f"template of {kind}", comments(BY_NAME[kind].call("template"))
+        yield f"template of {kind}", comments(template_of(kind))
     for name in names():
         yield f"preset {name}", comments(text_of(name))
 

@@ -6,9 +6,9 @@ import pytest
 from jsonschema import Draft4Validator
 from pydantic import ValidationError
 
-from abu_calc.features.balancing.read import readings_schema
 from abu_calc.features.balancing.tables import Tolerance
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.wheel import SOURCES, MeasuredAfter, Shown, Wheel, displaced_quantities
 from tests.inputs.samples import BASIC, read
 
@@ -37,7 +37,7 @@ def test_a_balance_grade_as_people_write_it(tmp_path: Path, written: str) -> Non
     """In machine files and readings alike; a number without its letter, or cut by a space, is refused."""
     wheel = machine(tmp_path, BASIC.replace("imbalance_g_mm = 150.0", f'balance_grade = "{written}"')).wheel
     assert wheel.balance_grade == "G6.3" and Tolerance(balance_grade=written).balance_grade == "G6.3"
-    schema = readings_schema()
+    schema = schema_of("readings")
     editor = Draft4Validator(schema["definitions"]["Tolerance"] | {"definitions": schema["definitions"]})
     editor.validate({"balance_grade": written})
     for other in (written[1:], written.replace(".", ". "), f"G{written}"):

@@ -8,15 +8,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft4Validator
 
+from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.reading.table import all_tables
-from abu_calc.inputs.reading.template import WIDTH
-from abu_calc.simulation.scene_file import SceneFile, scene_schema, scene_template
+from abu_calc.inputs.reading.template import WIDTH, template_of
+from abu_calc.simulation.scene_file import SceneFile
 from tests.inputs.agreeing import check_schema, right_but_for_rules
 from tests.inputs.reading.test_schema import VALUES, places
 from tests.inputs.samples import document, mutated
 from tests.inputs.scenes import ARM, PLANAR, SCENE, TILTING, read
 
-SCHEMA = scene_schema()
+SCHEMA = schema_of("scene")
 VALIDATOR = Draft4Validator(SCHEMA)
 SAMPLES = [document(text) for text in (PLANAR, TILTING, ARM)]
 PLACES = [(number, path) for number, sample in enumerate(SAMPLES) for path in places(sample)]
@@ -27,7 +28,7 @@ def test_it_is_a_schema_of_draft_4_with_a_description_of_every_key() -> None:
     assert all(body["description"] for name, body in SCHEMA["definitions"].items() if name != "SceneFile")
 
 
-@pytest.mark.parametrize("text", [SCENE, PLANAR, TILTING, ARM, scene_template()])
+@pytest.mark.parametrize("text", [SCENE, PLANAR, TILTING, ARM, template_of("scene")])
 def test_good_scenes_validate(text: str) -> None:
     VALIDATOR.validate(document(text))
 
@@ -42,7 +43,7 @@ def test_schema_and_models_agree(place: tuple[int, tuple[Any, ...]], how: str, v
 
 
 def test_the_template_reads_back_and_names_every_key(tmp_path: Path) -> None:
-    text = scene_template()
+    text = template_of("scene")
     assert read(tmp_path, text).scene.support == "planar"
     assert max(map(len, text.splitlines())) <= WIDTH + 2
     rows = [row.lstrip("#") for row in text.splitlines() if not row.startswith("# ")]
@@ -58,7 +59,7 @@ def test_the_template_reads_back_and_names_every_key(tmp_path: Path) -> None:
 def test_an_optional_table_reads_once_its_marks_are_taken_away(tmp_path: Path) -> None:
     names = ("gravity", "dry_rolling_friction", "ball_contact", "race_eccentricity", "run_up", "motor")
     for name in (*names, "grinding_contact", "transverse_motion"):
-        before, _, after = scene_template().partition(f"#[scene.effects.{name}]")
+        before, _, after = template_of("scene").partition(f"#[scene.effects.{name}]")
         block, gap, rest = after.partition("\n\n")
         used = "\n".join(row[1:] if row.startswith("#") and row[1:2] != " " else row for row in block.split("\n"))
         assert read(tmp_path, f"{before}[scene.effects.{name}]{used}{gap}{rest}").scene.effects.names == (name,)

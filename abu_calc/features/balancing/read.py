@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.errors import InputError, Place
@@ -29,15 +29,6 @@ class Readings(FileReading):
     def title(self) -> str:
         """The roll's name."""
         return self.tables.rotor.name
-
-    def changed(self, values: Mapping[str, object]) -> "Readings":
-        """The readings with entries of their file replaced, by key path: `changed({"rig.damping_ratio": 0.01})`.
-
-        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
-        """
-        from abu_calc.inputs.reading.overrides import following, overrides_of
-
-        return readings_from(self.document, following(self.overrides, overrides_of(values), ReadingsFile))
 
     def beside(self, name: str) -> Path:
         """A file that this one names: by its whole path, or beside it."""
@@ -93,15 +84,8 @@ def readings_template(method: str | None = None) -> str:
             remedy="name one of them",
         )  # fmt: skip
     if method is None or method == "rig-data":
-        return template_of("readings", ReadingsFile)
+        return template_of("readings")
     return Path(__file__).parent.joinpath("templates", f"{method}.toml").read_text(encoding="utf-8")
-
-
-def readings_schema() -> dict[str, Any]:
-    """The schema of files of readings."""
-    from abu_calc.inputs.reading.schema import schema_of
-
-    return schema_of("readings", ReadingsFile) | {"allOf": [{"$ref": f"#/definitions/{ReadingsFile.__name__}"}]}
 
 
 def _is_file(path: Path) -> bool:

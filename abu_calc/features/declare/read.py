@@ -6,7 +6,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.declare.tables import RecordedFile, RecordedRun, RecordingsFile
 from abu_calc.foundation.errors import InputError, Place
@@ -59,20 +59,6 @@ def recordings_from(document: Document, overrides: "Sequence[Override]" = ()) ->
     refuse_others(document, "recordings")
     tables, reading = validate(document, overrides, RecordingsFile, lambda _: RecordingsFile)
     return Recordings(**vars(reading), tables=tables)
-
-
-def recordings_template() -> str:
-    """Text of a complete file of recordings; it reads back without error."""
-    from abu_calc.inputs.reading.template import template_of
-
-    return template_of("recordings", RecordingsFile)
-
-
-def recordings_schema() -> dict[str, Any]:
-    """The schema of files that list recordings."""
-    from abu_calc.inputs.reading.schema import schema_of
-
-    return schema_of("recordings", RecordingsFile) | {"allOf": [{"$ref": f"#/definitions/{RecordingsFile.__name__}"}]}
 
 
 def of_files(files: Sequence[str], sensitivity: Sequence[str] = ()) -> Recordings:

@@ -64,9 +64,9 @@ def machine_keys(asked: str) -> list[FileKey]:
     >>> [key.path for key in machine_keys("ball_diameter")]
     ['autobalancer.ball_diameter_mm']
     """
-    from abu_calc.inputs.reading.schema import machine_schema
+    from abu_calc.inputs.reading.schema import schema_of
 
-    schema = machine_schema()
+    schema = schema_of("machine")
     keys = dict[str, FileKey]()
     for header, table in file_tables(schema):
         for name, entry in table["properties"].items():
@@ -92,8 +92,8 @@ MOST_LIKE: Final = 3
 
 def keys_with(word: str) -> list[str]:
     """Names of keys that have a word in them, the first few."""
-    from abu_calc.inputs.reading.schema import machine_schema
+    from abu_calc.inputs.reading.schema import schema_of
 
-    tables = (table["properties"] for _, table in file_tables(machine_schema()))
+    tables = (table["properties"] for _, table in file_tables(schema_of("machine")))
     names = (name for table in tables for name, entry in table.items() if "x-canonical-key" not in entry)
     return list(dict.fromkeys(name for name in names if word.lower() in name.lower().split("_")))[:MOST_LIKE]

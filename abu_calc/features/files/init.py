@@ -82,8 +82,13 @@ def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]
 
     if preset is not None:
         return text_of(preset), kind_of(read_file(preset).document.content).command
-    chosen = BY_NAME[kind]
-    return (chosen.call("template", method) if method is not None else chosen.call("template")), chosen.command
+    if method is not None:
+        from abu_calc.registry import imported
+
+        return imported("balancing.read:readings_template")(method), BY_NAME[kind].command
+    from abu_calc.inputs.reading.template import template_of
+
+    return template_of(kind), BY_NAME[kind].command
 
 
 def _short(answers: Mapping[str, Any]) -> str:

@@ -35,10 +35,9 @@ def _schema(kind: str) -> dict[str, Any]:
         from abu_calc.features.files.result_schema import result_schema
 
         return result_schema()
-    from abu_calc.inputs.reading.kinds import BY_NAME
+    from abu_calc.inputs.reading.schema import schema_of
 
-    json_schema: dict[str, Any] = BY_NAME[kind].call("schema")
-    return json_schema
+    return schema_of(kind)
 
 
 def register(app: typer.Typer) -> None:

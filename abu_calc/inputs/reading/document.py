@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Final, NamedTuple, Self, TypeVar, cast
 
 from pydantic import ValidationError
 
@@ -173,6 +173,19 @@ class FileReading:
     def document(self) -> Document:
         """The file once more, without its overrides."""
         return Document(self.file, self.text, self.sha256, parsed(self.text, self.file))
+
+    def changed(self, values: Mapping[str, object]) -> Self:
+        """The same with entries of its file replaced, by key path: `changed({"wheel.mass_kg": 0.5})`.
+
+        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
+        """
+        from abu_calc.inputs.reading.kinds import kind_of
+        from abu_calc.inputs.reading.overrides import following, overrides_of
+
+        document = self.document
+        kind = kind_of(document.content)
+        changed: Self = kind.read(document, following(self.overrides, overrides_of(values), kind.model))
+        return changed
 
     @contextmanager
     def located(self) -> Iterator[None]:

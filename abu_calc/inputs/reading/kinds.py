@@ -1,10 +1,10 @@
 """Kinds of files that people write.
 
-A new kind is an entry here: its marking tables, its reader, and the commands that take it.
+A new kind is an entry here: its marking tables, its reader, the models of its tables, and the command that takes it.
 """
 
 import importlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.foundation.errors import InputError, Place
@@ -12,11 +12,15 @@ from abu_calc.foundation.frozen import dataclass
 
 if TYPE_CHECKING:
     from abu_calc.inputs.reading.document import Document
+    from abu_calc.inputs.reading.overrides import Override
+    from abu_calc.inputs.reading.table import Table
 
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of file; `marks`: the tables by which it is known, `reads`, `template`, `schema`: module and function."""
+    """A kind of file; `marks`: the tables by which it is known, `reads`: module and function, `models`: the files that
+    it may be, the whole one first, as module and class.
+    """
 
     name: str
     what: str
@@ -24,34 +28,44 @@ class Kind:
     command: str
     """The command that takes it."""
     reads: str
-    template: str
-    schema: str
+    models: tuple[str, ...]
 
-    def call(self, which: str, *arguments: Any) -> Any:
-        """Calls one of its functions, its module imported for it."""
-        module, _, function = getattr(self, which).partition(":")
-        return getattr(importlib.import_module(f"abu_calc.{module}"), function)(*arguments)
+    def read(self, document: "Document", overrides: "Sequence[Override]") -> Any:
+        """What its reader makes of a document that is open already."""
+        return _imported(self.reads)(document, overrides)
+
+    @property
+    def model(self) -> "type[Table]":
+        """Model of the whole file."""
+        return _imported(self.models[0])  # type: ignore[no-any-return]
+
+    def all_models(self) -> "tuple[type[Table], ...]":
+        """Models of the files that it may be."""
+        return tuple(map(_imported, self.models))
+
+
+def _imported(name: str) -> Any:
+    module, _, held = name.partition(":")
+    return getattr(importlib.import_module(f"abu_calc.{module}"), held)
 
 
 KINDS: Final = (
     Kind(
         "machine", "a machine", ("machine",), "size",
-        "inputs.read_machine:machine_from", "inputs.reading.template:template", "inputs.reading.schema:machine_schema",
+        "inputs.read_machine:machine_from",
+        ("inputs.machine:MachineFile", "inputs.two_races:TwoRaceFile", "inputs.bearing_file:BearingFile"),
     ),
     Kind(
         "scene", "a scene", ("scene",), "simulate",
-        "simulation.scene_file:described_scene", "simulation.scene_file:scene_template",
-        "simulation.scene_file:scene_schema",
+        "simulation.scene_file:described_scene", ("simulation.scene_file:SceneFile",),
     ),
     Kind(
         "readings", "readings of a rig", ("rig", "rotor", "run"), "balance",
-        "features.balancing.read:readings_from", "features.balancing.read:readings_template",
-        "features.balancing.read:readings_schema",
+        "features.balancing.read:readings_from", ("features.balancing.tables:ReadingsFile",),
     ),
     Kind(
         "recordings", "recordings of a type test", ("recording", "calibration"), "declare --recordings",
-        "features.declare.read:recordings_from", "features.declare.read:recordings_template",
-        "features.declare.read:recordings_schema",
+        "features.declare.read:recordings_from", ("features.declare.tables:RecordingsFile",),
     ),
 )  # fmt: skip
 """A file that has tables of several is of the first of them, one that has none is a machine's."""

@@ -6,36 +6,30 @@ from typing import Any, Final
 from pydantic.json_schema import models_json_schema
 
 from abu_calc.foundation.written_units import written_unit
-from abu_calc.inputs.machine import BearingFile, MachineFile
 from abu_calc.inputs.reading.format import FORMAT, KEY
+from abu_calc.inputs.reading.kinds import BY_NAME
 from abu_calc.inputs.reading.table import Table, all_tables
 from abu_calc.inputs.reading.values_with_units import canonical_keys
-from abu_calc.inputs.two_races import TwoRaceFile
 
 HOME: Final = "https://json.schemastore.org/"
 """Where the public schema store serves schemas; its names are those of the files of the bundle."""
 DRAFT: Final = "http://json-schema.org/draft-04/schema#"
-MACHINE: Final = "Machine"
-"""Name by which editors know a whole machine's file."""
+NAMES: Final = {"MachineFile": "Machine"}
+"""Names by which editors know a model that is called otherwise here."""
 
 _BOUNDS: Final = {"exclusiveMinimum": "minimum", "exclusiveMaximum": "maximum"}
 _DROPPED: Final = ("title", "examples", "$defs")
 
 
-def machine_schema() -> dict[str, Any]:
-    """The schema of machine files: a whole machine with one race or two, or bearings alone."""
-    kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, TwoRaceFile.__name__, BearingFile.__name__)]
-    return schema_of("machine", MachineFile, TwoRaceFile, BearingFile) | {"anyOf": kinds}
-
-
-def schema_of(kind: str, *models: type[Table]) -> dict[str, Any]:
-    """Head and definitions of the schema of a kind of file."""
+def schema_of(kind: str) -> dict[str, Any]:
+    """The schema of a kind of file: of a machine that of a whole machine with one race or two, or of bearings alone."""
+    models = BY_NAME[kind].all_models()
     _, schema = models_json_schema([(model, "validation") for model in models])
     _add_values_with_units(schema["$defs"], models)
     for model in models:
         schema["$defs"][model.__name__]["properties"][KEY] = _FORMAT
-    bodies = {MACHINE if name == MachineFile.__name__ else name: body for name, body in schema["$defs"].items()}
-    definitions = {name: _draft4(body) for name, body in bodies.items()}
+    definitions = {NAMES.get(name, name): _draft4(body) for name, body in schema["$defs"].items()}
+    files = [{"$ref": f"#/definitions/{NAMES.get(model.__name__, model.__name__)}"} for model in models]
     return {
         "$schema": DRAFT,
         "id": f"{HOME}abu-calc-{kind}.json",
@@ -43,6 +37,7 @@ def schema_of(kind: str, *models: type[Table]) -> dict[str, Any]:
         "description": f"A {kind} file of abu-calc, format {FORMAT}.",
         "type": "object",
         "definitions": definitions,
+        "allOf" if len(files) == 1 else "anyOf": files,
     }
 
 

@@ -5,8 +5,8 @@ from typing import Final
 
 from pydantic.fields import FieldInfo
 
-from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.format import FORMAT, KEY
+from abu_calc.inputs.reading.kinds import BY_NAME
 from abu_calc.inputs.reading.table import Table, is_array, subtable
 from abu_calc.inputs.reading.text import key_path, shown
 
@@ -25,16 +25,12 @@ FIRST: Final = (
 )
 
 
-def template() -> str:
-    """The text of a complete machine file; it reads back without error.
+def template_of(kind: str) -> str:
+    """Text of a complete file of a kind, made from its model; it reads back without error.
 
     Required keys carry example values, keys with a default carry it, all others are commented out.
     """
-    return template_of("machine", MachineFile)
-
-
-def template_of(kind: str, model: type[Table]) -> str:
-    """Text of a complete file of a kind, made from its model."""
+    model = BY_NAME[kind].model
     head = f"{HEAD.format(kind=kind)} {FIRST}" if kind == "machine" else HEAD.format(kind=kind)
     return (
         "\n".join([*_comment(head), "", *_comment(ABOUT_FORMAT), f"{KEY} = {FORMAT}", *_tables(model, (), live=True)])

@@ -5,10 +5,11 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.read import readings_schema, readings_template
+from abu_calc.features.balancing.read import readings_template
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.reading.document import parsed
+from abu_calc.inputs.reading.schema import schema_of
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, written
 
 
@@ -46,6 +47,6 @@ def test_a_file_of_another_kind_is_refused() -> None:
 def test_the_template_is_whole_and_the_schema_knows_its_tables(tmp_path: Path) -> None:
     text = readings_template()
     ReadingsFile.model_validate(parsed(text, ""))
-    assert {"rotor", "run"} <= readings_schema()["definitions"][ReadingsFile.__name__]["properties"].keys()
+    assert {"rotor", "run"} <= schema_of("readings")["definitions"][ReadingsFile.__name__]["properties"].keys()
     with pytest.raises(InputError):
         abu_calc.read_readings(written(tmp_path, BARE_ROTOR))  # no run

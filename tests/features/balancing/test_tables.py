@@ -9,13 +9,14 @@ from hypothesis import strategies as st
 from jsonschema import Draft4Validator
 
 import abu_calc
-from abu_calc.features.balancing.read import read_readings, readings_schema, readings_template
+from abu_calc.features.balancing.read import read_readings, readings_template
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_file
 from abu_calc.inputs.reading import sources as presets
 from abu_calc.inputs.reading.errors import SpecErrors
 from abu_calc.inputs.reading.kinds import KINDS, kind_of
+from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.reading.table import all_tables, usual_of
 from abu_calc.inputs.reading.template import WIDTH
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, written
@@ -39,7 +40,7 @@ FULL = "\n".join([
     'mark_edge = "leading"', "[errors]\namplitude_percent = 2.0", '[tolerance]\nbalance_grade = "G6.3"',
     "service_speed_rpm = 1500.0", '[expected]\n"left.mass_g" = 12.0\n[expected.tolerance]\n"left.mass_g" = 0.1',
 ])  # fmt: skip
-SCHEMA = readings_schema()
+SCHEMA = schema_of("readings")
 VALIDATOR = Draft4Validator(SCHEMA)
 SAMPLES = [document(FULL.split("[expected.tolerance]")[0]), document(RIG + ROTOR + RUN)]
 PLACES = [(number, path) for number, sample in enumerate(SAMPLES) for path in places(sample)]

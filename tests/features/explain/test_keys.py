@@ -5,7 +5,7 @@ import json
 import pytest
 
 from abu_calc.features.explain.keys import file_tables, keys_with, machine_keys
-from abu_calc.inputs.reading.schema import machine_schema
+from abu_calc.inputs.reading.schema import schema_of
 from tests.cli.runner import abu
 
 
@@ -20,9 +20,9 @@ def test_a_key_is_explained_by_each_of_its_names(asked: str) -> None:
 
 def test_every_key_of_every_table_is_found_by_its_path(monkeypatch: pytest.MonkeyPatch) -> None:
     """A key that a file may have has words that `abu explain` prints."""
-    schema = machine_schema()
+    schema = schema_of("machine")
     tables = list(file_tables(schema))
-    monkeypatch.setattr("abu_calc.inputs.reading.schema.machine_schema", lambda: schema)  # made once for all keys
+    monkeypatch.setattr("abu_calc.inputs.reading.schema.schema_of", lambda _: schema)  # made once for all keys
     monkeypatch.setattr("abu_calc.features.explain.keys.file_tables", lambda _: tables)
     for header, table in tables:
         for name in table["properties"]:
@@ -40,7 +40,7 @@ def test_a_word_of_a_key_names_the_keys() -> None:
 
 @pytest.mark.slow
 def test_a_table_is_explained_key_by_key() -> None:
-    table = next(table for header, table in file_tables(machine_schema()) if header == "[limits]")
+    table = next(table for header, table in file_tables(schema_of("machine")) if header == "[limits]")
     names = [name for name, entry in table["properties"].items() if "x-canonical-key" not in entry]
     seen = abu("explain", "limits")
     assert seen.status == 0 and [key.name for key in machine_keys("limits")] == names

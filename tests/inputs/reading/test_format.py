@@ -8,6 +8,7 @@ from abu_calc.inputs.reading import errors, format
 from abu_calc.inputs.reading.format import CHANGES, FORMAT, KeyChange, since
 from abu_calc.inputs.reading.kinds import KINDS
 from abu_calc.inputs.reading.sources import text_of
+from abu_calc.inputs.reading.template import template_of
 
 TEXT = text_of("avtovaz-707-222")
 
@@ -20,7 +21,7 @@ def test_a_file_may_say_its_format() -> None:
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_each_template_says_it(kind: object) -> None:
-    text = kind.call("template")  # type: ignore[attr-defined]
+    text = template_of(kind.name)  # type: ignore[attr-defined]
     assert f"\nformat = {FORMAT}\n" in text
 
 

@@ -11,12 +11,12 @@ from jsonschema import Draft4Validator
 from pydantic import ValidationError
 
 from abu_calc.inputs.machine import BearingFile, MachineFile
-from abu_calc.inputs.reading.schema import machine_schema
+from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.reading.table import RULE
-from abu_calc.inputs.reading.template import template
+from abu_calc.inputs.reading.template import template_of
 from tests.inputs.samples import BASIC, BEARINGS, document, full_text, mutated
 
-SCHEMA = machine_schema()
+SCHEMA = schema_of("machine")
 VALIDATOR = Draft4Validator(SCHEMA)
 DRAFT4 = {
     "$schema", "$ref", "title", "description", "default", "type", "enum", "anyOf", "allOf", "oneOf", "not",
@@ -72,7 +72,7 @@ def test_every_key_keeps_its_description_and_its_default() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", [BASIC, BEARINGS, full_text()[0], template()], ids=["basic", "bearings", "full", "template"]
+    "text", [BASIC, BEARINGS, full_text()[0], template_of("machine")], ids=["basic", "bearings", "full", "template"]
 )
 def test_good_files_validate(text: str) -> None:
     VALIDATOR.validate(document(text))

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.reading.table import Table
 
-UNSAID = {("Bearing", "shaft_bore_mm", "le"), ("SceneTable", "duration_s", "gt")}
+UNSAID = {("Bearing", "shaft_bore_mm", "le"), ("SceneTable", "duration_s", "gt"), ("_Scene", "duration_s", "gt"),
+          ("_SceneKeys", "duration_s", "gt")}  # fmt: skip
 """Bounds that another key draws closer."""
 
 

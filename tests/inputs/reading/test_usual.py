@@ -11,11 +11,11 @@ from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import read_file, read_machine
 from abu_calc.inputs.reading import sources as presets
-from abu_calc.inputs.reading.schema import machine_schema
+from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.reading.table import Table, Usual, all_tables, usual_of
-from abu_calc.inputs.reading.template import template
+from abu_calc.inputs.reading.template import template_of
 from abu_calc.inputs.reading.text import unit_suffix
-from abu_calc.simulation.scene_file import SceneFile, scene_template
+from abu_calc.simulation.scene_file import SceneFile
 from tests.inputs import scenes
 from tests.inputs.samples import BASIC, read, refused
 
@@ -181,8 +181,8 @@ def test_no_preset_of_a_grinder_is_unusual(name: str) -> None:
 
 
 def test_neither_template_is_unusual(tmp_path: Path) -> None:
-    assert read(tmp_path, template()).warnings == ()
-    assert scenes.read(tmp_path, scene_template()).warnings == ()
+    assert read(tmp_path, template_of("machine")).warnings == ()
+    assert scenes.read(tmp_path, template_of("scene")).warnings == ()
 
 
 @pytest.mark.parametrize("text", [scenes.SCENE, scenes.PLANAR, scenes.TILTING, scenes.ARM])
@@ -316,7 +316,7 @@ def test_every_default_and_every_example_is_usual() -> None:
 
 
 def test_every_usual_range_is_narrower_than_what_is_allowed_and_stands_in_the_description_and_the_schema() -> None:
-    definitions = machine_schema()["definitions"]
+    definitions = schema_of("machine")["definitions"]
     for table, key, field in fields(MachineFile):
         if usual := usual_of(field):
             assert 0 < usual.low < usual.high, (table, key)
@@ -328,7 +328,7 @@ def test_every_usual_range_is_narrower_than_what_is_allowed_and_stands_in_the_de
 
 
 def test_the_template_shows_them() -> None:
-    text = " ".join(template().replace("\n#", "").split())
+    text = " ".join(template_of("machine").replace("\n#", "").split())
     assert "0.001 … 20000, usually 0.3 … 150, hand grinders 1 … 8." in text
     assert "-2000 … 2000, usually 5 … 1000 either way, at a grinder" in text
 

@@ -12,7 +12,7 @@ import abu_calc
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.written_units import written_unit
 from abu_calc.inputs.reading.kinds import KINDS
-from abu_calc.inputs.reading.schema import CANONICAL
+from abu_calc.inputs.reading.schema import CANONICAL, schema_of
 from abu_calc.inputs.reading.sources import text_of
 from abu_calc.inputs.reading.table import Table, all_tables, subtable
 from abu_calc.inputs.reading.values_with_units import canonical_keys
@@ -21,7 +21,7 @@ from tests.rows import for_each
 
 PRESET = "avtovaz-707-222"
 TEXT = text_of(PRESET)
-SCHEMA = {kind.name: kind.call("schema") for kind in KINDS}
+SCHEMA = {kind.name: schema_of(kind.name) for kind in KINDS}
 
 
 def with_entry(key: str, entry: str) -> tuple[str, int]:
