@@ -1,10 +1,13 @@
 """Duties of the machine besides idling: grinding, run-up, work on a motor or on a swing arm."""
 
-from typing import Annotated, ClassVar, Final, Literal, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.inputs.reading.table import Table, entry, problem, whole
+
+if TYPE_CHECKING:
+    from abu_calc.formulas.swing_arm import Arm
 
 STIFFNESS: Final = "contact_stiffness_N_per_m"
 JOINT: Final = ("arm_length_mm", "moment_of_inertia_kg_m2", "joint_stiffness_N_per_m", "joint_damping_N_s_per_m")
@@ -153,3 +156,20 @@ class SwingArm(Table):
     pressing_moment_N_m: float = entry(20.0, ge=0, le=1e6, usual=(0.2, 1000)).means(
         "Torque that presses the disk to the work [N·m]; {range}. Default: {default}, an example."
     )
+
+    def arm(self, wheel_radius: float, added_mass: float = 0.0) -> "Arm":
+        """The arm in SI; `wheel_radius` [m], `added_mass` at its end [kg] beside what its moment of inertia counts."""
+        from abu_calc.formulas.swing_arm import Arm
+
+        return Arm(
+            length=self.arm_length,
+            inertia=self.moment_of_inertia + added_mass * self.arm_length**2,
+            joint_stiffness=self.joint_stiffness,
+            joint_damping=self.joint_damping,
+            contact_stiffness=self.contact_stiffness,
+            friction=self.cutting_coefficient,
+            disk_radius=wheel_radius,
+            contact_angle=self.contact_angle,
+            touch_angle=self.touch_angle,
+            pressing_moment=self.pressing_moment,
+        )

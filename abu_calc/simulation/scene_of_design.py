@@ -36,7 +36,6 @@ from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import total_of
 from abu_calc.sizing.places import level_at_loudest, settled_levels
-from abu_calc.sizing.swing_arm import read_arm
 
 if TYPE_CHECKING:
     from abu_calc.dynamics.effects.motor import MotorEffect
@@ -45,7 +44,7 @@ if TYPE_CHECKING:
 def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArmSupport:
     """The swing arm with the machine and the autobalancer, without balls."""
     case, autobalancer = design.case, design.autobalancer
-    arm = read_arm(case, table, autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass)
+    arm = table.arm(case.wheel_radius, autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass)
     if not cutting:
         return idle_arm(arm)
     angle = pressed_angle(arm)

@@ -73,7 +73,7 @@ def swing_arm_bounds(
 
     `capacity` of the balls [kg m]: it adds to the imbalance while they stand on the heavy side.
     """
-    arm = read_arm(case, table, added_mass)
+    arm = table.arm(case.wheel_radius, added_mass)
     ratio = arm.disk_radius / arm.length
     worst, series = worst_contact_angle(arm.friction, ratio), series_gain(arm.friction, ratio)
     natural = resonance(arm, series)
@@ -115,23 +115,6 @@ def doubted(checks: tuple[Check, ...], borrowed: tuple[str, ...]) -> tuple[Check
         if check.status == "pass"
         else check
         for check in checks
-    )
-
-
-def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
-    """The table [swing_arm] in SI."""
-    length = table.arm_length
-    return Arm(
-        length=length,
-        inertia=table.moment_of_inertia_kg_m2 + added_mass * length**2,
-        joint_stiffness=table.joint_stiffness_N_per_m,
-        joint_damping=table.joint_damping_N_s_per_m,
-        contact_stiffness=table.contact_stiffness_N_per_m,
-        friction=table.cutting_coefficient,
-        disk_radius=case.wheel_radius,
-        contact_angle=table.contact_angle,
-        touch_angle=table.touch_angle,
-        pressing_moment=table.pressing_moment_N_m,
     )
 
 

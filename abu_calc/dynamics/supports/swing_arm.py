@@ -115,18 +115,7 @@ class SwingArmSupport(Support):
     def of(cls, scene: Any) -> "SwingArmSupport":
         """Arm of the file, idle or pressed to the work."""
         own: SceneSwingArm = scene.swing_arm
-        arm = Arm(
-            length=own.arm_length,
-            inertia=own.moment_of_inertia,
-            joint_stiffness=own.joint_stiffness,
-            joint_damping=own.joint_damping,
-            contact_stiffness=own.contact_stiffness,
-            friction=own.cutting_coefficient,
-            disk_radius=own.wheel_radius or 0.0,  # which no arm that cuts takes
-            contact_angle=own.contact_angle,
-            touch_angle=own.touch_angle,
-            pressing_moment=own.pressing_moment,
-        )
+        arm = own.arm(own.wheel_radius or 0.0)  # which no arm that cuts takes
         return cutting_arm(arm) if own.cutting else idle_arm(arm)
 
     def started(self, scene: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:

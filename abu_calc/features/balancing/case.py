@@ -141,15 +141,15 @@ def behind_the_mark(file: ReadingsFile, angle_deg: float) -> float:
 
 def making_of(file: ReadingsFile) -> Making:
     """Limits, stock and drill of the corrections in SI."""
-    how, values, drill = file.correction, file.correction.in_si(), None
+    how, drill = file.correction, None
     if how.drill_diameter_mm is not None:
         drill = Drill(
-            values["drill_diameter"], how.density, how.drill_direction == "radial", values["drill_point"] or math.pi,
-            values["max_hole_depth"],
+            how.drill_diameter, how.density, how.drill_direction == "radial", how.drill_point or math.pi,
+            how.max_hole_depth,
         )  # fmt: skip
     return Making(
-        file.rotor.in_si()["max_removable"], values["max_added"], values["max_per_place"],
-        tuple(sorted(values["stock_weights"] or ())), drill, values["hole_spacing"],
+        file.rotor.max_removable, how.max_added, how.max_per_place, tuple(sorted(how.stock_weights or ())), drill,
+        how.hole_spacing,
     )  # fmt: skip
 
 

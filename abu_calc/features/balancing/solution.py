@@ -173,7 +173,7 @@ def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coeffic
     fitted = tuple(mass_of(file, mass) for mass in file.correction.fitted)
     replaced = fitted if file.correction.answer == "total" else ()
     answer = _answer(case, method_of(case), sigma, replaced)
-    service, making = file.tolerance.in_si()["service_speed"] or max(run.speed for run in case.runs), making_of(file)
+    service, making = file.tolerance.service_speed or max(run.speed for run in case.runs), making_of(file)
     radii = tuple(to_si(radius, "mm") for radius in file.radii_mm)
     shares: list[tuple[Share, ...]] = [
         () if answer.below else _shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)
@@ -199,7 +199,7 @@ def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coeffic
         disagreement=disagreement,
         tolerance=tolerance_of(file, service),
         service_speed=service,
-        bending_speed=file.rotor.in_si()["first_bending_speed"],
+        bending_speed=file.rotor.first_bending_speed,
         planes=file.planes,
         radii=radii,
         making=making,

@@ -150,7 +150,11 @@ def clearance_at_work(
     states = {}
     for name in ("cold", "mounted", "hot"):
         pair = [_at(joint, name) for joint in (shaft, housing)]
-        service = bearing.service if name == "hot" else replace(bearing.service, inner_over_outer=None)
+        service = (
+            bearing.service
+            if name == "hot"
+            else bearing.service.model_copy(update={"raceway_temperature_difference_K": None})
+        )
         mounting = Mounting(replace(bearing, service=service), *pair)
         states[name] = (mounting.end(group, few), mounting.end(group, 1 - few))
     return states

@@ -1,7 +1,6 @@
 """A bearing with its two seats, in SI, as the formulas of seats take it, and the ranges in which these hold."""
 
-from dataclasses import field
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.seats.equivalent_load import equivalent_dynamic, equivalent_static, load_factors
 from abu_calc.foundation.errors import InputError, Place
@@ -12,21 +11,18 @@ from abu_calc.standards.bearing_catalogue import Series
 from abu_calc.standards.catalogue import CatalogueBearing, Kind, Ratings
 from abu_calc.standards.tolerance_classes import NORMAL_RATIO, BearingType, DeviationLimits, RingLoad
 
+if TYPE_CHECKING:
+    from abu_calc.inputs.rolling_bearing import Bearing
+
 BEARING_SIZE: Final = Range("bearing size", 0.0, 10.0, "m", open_low=True)
 SEAT_DIAMETER: Final = Range("diameter of the seat", 0.0, 10.0, "m", open_low=True)
 SEAT_LENGTH: Final = Range("length of the seat", 0.0, 10.0, "m", open_low=True)
 TUBE_RATIO: Final = Range("ratio of a tube's diameters", 0.0, 0.999)
 ROUGHNESS: Final = Range("roughness Rz of the seat", 0.0, 1e-3, "m")
 RADIAL_LOAD: Final = Range("radial load", 0.0, 1e9, "N")
-AXIAL_LOAD: Final = Range("axial load", 0.0, 1e9, "N")
-VISCOSITY: Final = Range("viscosity", 0.0, 0.1, "m²/s", open_low=True)
 SHARE: Final = Range("share of pairs", 0.0, 1.0)
-WARMER_RING: Final = Range("temperature difference of a ring and its seat", -500.0, 500.0, "K")
-WARMER_INSIDE: Final = Range("temperature of the inner ring above the outer one", -500.0, 500.0, "K")
-WARMER_THAN_MOUNTED: Final = Range("temperature of the bearing above that of mounting", -300.0, 500.0, "K")
 STRENGTH: Final = Range("strength of the part", 0.0, 1e10, "Pa", open_low=True)
 RING_SPEED: Final = Range("ring speed", 0.0, 1e5, "rad/s")
-STARTING_TORQUE: Final = Range("starting torque", 0.0, 1e7, "N·m")
 SEAT_FRICTION: Final = Range("friction coefficient of the seat", 0.0, 1.0)
 
 
@@ -76,56 +72,16 @@ class MatingPart:
 
 
 @dataclass(frozen=True)
-class Service:
-    """Service conditions that the seats must stand [SI]; None: not given, and then not counted.
-
-    Temperature differences [K] of either sign: `ring_over_shaft` and `inner_over_outer` of the inner ring
-    over shaft and outer ring; `housing_over_ring` of the housing over the outer ring; `over_mounting` of
-    the rings over mounting (20 °C); `extremes` the lowest and highest of all parts over mounting. `seat_friction`:
-    coefficient of friction between ring and seat. `viscosity` [m²/s] of the lubricant at its temperature,
-    `contamination` factor e_C, `required_life` [s] (None: the makers' guide).
-    `load_kind`: "moderate" or "shock".
-    `mounting_clearance` [m] wanted of heated parts.
-    """
-
-    radial_load: float | None = None
-    speed: float | None = None
-    ring_over_shaft: float | None = None
-    inner_over_outer: float | None = None
-    housing_over_ring: float | None = None
-    over_mounting: float | None = None
-    starting_torque: float | None = None
-    seat_friction: float = 0.12
-    axial_load: float | None = None
-    viscosity: float | None = None
-    contamination: float = 0.5
-    required_life: float | None = None
-    extremes: tuple[float, float] | None = None
-    load_kind: str = "shock"
-    mounting_clearance: float | None = None
-
-    def __post_init__(self) -> None:
-        _check(AXIAL_LOAD, self.axial_load)
-        _check(VISCOSITY, self.viscosity)
-        _check(RADIAL_LOAD, self.radial_load)
-        _check(RING_SPEED, self.speed)
-        _check(WARMER_RING, self.ring_over_shaft)
-        _check(WARMER_INSIDE, self.inner_over_outer)
-        _check(WARMER_RING, self.housing_over_ring)
-        _check(WARMER_THAN_MOUNTED, self.over_mounting)
-        _check(STARTING_TORQUE, self.starting_torque)
-        SEAT_FRICTION.check(self.seat_friction)
-
-
-@dataclass(frozen=True)
 class SeatedBearing:
     """A bearing between its shaft and its housing, and what is asked of the two seats.
 
-    `type` by whose table its rings are toleranced, `kind` what it is (None: not told), `ratings` where they are known;
-    `remarks`: what was taken from where the table does not say it; `designation` ISO's, where it is known. `entry`: the
-    row of the makers' catalogue; `no_inner_ring`: the needles run on the shaft. `position` along the spindle from the
-    wheel's centre [m]; `short_shares` of pairs above which a seat warns, and fails. `taken_as`: the bearing that stands
-    for sizes without a type, in a sentence. `closed`: with seals or shields, and so with grease.
+    `service`: its table in the file, with the conditions that the seats must stand (None there: not counted) and
+    the load that the process gives. `type` by whose table its rings are toleranced, `kind` what it is (None: not
+    told), `ratings` where they are known; `remarks`: what was taken from where the table does not say it;
+    `designation` ISO's, where it is known. `entry`: the row of the makers' catalogue; `no_inner_ring`: the needles
+    run on the shaft. `position` along the spindle from the wheel's centre [m]; `short_shares` of pairs above which
+    a seat warns, and fails. `taken_as`: the bearing that stands for sizes without a type, in a sentence. `closed`:
+    with seals or shields, and so with grease.
     """
 
     name: str
@@ -134,9 +90,9 @@ class SeatedBearing:
     outer: Ring
     shaft: MatingPart
     housing: MatingPart
+    service: "Bearing"
     kind: Kind | None = None
     ratings: Ratings | None = None
-    service: Service = field(default_factory=Service)
     bearing_class: str = "0"
     series: Series = "light"
     internal_clearance: str | None = None

@@ -122,7 +122,7 @@ def _modified(bearing: SeatedBearing, life: RatingLife) -> Check:
         )  # fmt: skip
     message = (
         f"basic rating life times a_ISO = {life.a_iso:.3g} (κ = {life.kappa:.3g}, e_C = "
-        f"{bearing.service.contamination:g})"
+        f"{bearing.service.contamination_factor:g})"
     )
     return life_check("ABU633", bearing, life.modified, message, "Specify a lubricant of higher viscosity.")
 

@@ -67,7 +67,7 @@ class Mounting:
         # A pair loses axially what a raceway changes radially over the tangent of the contact angle.
         self.lever = 1 / math.tan(math.radians(CONTACT_ANGLE)) if self.axial else 1.0
         self.joints = (shaft, housing)
-        warm = seat_material("steel").expansion * raceways * (bearing.service.inner_over_outer or 0.0)
+        warm = seat_material("steel").expansion * raceways * (bearing.service.raceway_temperature_difference or 0.0)
         self.warmth = self.lever * warm
 
     @cached_property

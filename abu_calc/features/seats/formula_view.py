@@ -133,7 +133,7 @@ def _life(bearing: BearingSeats, seat: SeatResult) -> tuple[str, ...]:
     if seat.basic_rating_life_h is not None and service.speed and bearing.bearing.kind is not None:
         turns, power = _g(from_si(service.speed, "rpm")), _g(exponent(bearing.bearing.kind))
         lines.append(f"10⁶/(60·{turns})·({_g(C)}/{_g(P)})^{power} = {_g(seat.basic_rating_life_h)} h")
-    modified, viscosity = seat.modified_rating_life_h, service.viscosity
+    modified, viscosity = seat.modified_rating_life_h, service.lubricant_viscosity
     if life.kappa is not None and life.a_iso is not None and viscosity is not None and modified is not None:
         given = from_si(viscosity, "mm2_per_s")
         ratio = f"{_g(given)}/{_g(given / life.kappa)} = {_g(life.kappa)}"

@@ -141,8 +141,8 @@ def expansions(bearing: SeatedBearing, seat: Seat) -> tuple[float, float]:
 def assumes_warmth(bearing: SeatedBearing) -> bool:
     """True if nothing is told of temperatures, so that the usual one at work is assumed."""
     service = bearing.service
-    told = (service.over_mounting, service.extremes, service.ring_over_shaft, service.housing_over_ring)
-    return all(each is None for each in told)
+    rings = service.ring_temperature_difference, service.housing_temperature_difference
+    return all(each is None for each in (service.temperature_rise, service.temperature_range, *rings))
 
 
 def warm_parts(
@@ -154,10 +154,10 @@ def warm_parts(
     `rise`: all parts at this temperature above that of mounting, whatever is given.
     """
     service, (around, inside) = bearing.service, expansions(bearing, seat)
-    other = service.ring_over_shaft if seat == "shaft" else service.housing_over_ring
-    if rise is None and other is None and service.over_mounting is None:
+    other = service.ring_temperature_difference if seat == "shaft" else service.housing_temperature_difference
+    if rise is None and other is None and service.temperature_rise is None:
         return None
-    warmth = (service.over_mounting or 0.0) if rise is None else rise
+    warmth = (service.temperature_rise or 0.0) if rise is None else rise
     difference = (other or 0.0) if rise is None else 0.0
     if seat == "shaft":
         return (around, warmth), (inside, warmth - difference)
@@ -171,9 +171,9 @@ def _thermal_cases(bearing: SeatedBearing, seat: Seat, diameter: float) -> tuple
     working = warm_parts(bearing, seat, assumed)
     cases = [ThermalCase("mounting", 0.0, 0.0)]
     if working is not None:
-        rise = service.over_mounting if assumed is None else assumed
+        rise = service.temperature_rise if assumed is None else assumed
         cases.append(ThermalCase("working", rise, temperature_loss(diameter, *working)))
-    for name, rise in zip(("lowest", "highest"), service.extremes or (), strict=False):
+    for name, rise in zip(("lowest", "highest"), service.temperature_range or (), strict=False):
         parts = warm_parts(bearing, seat, rise)
         assert parts is not None
         cases.append(ThermalCase(name, rise, temperature_loss(diameter, *parts)))

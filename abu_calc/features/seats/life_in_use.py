@@ -107,7 +107,11 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
     if bearing.kind is None or bearing.ratings is None:
         return _unknown(bearing, "no type or load rating is known", "Specify designation or bearing_type.")
     power = exponent(bearing.kind)
-    turning = replace(bearing, service=replace(bearing.service, speed=bearing.service.speed or speed))
+    turning = (
+        bearing
+        if bearing.service.speed
+        else replace(bearing, service=bearing.service.model_copy(update={"speed_rpm": from_si(speed, "rpm")}))
+    )
     without, with_it = (
         combined_load(share * loads.constant, share * rotating, power)
         for rotating in (loads.rotating_without, residual)

@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing, Service
+from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si
@@ -58,6 +58,7 @@ def from_table(table: "BearingTable") -> SeatedBearing:
     if entry is not None and identity.closure is not None:
         entry = closed(entry, identity.closure)
     lent = like if not size.designation and table.chamfer_mm is None else None
+    service, process = _with_load(table)
     return SeatedBearing(
         name=table.name,
         type=size.type,
@@ -84,12 +85,12 @@ def from_table(table: "BearingTable") -> SeatedBearing:
             table.housing_strength,
             table.housing_split,
         ),
-        service=_service(table),
+        service=service,
         bearing_class=accuracy,
         series=table.series or (size.series if size.designation else "light"),
         internal_clearance=group,
         asked_interference=table.asked_interference,
-        remarks=(*filter(None, (_radial(table)[1],)), *_angle(identity, group), *_lent(lent), *rated),
+        remarks=(*process, *_angle(identity, group), *_lent(lent), *rated),
         taken_as=_taken_as(table, size, like),
         designation=size.designation or None,
         closed=identity.closure is not None,
@@ -121,40 +122,18 @@ def process_load(cutting_force: float, ratio: float, bearings: int) -> float:
     return CUTTING_FORCE.check(cutting_force) * math.hypot(1.0, ratio) / bearings
 
 
-def _radial(table: "BearingTable") -> tuple[float | None, str]:
-    """Radial load [N], and the process that it is from, in a sentence."""
+def _with_load(table: "BearingTable") -> "tuple[BearingTable, tuple[str, ...]]":
+    """The table with the radial load that its process gives, and the process in a sentence."""
     force = table.cutting_force_N
     if force is None:
-        return table.radial_load, ""
+        return table, ()
     ratio = RATIO if table.normal_to_cutting_ratio is None else table.normal_to_cutting_ratio
     bearings = table.bearings_sharing or 1
-    load = process_load(force, ratio, bearings)
+    load = from_si(process_load(force, ratio, bearings), "kN")
     share = f", shared by {bearings} bearings" if bearings > 1 else ""
     taken = " (assumed)" if table.normal_to_cutting_ratio is None else ""
-    return load, (
-        f"Radial load {from_si(load, 'kN'):.3g} kN: cutting force {force:g} N, {ratio:g} times it normal to the "
-        f"work{taken}{share}."
-    )
-
-
-def _service(table: "BearingTable") -> Service:
-    load, _ = _radial(table)
-    return Service(
-        radial_load=load,
-        mounting_clearance=table.mounting_clearance,
-        speed=table.speed,
-        ring_over_shaft=table.ring_temperature_difference,
-        inner_over_outer=table.raceway_temperature_difference,
-        housing_over_ring=table.housing_temperature_difference,
-        over_mounting=table.temperature_rise,
-        starting_torque=table.starting_torque,
-        seat_friction=table.seat_friction,
-        axial_load=table.axial_load,
-        viscosity=table.lubricant_viscosity,
-        contamination=table.contamination_factor,
-        required_life=table.required_life,
-        load_kind=table.load_kind or "shock",
-        extremes=None if table.temperature_range_K is None else (*table.temperature_range_K,),  # type: ignore[arg-type]
+    return table.model_copy(update={"radial_load_kN": load}), (
+        f"Radial load {load:.3g} kN: cutting force {force:g} N, {ratio:g} times it normal to the work{taken}{share}.",
     )
 
 

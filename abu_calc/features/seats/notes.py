@@ -63,7 +63,7 @@ def intensity_factors(bearing: SeatedBearing, joint: Joint) -> tuple[float, floa
         factors, _ = load_factors(bearing.kind, bearing.entry, bearing.ratings, service.axial_load)
         cotangent = 1.5 / factors.e if factors else 0.0  # e = 1.5·tan α of two rows, ISO 281
         rows = _above(table["rows"], service.axial_load / service.radial_load * cotangent)[1]
-    return table["load"][service.load_kind], _above(table["part"], thinness)[column], rows
+    return table["load"][service.load_kind or "shock"], _above(table["part"], thinness)[column], rows
 
 
 def _above(rows: list[list[float]], value: float) -> list[float]:
@@ -302,7 +302,7 @@ def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
     tolerance_class = advised_class(joint.seat, joint.diameter, intensity)
     table = f"table gives {tolerance_class}" if tolerance_class else "tables end below it"
     load, part, rows = intensity_factors(bearing, joint)
-    factors = f"k₁ {load:g} ({bearing.service.load_kind}), k₂ {part:g}, k₃ {rows:g}"
+    factors = f"k₁ {load:g} ({bearing.service.load_kind or 'shock'}), k₂ {part:g}, k₃ {rows:g}"
     return (
         f"k_B = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
         f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m, {factors}: the handbook {table} (unverified).",

@@ -135,11 +135,11 @@ def rating_life(bearing: SeatedBearing) -> RatingLife:
     safety = ratings.static / loads[1] if loads[1] and ratings.static else None
     basic = life_at(bearing, loads[0])
     modified = kappa = factor = None
-    if service.viscosity is not None and basic is not None and service.speed:
+    if service.lubricant_viscosity is not None and basic is not None and service.speed:
         mean = (bearing.inner.diameter + bearing.outer.diameter) / 2
-        kappa = service.viscosity / reference_viscosity(mean, service.speed)
+        kappa = service.lubricant_viscosity / reference_viscosity(mean, service.speed)
         limit = ratings.fatigue_limit or fatigue_limit(kind, ratings.static, mean)
-        factor = life_modification(kind, kappa, service.contamination * limit / loads[0])
+        factor = life_modification(kind, kappa, service.contamination_factor * limit / loads[0])
         modified = min(factor * basic, MOST_LIFE)
     return RatingLife(*loads, safety, basic, modified, kappa, factor, *speeds, carries, known)
 
