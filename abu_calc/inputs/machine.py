@@ -11,15 +11,7 @@ from pydantic import Field, model_validator
 from abu_calc.foundation.units import to_si
 from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.autobalancer import Autobalancer
-from abu_calc.inputs.bearing_file import (
-    EXPECTED,
-    BearingFile,
-    Expected,
-    Limits,
-    MachineName,
-    expected_tolerances,
-    expected_values,
-)
+from abu_calc.inputs.bearing_file import EXPECTED, Expected, Limits
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
 from abu_calc.inputs.identified import Identified
@@ -75,26 +67,6 @@ def rim_too_fast(
         f"is unusual with wheel.diameter_mm = {bounded(wheel.diameter_mm)}: the rim would run at {rim:.0f} m/s, up to "
         f"{FASTEST_RIM:g} m/s is usual.",
     )
-
-
-__all__ = [
-    "Autobalancer",
-    "Bearing",
-    "BearingFile",
-    "Grinding",
-    "Limits",
-    "MachineFile",
-    "MachineName",
-    "MachineTable",
-    "MeasuredAfter",
-    "Motor",
-    "RunUp",
-    "Suspension",
-    "SwingArm",
-    "Wheel",
-    "expected_tolerances",
-    "expected_values",
-]
 
 
 class MachineFile(Table):

@@ -30,7 +30,7 @@ from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.duty import Motor as MotorTable
-from abu_calc.inputs.machine import SwingArm as SwingArmTable
+from abu_calc.inputs.duty import SwingArm as SwingArmTable
 from abu_calc.simulation.durations import settling_duration, slowest_in_hand, slowest_rate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design

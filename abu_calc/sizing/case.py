@@ -14,7 +14,9 @@ from abu_calc.formulas.suspension import Hands, Springs, SuspensionReaction
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si
-from abu_calc.inputs.machine import Autobalancer, Grinding, MachineFile, Motor
+from abu_calc.inputs.autobalancer import Autobalancer
+from abu_calc.inputs.duty import Grinding, Motor
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.standards.vibration import hand
 
 if TYPE_CHECKING:

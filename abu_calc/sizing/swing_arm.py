@@ -30,7 +30,7 @@ from abu_calc.formulas.swing_arm import (
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.machine import SwingArm
+from abu_calc.inputs.duty import SwingArm
 from abu_calc.sizing.case import Case
 
 LEAST_SINE = 1e-6

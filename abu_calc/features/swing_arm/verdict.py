@@ -10,7 +10,7 @@ from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.machine import SwingArm
+from abu_calc.inputs.duty import SwingArm
 from abu_calc.simulation.scene_of_design import contact_half_angle, scene_of_design
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import SwingArmBounds, doubted

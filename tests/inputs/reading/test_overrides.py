@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.inputs.machine import BearingFile, MachineFile
+from abu_calc.inputs.bearing_file import BearingFile
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.overrides import parse_override
 from tests.inputs.samples import BASIC, BEARINGS, read, refused
 

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from jsonschema import Draft4Validator
 from pydantic import ValidationError
 
-from abu_calc.inputs.machine import BearingFile, MachineFile
+from abu_calc.inputs.bearing_file import BearingFile
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.schema import schema_of
 from abu_calc.inputs.reading.table import RULE
 from abu_calc.inputs.reading.template import template_of
