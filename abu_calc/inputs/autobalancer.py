@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from abu_calc.inputs.reading.table import Table, entry, problem
+from abu_calc.inputs.reading.table import Many, Table, entry, problem
 
 Temperature = Annotated[float, Field(ge=-60, le=250)]
 """A temperature of the housing [°C]."""
@@ -76,8 +76,8 @@ class Autobalancer(Table):
         "Thickness of the guard round the autobalancer, mild steel [mm]; {range}. Without it containment of a ball is "
         "not evaluated."
     )
-    temperature_range_C: Annotated[tuple[Temperature, ...], Field(strict=False, min_length=2, max_length=2)] = entry(
-        (0.0, 60.0), usual=(10, 120), example=(0.0, 80.0)
+    temperature_range_C: Many[Temperature] = entry(
+        (0.0, 60.0), usual=(10, 120), example=(0.0, 80.0), min_length=2, max_length=2
     ).means(
         "Lowest and highest temperature of the housing [°C]; each {range}. Interferences are judged at both, from 20 "
         "°C at assembly. Default: 0 and 60, assumed."

@@ -5,7 +5,7 @@ from typing import Annotated, Final, Protocol, Self
 
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
-from abu_calc.inputs.reading.table import Name, Table, entry, problem
+from abu_calc.inputs.reading.table import Many, Name, Table, entry, problem
 from abu_calc.inputs.reading.text import BARE_KEY, is_number, shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 
@@ -168,8 +168,8 @@ class BearingFile(Table):
     """Bearings alone, for `abu check-fit`."""
 
     machine: MachineName
-    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, min_length=1, max_length=MOST_BEARINGS)] = (
-        entry().means("Bearings and their seats: [[bearing]], one or more, up to 100.")
+    bearing: Many[Bearing] = entry(min_length=1, max_length=MOST_BEARINGS).means(
+        "Bearings and their seats: [[bearing]], one or more, up to 100."
     )
     limits: Limits = Field(default_factory=Limits)
     expected: Expected = Field(default_factory=dict, description=EXPECTED)

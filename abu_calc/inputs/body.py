@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.inputs.bearing_file import NAME
-from abu_calc.inputs.reading.table import Name, Table, boxed, entry, problem
+from abu_calc.inputs.reading.table import Many, Name, Table, boxed, entry, problem
 
 MOST_HANDLES: Final = 100
 Speed = Annotated[float, Field(ge=1, le=300_000)]
@@ -82,8 +82,8 @@ class MachineTable(Table):
     speed_rpm: Speed = entry(usual=(700, 60_000), example=5800.0).means(
         "Rated speed of the spindle [rpm]; {range}, hand grinders 1500 … 12000."
     )
-    speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = entry(
-        None, usual=(200, 60_000), example=[5800.0, 5800.0]
+    speed_range_rpm: Many[Speed] | None = entry(
+        None, usual=(200, 60_000), example=[5800.0, 5800.0], min_length=2, max_length=2
     ).means(
         "Lowest and highest working speed, ascending, with the rated speed between them [rpm]; {range}. Frequency "
         "regions are checked over all of it, stresses at the top. Without it: the rated speed alone."
@@ -107,8 +107,8 @@ class MachineTable(Table):
         "spindle, z along the spindle toward the wheel: an angle grinder has negative x and z. Wheel and autobalancer "
         "are on. Goes with inertia_kg_m2, or with length_mm for an estimate."
     )
-    inertia_kg_m2: Annotated[tuple[Moment, ...], Field(strict=False, min_length=3, max_length=3)] | None = entry(
-        None, usual=(0.0001, 20), example=[0.004, 0.02, 0.019]
+    inertia_kg_m2: Many[Moment] | None = entry(
+        None, usual=(0.0001, 20), example=[0.004, 0.02, 0.019], min_length=3, max_length=3
     ).means(
         "Moments of inertia about x, y, z through the centre of mass, of the machine as used [kg·m²]; {range}, "
         "grinders 0.004 … 0.3. The third holds the mass of what spins, not its spin. Goes with "
@@ -136,7 +136,7 @@ class MachineTable(Table):
         "Velocity level with a balanced wheel [dB re 5e-8 m/s]; {range}. When given, it is added as energy to every "
         "level."
     )
-    handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=MOST_HANDLES)] = entry(()).means(
+    handle: Many[Handle] = entry((), max_length=MOST_HANDLES).means(
         "Places where levels are wanted: [[machine.handle]], up to 100."
     )
 

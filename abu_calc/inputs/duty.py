@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from abu_calc.inputs.reading.table import Table, entry, problem, whole
+from abu_calc.inputs.reading.table import Many, Table, entry, problem, whole
 
 if TYPE_CHECKING:
     from abu_calc.formulas.swing_arm import Arm
@@ -53,14 +53,14 @@ class Grinding(Table):
 class Start(Table):
     """Start of the balls: their places in the race when the machine is switched on."""
 
-    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-360, le=360)], ...], Field(strict=False)] = entry(
+    angles_deg: Many[Annotated[float, Field(ge=-360, le=360)]] = entry(
         example=[-30.0, 0.0, 30.0, 60.0], min_length=1, max_length=200
     ).means(
         "Angle of each ball from the wheel's imbalance [degrees]; as many as the design has balls, each -360 … 360. "
         "With two races: from the zero mark of the spindle, the first race's balls first. Balls that would overlap are "
         "moved apart."
     )
-    speeds_rpm: Annotated[tuple[Annotated[float, Field(ge=-1e6, le=1e6)], ...], Field(strict=False)] | None = entry(
+    speeds_rpm: Many[Annotated[float, Field(ge=-1e6, le=1e6)]] | None = entry(
         None, example=[0.0, 0.0, 0.0, 0.0], min_length=1, max_length=200
     ).means(
         "Speed of each ball at the start, against the race, at full speed [rpm]; as many as angles_deg, each -1000000 "

@@ -4,7 +4,7 @@
 """
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Final, Self
+from typing import ClassVar, Final, Self
 
 from pydantic import Field, model_validator
 
@@ -18,7 +18,7 @@ from abu_calc.inputs.identified import Identified
 from abu_calc.inputs.measured import MOST_MEASURED, MeasuredOctave
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.optimisation import COSTS, Costs, Optimise, own_cost
-from abu_calc.inputs.reading.table import Table, Usual, entry, problem, usual_of
+from abu_calc.inputs.reading.table import Many, Table, Usual, entry, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 from abu_calc.inputs.type_test import TypeTest
@@ -86,10 +86,10 @@ class MachineFile(Table):
     start: Start | None = None
     motor: Motor | None = None
     swing_arm: SwingArm | None = None
-    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = entry(()).means(
+    bearing: Many[Bearing] = entry((), max_length=MOST_BEARINGS).means(
         "Bearings and their seats: [[bearing]], up to 100."
     )
-    measured: Annotated[tuple[MeasuredOctave, ...], Field(strict=False, max_length=MOST_MEASURED)] = entry(()).means(
+    measured: Many[MeasuredOctave] = entry((), max_length=MOST_MEASURED).means(
         "Levels measured by octaves, for `abu factory`: [[measured]], up to 200."
     )
     limits: Limits = Field(default_factory=Limits)

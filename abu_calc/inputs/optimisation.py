@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from typing import Annotated, Final, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.inputs.reading.plain import found_as, plain_number
 from abu_calc.inputs.reading.suggestions import nearest
-from abu_calc.inputs.reading.table import Table, all_tables, entry, problem
+from abu_calc.inputs.reading.table import Many, Table, all_tables, entry, problem
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.values_with_units import canonical_path, convert_entry
 from abu_calc.inputs.variation import Vary, path_of
@@ -30,7 +30,7 @@ class Optimise(Table):
     share: float = entry(0.95, ge=0.5, le=0.9999).means(
         "Share of machines built that must meet the limits; {range}. Default: {default}."
     )
-    share_parts: Annotated[tuple[Part, ...], Field(strict=False)] | None = entry(None, example=["balls", "race"]).means(
+    share_parts: Many[Part] | None = entry(None, example=["balls", "race"]).means(
         "Parts that several machines share: balls, race, housing, oil. Default: balls and race."
     )
     seed: int = entry(0, ge=0, le=2**31 - 2).means("Seed of the random numbers; {range}. Default: {default}.")

@@ -12,7 +12,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import Annotated, Any, Final, Generic, Literal
 
-from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema
+from pydantic import BeforeValidator, ValidationError, WithJsonSchema
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
@@ -20,7 +20,7 @@ from abu_calc.inputs.reading.document import Document, FileReading, Model
 from abu_calc.inputs.reading.errors import Origin, input_error
 from abu_calc.inputs.reading.overrides import Override, apply, parse_override
 from abu_calc.inputs.reading.plain import found_as, plain_number
-from abu_calc.inputs.reading.table import Table, entry, problem
+from abu_calc.inputs.reading.table import Many, Table, entry, problem
 from abu_calc.inputs.reading.text import Part, key_path
 from abu_calc.inputs.reading.values_with_units import canonical_path, convert, convert_entry
 
@@ -281,8 +281,8 @@ class Sweep(Table):
     tolerances: bool = entry(False).means(
         "true: also the drawing's own tolerances and the usual scatter of use. Default: {default}."
     )
-    grid: Annotated[tuple[str, ...], Field(strict=False, min_length=2, max_length=2)] | None = entry(
-        None, example=["wheel.imbalance_g_mm", "machine.speed_rpm"]
+    grid: Many[str] | None = entry(
+        None, example=["wheel.imbalance_g_mm", "machine.speed_rpm"], min_length=2, max_length=2
     ).means("Two of the keys with listed values, for a chart over them: across and upward.")
     sensitivity: bool = entry(False).means(
         "true: spend the runs that a Saltelli design needs on sensitivities. Default: {default}."

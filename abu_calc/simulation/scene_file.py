@@ -25,7 +25,7 @@ from abu_calc.inputs.reading.document import (
     validate,
 )
 from abu_calc.inputs.reading.kinds import kind_of, refuse_others
-from abu_calc.inputs.reading.table import Table, entry, problem
+from abu_calc.inputs.reading.table import Many, Table, entry, problem
 from abu_calc.inputs.reading.text import Part
 from abu_calc.inputs.variation import Sweep
 
@@ -60,9 +60,9 @@ class SceneRace(Table):
     plane_offset_mm: float = entry(0.0, ge=-1e5, le=1e5).means(
         "Tilting support: place of the race along +z from the centre of mass [mm]; {range}. Default: {default}."
     )
-    ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = entry(
-        example=[16.7, 16.7, 16.7, 16.7]
-    ).means("Mass of each ball [g]; {range}, up to 100 balls, none for the rotor alone.")
+    ball_masses_g: Many[Mass] = entry(example=[16.7, 16.7, 16.7, 16.7], max_length=MOST_BALLS).means(
+        "Mass of each ball [g]; {range}, up to 100 balls, none for the rotor alone."
+    )
     ball_radius_mm: float | None = entry(None, gt=0, le=1000, example=8.0).means(
         "Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. Required for "
         "rolling balls of a rotor that changes its speed. Default: the radius of the effects. Without any radius, "
@@ -76,12 +76,12 @@ class SceneRace(Table):
         "Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; {range}, 0 switches "
         "it off."
     )
-    start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = entry(
-        example=[-41.5, -0.5, 40.5, 81.5]
-    ).means("Angle of each ball at the start [degrees]; {range}.")
-    start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = entry(
-        None, example=[0.0, 0.0, 0.0, 0.0]
-    ).means("Speed of each ball at the start, relative to the race [rpm]; {range}. Without it: at rest in the race.")
+    start_angles_deg: Many[Angle] = entry(example=[-41.5, -0.5, 40.5, 81.5], max_length=MOST_BALLS).means(
+        "Angle of each ball at the start [degrees]; {range}."
+    )
+    start_speeds_rpm: Many[BallSpeed] | None = entry(None, example=[0.0, 0.0, 0.0, 0.0], max_length=MOST_BALLS).means(
+        "Speed of each ball at the start, relative to the race [rpm]; {range}. Without it: at rest in the race."
+    )
 
     def own_defaults(self) -> dict[str, object]:
         """The speeds of the balls are the one default as long as another list."""
@@ -225,7 +225,7 @@ class _SceneKeys(Table):
         "true: solid balls that roll, inertia factor 7/5 (rollers 3/2); false: points. Default: {default}."
     )
     initial: Initial = Field(default_factory=Initial)
-    race: Annotated[tuple[SceneRace, ...], Field(strict=False, min_length=1, max_length=10)] = entry().means(
+    race: Many[SceneRace] = entry(min_length=1, max_length=10).means(
         "Races and their balls: [[scene.race]], one or more."
     )
 

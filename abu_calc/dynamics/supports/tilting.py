@@ -24,7 +24,7 @@ from abu_calc.dynamics.supports.planar import (
 )
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
-from abu_calc.inputs.reading.table import Table, entry, problem
+from abu_calc.inputs.reading.table import Many, Table, entry, problem
 
 Position = Annotated[float, Field(ge=-1e5, le=1e5)]
 
@@ -53,15 +53,15 @@ class Tilting(Table):
         "Moment of inertia of what rotates about the spindle, without balls [kg·m²]; {range}, at most twice the "
         "transverse one."
     )
-    bearing_positions_mm: Annotated[tuple[Position, ...], Field(strict=False, min_length=1, max_length=20)] = entry(
-        example=[110.0, -150.0]
-    ).means("Places of the bearings along +z, from the centre of mass [mm]; {range}, one or more.")
-    bearing_stiffness_N_per_m: Annotated[tuple[StiffnessPair, ...], Field(strict=False, max_length=20)] = entry(
-        example=[[21500.0, 15800.0], [21500.0, 15800.0]]
+    bearing_positions_mm: Many[Position] = entry(example=[110.0, -150.0], min_length=1, max_length=20).means(
+        "Places of the bearings along +z, from the centre of mass [mm]; {range}, one or more."
+    )
+    bearing_stiffness_N_per_m: Many[StiffnessPair] = entry(
+        example=[[21500.0, 15800.0], [21500.0, 15800.0]], max_length=20
     ).means("Stiffness of each bearing along x and y [N/m]; {range}.")
-    bearing_damping_N_s_per_m: Annotated[tuple[DampingPair, ...], Field(strict=False, max_length=20)] = entry(
-        example=[[5.375, 3.95], [5.375, 3.95]]
-    ).means("Damping of each bearing along x and y [N·s/m]; {range}.")
+    bearing_damping_N_s_per_m: Many[DampingPair] = entry(example=[[5.375, 3.95], [5.375, 3.95]], max_length=20).means(
+        "Damping of each bearing along x and y [N·s/m]; {range}."
+    )
     couple_imbalance_angle: CoupleImbalance | None = None
     ball_tilt_inertia: bool = entry(True).means(
         "Whether balls move axially with the race as it tilts: true or false. Default: {default}."

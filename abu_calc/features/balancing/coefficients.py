@@ -25,7 +25,7 @@ from abu_calc.features.balancing.runs import Balancing, Coefficients
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.reading.table import LEAST, Name, Table, entry, problem
+from abu_calc.inputs.reading.table import LEAST, Many, Name, Table, entry, problem
 
 if TYPE_CHECKING:
     from abu_calc.inputs.reading.document import Document
@@ -42,8 +42,8 @@ class AtSpeed(Table):
     """Influence coefficients at one speed."""
 
     speed_rpm: float = Field(description="Speed [rpm]; {range}.", gt=0, le=1e6)
-    influence_um_per_g_mm: Annotated[tuple[_Row, ...], Field(strict=False, min_length=1, max_length=40)] = (
-        entry().means("Displacement per imbalance, real and imaginary part; rows: sensors, columns: planes.")
+    influence_um_per_g_mm: Many[_Row] = entry(min_length=1, max_length=40).means(
+        "Displacement per imbalance, real and imaginary part; rows: sensors, columns: planes."
     )
     standard_error_um_per_g_mm: Annotated[tuple[_ErrorRow, ...], Field(strict=False, min_length=1, max_length=40)] = (
         Field(description="Standard error of each.")
@@ -56,9 +56,7 @@ class CoefficientsTable(Table):
     rotor: Name = Field(default="roll", description="Name of the rotor that was run with trial masses.")
     planes: _Names = Field(description="Names of the correction planes.")
     sensors: _Names = Field(description="Names of the sensors.")
-    at: Annotated[tuple[AtSpeed, ...], Field(strict=False, min_length=1, max_length=100)] = entry().means(
-        "Coefficients at each speed."
-    )
+    at: Many[AtSpeed] = entry(min_length=1, max_length=100).means("Coefficients at each speed.")
 
     @model_validator(mode="after")
     def _has_all_rows(self) -> Self:

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from abu_calc.features.balancing.rotor_tables import OF_THE_RIG, Rig, Rotor, SinglePlane
 from abu_calc.features.balancing.run_tables import EXAMPLE, Errors, Reading, Run, Trial, listed
 from abu_calc.inputs.bearing_file import EXPECTED, Expected
-from abu_calc.inputs.reading.table import Table, entry, problem
+from abu_calc.inputs.reading.table import Many, Table, entry, problem
 from abu_calc.inputs.wheel import BalanceGrade
 
 __all__ = ["Errors", "Reading", "ReadingsFile", "Rig", "Rotor", "Run", "SinglePlane", "Tolerance", "Trial"]
@@ -49,9 +49,9 @@ class Correction(Table):
     max_per_place_g: float | None = entry(None, gt=0, le=1e6, usual=(0.1, 10000), example=20.0).means(
         "Largest mass that may be removed or added at one place [g]; {range}. More is split over several places."
     )
-    stock_weights_g: Annotated[tuple[Weight, ...], Field(strict=False, min_length=1, max_length=20)] | None = entry(
-        None, example=[5.0, 10.0, 20.0]
-    ).means("Weights in stock, of which any number may be added [g]; one or more, each {range}.")
+    stock_weights_g: Many[Weight] | None = entry(None, example=[5.0, 10.0, 20.0], min_length=1, max_length=20).means(
+        "Weights in stock, of which any number may be added [g]; one or more, each {range}."
+    )
     drill_diameter_mm: float | None = entry(None, gt=0, le=1000, usual=(1, 100), example=10.0).means(
         "Diameter of the holes that remove mass [mm]; {range}. The report then gives their depth."
     )
@@ -116,9 +116,7 @@ class ReadingsFile(Table):
     rig: Rig | None = None
     rotor: Rotor = Field(default_factory=Rotor)
     single_plane: SinglePlane | None = None
-    run: Annotated[tuple[Run, ...], Field(strict=False, min_length=1, max_length=1000)] = entry().means(
-        "Runs: [[run]], one or more."
-    )
+    run: Many[Run] = entry(min_length=1, max_length=1000).means("Runs: [[run]], one or more.")
     correction: Correction = Field(default_factory=Correction)
     errors: Errors = Field(default_factory=Errors)
     tolerance: Tolerance = Field(default_factory=Tolerance)

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.reading.table import Name, Table, entry, problem
+from abu_calc.inputs.reading.table import Many, Name, Table, entry, problem
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.sensitivity import ALLOWED, sensitivities
 
@@ -114,9 +114,9 @@ class RecordingsFile(Table):
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"type_test"})
 
     type_test: RecordedTest = Field(default_factory=RecordedTest)
-    recording: Annotated[tuple[RecordedRun, ...], Field(strict=False, min_length=1, max_length=MOST_FILES)] = (
-        entry().means("Runs: [[recording]], one or more, up to 2000.")
+    recording: Many[RecordedRun] = entry(min_length=1, max_length=MOST_FILES).means(
+        "Runs: [[recording]], one or more, up to 2000."
     )
-    calibration: Annotated[tuple[Calibration, ...], Field(strict=False, max_length=100)] = entry(()).means(
+    calibration: Many[Calibration] = entry((), max_length=100).means(
         "Runs on a calibrator: [[calibration]], up to 100."
     )

@@ -23,8 +23,8 @@ from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.reading.format import KEY, format_of
 from abu_calc.inputs.reading.plain import check_nesting
 from abu_calc.inputs.reading.sources import LARGEST_FILE, bytes_of
-from abu_calc.inputs.reading.table import Table, Usual, usual_of
-from abu_calc.inputs.reading.text import Part, is_number, key_path, unit_suffix, unit_symbol
+from abu_calc.inputs.reading.table import Table, Usual, numbers_in, usual_of
+from abu_calc.inputs.reading.text import Part, key_path, unit_suffix, unit_symbol
 from abu_calc.inputs.reading.values_with_units import Conversion, convert
 
 if TYPE_CHECKING:
@@ -73,17 +73,9 @@ def unusual(table: Table) -> Iterator[tuple[str, Usual, list[float]]]:
         if key not in given or not (usual := usual_of(type(table).model_fields[key])):
             continue
         silent = unit_suffix(key) == "db"  # a level of zero is not none
-        odd = [value for value in _numbers(getattr(table, key)) if not usual.holds(value) or (silent and value == 0)]
+        odd = [value for value in numbers_in(getattr(table, key)) if not usual.holds(value) or (silent and value == 0)]
         if odd:
             yield key, usual, odd
-
-
-def _numbers(value: object) -> Iterator[float]:
-    if isinstance(value, tuple):
-        for each in value:
-            yield from _numbers(each)
-    elif isinstance(value, (int, float)) and is_number(value):
-        yield value
 
 
 def _entry(table: Table, path: tuple[Part, ...], below: tuple[str, ...], source: Source) -> str:

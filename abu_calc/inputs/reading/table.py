@@ -12,7 +12,7 @@ and {default} where they belong in its sentence; the key's bounds and defaults a
 
 from collections.abc import Iterator, Mapping
 from functools import cache
-from typing import Annotated, Any, ClassVar, Final, NamedTuple, Self, cast, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Final, NamedTuple, Self, TypeVar, cast, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 from pydantic.config import JsonDict
@@ -23,6 +23,10 @@ from abu_calc.foundation.escaping import LINE_BREAKS
 from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit
 from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.reading.text import Part, shown, shown_short
+
+T = TypeVar("T")
+Many = Annotated[tuple[T, ...], Field(strict=False)]
+"""A list of a file; `entry` says how long it may be."""
 
 WORD: Final = "x-usual"
 """The word of the schema: [lowest, highest]."""
@@ -160,7 +164,7 @@ class Table(BaseModel):
     @model_validator(mode="after")
     def _magnitudes(self) -> Self:
         for key in type(self).model_fields:
-            for number in _numbers(getattr(self, key)):
+            for number in numbers_in(getattr(self, key)):
                 if 0 < abs(number) < LEAST:
                     raise problem(
                         "too small to compute with",
@@ -265,13 +269,13 @@ def _times(value: Any, factor: float) -> Any:
     return tuple(_times(inner, factor) for inner in value) if isinstance(value, tuple) else value * factor
 
 
-def _numbers(value: object) -> Iterator[float]:
+def numbers_in(value: object) -> Iterator[float]:
     """The number that a key has, or those of its lists."""
-    if isinstance(value, float):
-        yield value
-    elif isinstance(value, tuple):
+    if isinstance(value, tuple):
         for inner in value:
-            yield from _numbers(inner)
+            yield from numbers_in(inner)
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield value
 
 
 def subtable(model: type[Table], key: str) -> type[Table] | None:
