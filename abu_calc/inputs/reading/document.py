@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple, Self, TypeVar, cast
+from typing import TYPE_CHECKING, Final, Self, TypeVar, cast
 
 from pydantic import ValidationError
 
@@ -22,7 +22,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.reading.format import KEY, format_of
 from abu_calc.inputs.reading.plain import check_nesting
-from abu_calc.inputs.reading.sources import LARGEST_FILE, bytes_of
+from abu_calc.inputs.reading.sources import LARGEST_FILE, Document, bytes_of
 from abu_calc.inputs.reading.table import Table, Usual, numbers_in, usual_of
 from abu_calc.inputs.reading.text import Part, key_path, unit_suffix, unit_symbol
 from abu_calc.inputs.reading.values_with_units import Conversion, convert
@@ -119,16 +119,6 @@ Model = TypeVar("Model", bound=Table)
 
 REPEATED: Final = ("wheel", "autobalancer")
 """Tables of a machine that may be lists."""
-
-
-class Document(NamedTuple):
-    """A file whose TOML is right; its tables are not looked at yet."""
-
-    file: str
-    """Name as it was given: a path, or a preset; empty if there is none."""
-    text: str
-    sha256: str
-    content: dict[str, object]
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 
 if TYPE_CHECKING:
-    from abu_calc.inputs.reading.document import Document
     from abu_calc.inputs.reading.overrides import Override
+    from abu_calc.inputs.reading.sources import Document
     from abu_calc.inputs.reading.table import Table
 
 

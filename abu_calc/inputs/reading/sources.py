@@ -1,15 +1,25 @@
-"""Bytes that a name stands for: a regular file, standard input as "-", or a preset of the package."""
+"""Documents and the bytes that a name stands for: a regular file, standard input as "-", or a preset of the package."""
 
 import os
 import stat
 import sys
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from abu_calc.foundation.call_files import enter
 from abu_calc.foundation.errors import InputError, Place
 
 SUFFIX: Final = ".toml"
+
+
+class Document(NamedTuple):
+    """A file whose TOML is right; its tables are not looked at yet."""
+
+    file: str
+    """Name as it was given: a path, or a preset; empty if there is none."""
+    text: str
+    sha256: str
+    content: dict[str, object]
 
 
 def folder() -> Path:
