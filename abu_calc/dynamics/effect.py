@@ -16,7 +16,6 @@ from abu_calc.dynamics.rotor import STEADY, Rotation
 from abu_calc.dynamics.scene_context import Circumstances, Holding
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import quantity_and_unit
 from abu_calc.inputs.reading.table import Table
 
 Kind = Literal["conservative", "dissipative", "driven"]
@@ -171,10 +170,8 @@ class Effect:
 
     @classmethod
     def of(cls, table: Any) -> Self:
-        """The effect of its table in a file; what the file leaves open, or has no part in it, has its default here."""
-        silent = {quantity_and_unit(key)[0] for key in table.unused()}
-        given = table.in_si().items()
-        return cls(**{name: value for name, value in given if value is not None and name not in silent})
+        """The effect of its table in a file; what that leaves open, or has no part in it, has its default here."""
+        return cls(**table.in_si())
 
     # Properties others ask an effect for, so that nobody needs to ask which effect it is.
 

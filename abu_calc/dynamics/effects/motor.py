@@ -40,7 +40,7 @@ class MotorEffect(Effect):
     @classmethod
     def of(cls, table: Motor) -> Self:
         """Motor of a table of a machine or of a scene."""
-        return cls(table.stall_torque_N_m, table.no_load_speed, table.rotor_inertia_kg_m2)
+        return cls(table.stall_torque, table.no_load_speed, table.rotor_inertia)
 
     @property
     def rotor(self) -> Rotation:

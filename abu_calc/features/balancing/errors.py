@@ -17,6 +17,7 @@ import numpy as np
 
 from abu_calc.features.balancing.formulas import Matrix, Vector, reading_factor
 from abu_calc.features.balancing.methods import Array, Method, Solution, motion_of, solved
+from abu_calc.features.balancing.run_tables import Errors
 from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig
 from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.frozen import dataclass
@@ -26,26 +27,6 @@ ROUNDING: Final = 1e-9
 """Part of an imbalance, or of a motion, that only rounding leaves."""
 UNKNOWN: Final = math.pi
 """The standard deviation of an angle that nothing tells."""
-
-
-@dataclass(frozen=True)
-class Deviations:
-    """Standard deviations: relative ones of amplitudes, speed, masses and so on; phase, damping ratio, lengths [m] and
-    angles [rad] as they are.
-    """
-
-    amplitude: float
-    phase: float
-    speed: float
-    support_mass: float
-    stiffness: float
-    damping_ratio: float
-    rotor_mass: float
-    inertia: float
-    length: float
-    placed_mass: float
-    placed_angle: float
-    coefficient: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -61,7 +42,7 @@ class ErrorContribution:
     influences: tuple[Matrix, ...] = ()
 
 
-def changes(case: Balancing, method: Method, sigma: Deviations) -> list[ErrorContribution]:
+def changes(case: Balancing, method: Method, sigma: Errors) -> list[ErrorContribution]:
     """One for each number that went in."""
     variations, base = [], solved(case, method)
     for cause, up, down in _varied(case, method, sigma):
@@ -79,7 +60,7 @@ def _change(cause: str, high: Solution, low: Solution, steps: float) -> ErrorCon
 Varied = Iterator[tuple[str, Balancing, Balancing | None]]
 
 
-def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
+def _varied(case: Balancing, method: Method, sigma: Errors) -> Varied:
     """The case with one number up and down; down None where the number may not fall so far."""
     for index, run in enumerate(case.runs):
         least = case.least(index) * abs(reading_factor(run.quantity, run.speed))
@@ -91,7 +72,7 @@ def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
         yield from _coefficients(case, case.coefficients, sigma)
 
 
-def _runs(run: RunOnRig, sigma: Deviations, least: float) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
+def _runs(run: RunOnRig, sigma: Errors, least: float) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
     """`least`: reading (SI) below which errors are those of a reading of this size."""
 
     def both(cause: str, moved: Callable[[float], RunOnRig]) -> tuple[str, RunOnRig, RunOnRig]:
@@ -136,7 +117,7 @@ def _with_run(case: Balancing, index: int, run: RunOnRig) -> Balancing:
     return replace(case, runs=(*case.runs[:index], run, *case.runs[index + 1 :]))
 
 
-def _rigs(case: Balancing, sigma: Deviations) -> Varied:
+def _rigs(case: Balancing, sigma: Errors) -> Varied:
     roll = case.roll
     if roll is None:
         return
@@ -153,7 +134,7 @@ def _rigs(case: Balancing, sigma: Deviations) -> Varied:
         yield "rig data", up, down
 
 
-def _coefficients(case: Balancing, stored: Coefficients, sigma: Deviations) -> Varied:
+def _coefficients(case: Balancing, stored: Coefficients, sigma: Errors) -> Varied:
     """Each coefficient along and across itself, by its own error and by the difference of rotors of a kind."""
     for number, (matrix, errors) in enumerate(zip(stored.matrices, stored.errors, strict=True)):
         for i, row in enumerate(matrix):
@@ -173,7 +154,7 @@ def _with_coefficient(stored: Coefficients, number: int, row: int, column: int, 
     return replace(stored, matrices=tuple(tuple(tuple(each) for each in matrix) for matrix in values))
 
 
-def placing(pieces: Sequence[Vector], sigma: Deviations) -> list[Vector]:
+def placing(pieces: Sequence[Vector], sigma: Errors) -> list[Vector]:
     """Residual imbalances by errors of the correction itself, one standard deviation each.
 
     `pieces`: imbalance of each mass of each plane [kg m]. Masses that nearly cancel leave the errors of all.

@@ -12,7 +12,6 @@ from abu_calc.features.balancing.case import RunReadings, balancing, behind_the_
 from abu_calc.features.balancing.corrections import Making, Share, correction, total, turned
 from abu_calc.features.balancing.errors import (
     ROUNDING,
-    Deviations,
     ErrorContribution,
     Remainder,
     angular,
@@ -26,6 +25,7 @@ from abu_calc.features.balancing.errors import (
 )
 from abu_calc.features.balancing.formulas import Signed, Vector, influence, natural_frequencies, published_answer
 from abu_calc.features.balancing.methods import Array, Method, Solution, method_of, motion_of, said_of_resonance, solved
+from abu_calc.features.balancing.run_tables import Errors
 from abu_calc.features.balancing.runs import SEEN, Balancing, Coefficients, TrialMass, imbalance_of
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.features.balancing.tolerance import TolerancePlanes, ToleranceResult, tolerance_of
@@ -169,7 +169,7 @@ class Found:
 
 def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coefficients | None = None) -> Found:
     """The answer of a file. Raises InputError, and NotTrustworthyError where errors would be larger than it."""
-    case, sigma = balancing(file, tuple(taken), coefficients), Deviations(**file.errors.in_si())
+    case, sigma = balancing(file, tuple(taken), coefficients), file.errors
     fitted = tuple(mass_of(file, mass) for mass in file.correction.fitted)
     replaced = fitted if file.correction.answer == "total" else ()
     answer = _answer(case, method_of(case), sigma, replaced)
@@ -227,7 +227,7 @@ def _finely_measured(case: Balancing, method: Method, by: Sequence[ErrorContribu
     )
 
 
-def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[TrialMass, ...]) -> _Answer:
+def _answer(case: Balancing, method: Method, sigma: Errors, replaced: tuple[TrialMass, ...]) -> _Answer:
     """Answer by this method; by the rig's data if trial masses tell too little and these data are known.
 
     `replaced`: masses that are fitted and that the correction replaces.
@@ -252,7 +252,7 @@ def _answer(case: Balancing, method: Method, sigma: Deviations, replaced: tuple[
     return _Answer(solution, target, by)
 
 
-def _of_fitted(case: Balancing, fitted: Sequence[TrialMass], sigma: Deviations) -> list[ErrorContribution]:
+def _of_fitted(case: Balancing, fitted: Sequence[TrialMass], sigma: Errors) -> list[ErrorContribution]:
     """Contributions of the masses that are replaced: the readings hold them as they are, the file as they are said."""
     return [
         ErrorContribution(
@@ -309,7 +309,7 @@ def _misfits(case: Balancing, answer: "_Answer", left: Sequence[Remainder]) -> t
     return rest / (now or math.inf) if few else 0.0, contradiction
 
 
-def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[float, float] | None:
+def _farther(case: Balancing, solution: Solution, sigma: Errors) -> tuple[float, float] | None:
     """The same imbalances read with the same errors at a speed farther from the natural frequencies."""
     if case.roll is None:
         return None

@@ -211,15 +211,17 @@ class Table(BaseModel):
         return iter(())
 
     def in_si(self) -> dict[str, Any]:
-        """Values in SI by the names of their quantities: that of `race_radius_mm` as `race_radius` [m].
+        """Values in SI by the names of their quantities, of all keys that have one and play a part.
 
         >>> class Wheel(Table):
         ...     radius_mm: float = 50.0
-        ...     count: int = 2
+        ...     width_mm: float | None = None
         >>> Wheel().in_si()
-        {'radius': 0.05, 'count': 2}
+        {'radius': 0.05}
         """
-        return {name: _times(getattr(self, key), size) for name, (key, size) in in_si(type(self)).items()}
+        silent = self.unused()
+        values = ((name, getattr(self, name)) for name, (key, _) in in_si(type(self)).items() if key not in silent)
+        return {name: value for name, value in values if value is not None}
 
     def own_defaults(self) -> dict[str, object]:
         """The defaults in force in this table, in the order of its keys."""

@@ -9,7 +9,6 @@ import pytest
 
 import abu_calc
 from abu_calc.features.balancing.case import balancing, record_warnings, taken_runs
-from abu_calc.features.balancing.errors import Deviations
 from abu_calc.features.balancing.tables import Errors
 from abu_calc.foundation.errors import InputError
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, trial, written
@@ -49,8 +48,7 @@ def test_the_roll_is_known_only_with_the_rig(tmp_path: Path) -> None:
 
 
 def test_errors_in_percent_and_degrees_become_parts_and_radians() -> None:
-    errors = Errors(amplitude_percent=2.0, phase_deg=180 / math.pi, length_mm=3.0, placed_angle_deg=90.0)
-    sigma = Deviations(**errors.in_si())
+    sigma = Errors(amplitude_percent=2.0, phase_deg=180 / math.pi, length_mm=3.0, placed_angle_deg=90.0)
     assert (sigma.amplitude, sigma.phase, sigma.length) == pytest.approx((0.02, 1.0, 0.003))
     assert sigma.placed_angle == pytest.approx(math.pi / 2)
     assert sigma.speed == pytest.approx(0.001) and sigma.damping_ratio == pytest.approx(0.01)

@@ -7,20 +7,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from abu_calc.features.balancing.errors import Deviations, changes, placing, radial
+from abu_calc.features.balancing.errors import changes, placing, radial
 from abu_calc.features.balancing.formulas import (
     RollOnRig,
 )
 from abu_calc.features.balancing.methods import solved
+from abu_calc.features.balancing.run_tables import Errors
 from abu_calc.features.balancing.runs import Balancing
 from tests.cli.runner import abu
 from tests.features.balancing.rig import BARE_ROTOR, Workshop, trial, written
 from tests.features.balancing.test_methods import ROLL, run_of
 
-NO_ERRORS = Deviations(*[0.0] * 11)
+NO_ERRORS = Errors(**dict.fromkeys(Errors.model_fields, 0.0))
 
 
-SIGMA = Deviations(0.01, math.radians(1), 0.001, 0.02, 0.02, 0.0, 0.005, 0.02, 0.001, 0.01, math.radians(1))
+SIGMA = Errors(
+    amplitude_percent=1.0, phase_deg=1.0, speed_percent=0.1, support_mass_percent=2.0, stiffness_percent=2.0,
+    damping_ratio=0.0, rotor_mass_percent=0.5, inertia_percent=2.0, length_mm=1.0, placed_mass_percent=1.0,
+    placed_angle_deg=1.0, coefficient_percent=0.0,
+)  # fmt: skip
 
 
 def spoilt(roll: RollOnRig, rng: np.random.Generator) -> RollOnRig:
@@ -65,7 +70,7 @@ def test_without_errors_nothing_is_unsure() -> None:
 
 def test_masses_that_nearly_cancel_leave_the_errors_of_both() -> None:
     """500 g at 89.4° on either side make 10 g: one percent of each is 5 g, not 0.1 g."""
-    sigma = replace(NO_ERRORS, placed_mass=0.01)
+    sigma = NO_ERRORS.model_copy(update={"placed_mass_percent": 1.0})
     one = 0.5 * np.exp(1j * math.acos(0.01))
     left = placing(((one, one.conjugate()),), sigma)
     assert abs(2 * one.real - 0.010) < 1e-12
