@@ -4,7 +4,7 @@ Effects are in `effects/`, one file each; `effects/__init__.py` tells how they g
 """
 
 from functools import cached_property
-from typing import Annotated, Any, ClassVar, Final, Literal, Protocol, Self
+from typing import Annotated, Any, ClassVar, Final, Literal, Protocol, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,8 @@ from abu_calc.inputs.reading.table import Table
 
 Kind = Literal["conservative", "dissipative", "driven"]
 
-STAGES: Final = ("rotor", "races", "across", "forces", "impacts", "friction")
+Stage = Literal["rotor", "races", "across", "forces", "impacts", "friction"]
+STAGES: Final = get_args(Stage)
 """Order in which the effects of a scene act.
 
 First what turns the rotor, then what moves the races, then what opens the direction across them, then forces, last what
@@ -140,14 +141,14 @@ class Effect:
     name: ClassVar[str]
     kind: ClassVar[Kind]
     about: ClassVar[str]
+    """Description of the effect in one line, shown where people choose effects."""
     detail: ClassVar[str] = ""
     """Further text of `abu explain NAME`, if any."""
-    """Description of the effect in one line, shown where people choose effects."""
     keys: ClassVar[type[Table] | None] = None
     """Its table in a scene file, `scene.effects.NAME`; None: it comes with another `table`."""
     table: ClassVar[str] = ""
     """The table of a scene file that it comes with, if that is not its own."""
-    stage: ClassVar[Literal["rotor", "races", "across", "forces", "impacts", "friction"]] = "forces"
+    stage: ClassVar[Stage] = "forces"
     """Its place in the order of a scene."""
     ball_states: ClassVar[tuple[str, ...]] = ()
     """Names of the states it adds for each ball."""
