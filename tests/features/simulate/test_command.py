@@ -10,7 +10,7 @@ from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.simulation import simulate as simulate_module
 from tests.cli.runner import abu, once
 from tests.inputs.scenes import ARM, PLANAR, SCENE, TILTING
-from tests.inputs.test_scene import CASES, TILTING_CASES
+from tests.simulation.test_scene_file import CASES, TILTING_CASES
 
 KEYS = {
     "scene", "duration_s", "quiet_time_s", "rest_time_s", "creeping", "settling_time_s", "residual_imbalance_g_mm",
