@@ -314,7 +314,7 @@ def _across(design: Design) -> Iterator[Effect]:
     """Balls across their race, which a face wheel at work drives by its axial runout; rollers do not go there."""
     case, groove = design.case, design.track.groove_radius
     runout = case.table.wheel.axial_runout
-    if runout and groove and case.contact is not None and case.contact.kind == "face":
+    if runout and groove and case.contact is not None and case.contact.contact == "face":
         from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 
         yield TransverseMotionEffect(groove, design.autobalancer.ball_diameter / 2, runout)
@@ -323,19 +323,10 @@ def _across(design: Design) -> Iterator[Effect]:
 def _contact(design: Design) -> GrindingContactEffect | None:
     """Wheel and work, in the plane of the race; None for a face, which does not press in the plane."""
     case, wheel, contact = design.case, design.case.table.wheel, design.case.contact
-    if contact is None or contact.kind == "face":
+    if contact is None or contact.contact == "face":
         return None
-    return GrindingContactEffect(
-        press_force=contact.press_force,
-        cutting_coefficient=contact.cutting_coefficient,
-        contact=contact.kind,
-        contact_stiffness=contact.stiffness,
-        rotation_sense=contact.sense,
-        runout=case.runout,
-        runout_angle=wheel.runout_angle,
-        wheel_radius=wheel.diameter / 2,
-        plane_offset=0.0,
-    )
+    rim = {"runout": case.runout, "runout_angle": wheel.runout_angle, "wheel_radius": wheel.diameter / 2}
+    return replace(GrindingContactEffect.of(contact), **rim)
 
 
 def guided(design: Design, up: float) -> RunUpEffect:

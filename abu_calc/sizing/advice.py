@@ -188,8 +188,8 @@ def _contact_warnings(case: Case, candidate: Candidate) -> list[str]:
     contact, warnings = case.contact, []
     if contact is None:
         return ["The file has no [grinding]: the required capacity is that of idling, without load."]
-    if contact.kind != "compliant":
-        return [f"The contact is {contact.kind}: no required capacity of a compliant contact is computed."]
+    if contact.contact != "compliant":
+        return [f"The contact is {contact.contact}: no required capacity of a compliant contact is computed."]
     steady = steady_contact(case, candidate.mass, damped=False)
     if steady is not None and steady.balls_increase_imbalance:
         warnings.append(

@@ -66,13 +66,13 @@ def plane_ratio(case: Case, added_mass: float = 0.0) -> float:
 def steady_contact(case: Case, added_mass: float, *, damped: bool) -> SteadyContact | None:
     """The machine pressed to the work, or nothing when the contact does not press radially."""
     contact = case.contact
-    if contact is None or contact.kind == "face":
+    if contact is None or contact.contact == "face":
         return None
     mass = case.body.effective_mass(added_mass)
     dx, dy = (dynamic_stiffness(case.suspension, axis, case.speed, mass) for axis in (0, 1))
     stiffness = (dx, dy) if damped else (complex(dx.real), complex(dy.real))
-    compliance = 1 / contact.stiffness if contact.kind == "compliant" else 0.0
-    return SteadyContact(case.speed, stiffness, compliance, contact.sense * contact.cutting_coefficient)
+    compliance = 1 / contact.contact_stiffness if contact.contact == "compliant" else 0.0
+    return SteadyContact(case.speed, stiffness, compliance, contact.rotation_sense * contact.cutting_coefficient)
 
 
 @formula(
@@ -99,7 +99,7 @@ def required_capacity(case: Case, imbalance: float, added_mass: float) -> Requir
         dx, dy = steady.dynamic_stiffness
         frequencies = tuple(max(0.0, 1 + d.real / (mass * case.speed**2)) ** 0.5 * case.speed for d in (dx, dy))
         factor = runout_factor(case.speed, (frequencies[0], frequencies[1]), case.contact.cutting_coefficient)
-        if case.contact.kind == "compliant":
+        if case.contact.contact == "compliant":
             compliant = (imbalance + abs(steady.balancing_imbalance(case.runout))) * abs(ratio) + eccentricity
     runout = mass * case.runout * (factor or 0.0)
     return Requirement(

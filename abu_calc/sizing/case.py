@@ -5,7 +5,7 @@ Elsewhere sizing asks the tables only which of several ways people have chosen.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.formulas.balls import INERTIA_FACTORS
 from abu_calc.formulas.body_estimate import KEYS, BodyEstimate, PlacedBody, estimated_body
@@ -86,17 +86,6 @@ EQUAL_SPEEDS: Final = 1e-3
 
 
 @dataclass(frozen=True)
-class WorkContact:
-    """Wheel and work under load; `stiffness` is zero unless the contact is compliant."""
-
-    kind: Literal["compliant", "rigid", "face"]
-    press_force: float
-    cutting_coefficient: float
-    stiffness: float
-    sense: int
-
-
-@dataclass(frozen=True)
 class HandlePlace:
     """Place at which levels are wanted: a name and a place [m] from the centre of mass."""
 
@@ -117,7 +106,7 @@ class Case:
     speed_range: tuple[float, float]
     """Lowest and highest speed judged [rad/s]: the working speeds of the file, and the motor's idle speed."""
     runout: float
-    contact: WorkContact | None
+    contact: Grinding | None
     handles: tuple[HandlePlace, ...]
     race_eccentricity: float
     drag: float
@@ -196,7 +185,7 @@ def read_case(machine: MachineFile) -> Case:
         speed=top.speed,
         speed_range=_judged_range(working_speeds(machine), idle),
         runout=to_si(machine.wheel.runout, "mm"),
-        contact=_contact(machine.grinding),
+        contact=machine.grinding,
         handles=tuple(HandlePlace(handle.name, _in_metres(handle.position)) for handle in top.handle),
         race_eccentricity=eccentricity,
         drag=abu.rolling_drag_per_s,
@@ -300,15 +289,3 @@ def hand_axes(layout: str) -> tuple[str, str, str]:
     Along y where the wheel's rim works (straight), along the spindle where its face does.
     """
     return ("x", "z", "y") if layout == "straight" else ("x", "y", "z")
-
-
-def _contact(grinding: Grinding | None) -> WorkContact | None:
-    if grinding is None:
-        return None
-    return WorkContact(
-        kind=grinding.contact,
-        press_force=grinding.press_force_N,
-        cutting_coefficient=grinding.cutting_coefficient,
-        stiffness=grinding.contact_stiffness_N_per_m if grinding.contact == "compliant" else 0.0,
-        sense=grinding.rotation_sense,
-    )

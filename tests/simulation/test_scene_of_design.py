@@ -65,7 +65,7 @@ def test_presets_make_each_of_their_scenes(designs, name, which):
     horizontal = design.case.table.machine.spindle_axis == "horizontal"
     names = [effect.name for effect in found.effects]
     assert ("gravity" in names) == horizontal
-    pressed = which == "grinding" and design.case.contact.kind != "face"
+    pressed = which == "grinding" and design.case.contact.contact != "face"
     assert ("grinding_contact" in names) == pressed
     assert {"race_eccentricity", "ball_contact", "dry_rolling_friction"} <= set(names)
     assert ("motor" in names) == ("run_up" in names) == (which == "run-up")

@@ -204,13 +204,13 @@ def _lines(work: Work) -> tuple[float, ...]:
 def _kept(work: Work, remedy: str | None, loads: GrindingOutcomes | None) -> tuple[Check, ...]:
     """Never failed: wheels bounce, and are judged by their level."""
     contact, force = work.design.case.contact, work.fitted.steady.reaction
-    if contact is None or contact.kind == "face":
+    if contact is None or contact.contact == "face":
         return ()
     amplitude, press = None if force is None else abs(force), contact.press_force
     parts = work.fitted.parts
     message = "variable part of the normal force against its mean, with the autobalancer"
     if parts:
-        apart = work.fitted.run.apart if work.fitted.run and contact.kind == "compliant" else None
+        apart = work.fitted.run.apart if work.fitted.run and contact.contact == "compliant" else None
         message += ". Wheel and workpiece lose contact" + (f" {100 * apart:.0f} % of the time" if apart else "")
     elif work.at_once.parts:
         message += ". They keep bouncing if pressed before the balls have settled"

@@ -224,11 +224,11 @@ def loaded_resonance(design: Design) -> float | None:
     speed.
     """
     contact = design.case.contact
-    if contact is None or contact.kind != "compliant":
+    if contact is None or contact.contact != "compliant":
         return None
     mass = design.case.body.effective_mass()
     held = contact_of(design.case, 0.0).dynamic_stiffness[1].real + mass * design.case.speed**2
-    return math.sqrt(max(held + contact.stiffness, 0.0) / mass)
+    return math.sqrt(max(held + contact.contact_stiffness, 0.0) / mass)
 
 
 def largest_runout(case: Case, steady: SteadyWork) -> float | None:
@@ -263,7 +263,7 @@ def friction(work: Work, run: Shaken | None) -> FrictionBand:
     design = work.design
     case, autobalancer, steady = design.case, design.autobalancer, work.fitted.steady
     threshold = shaking_threshold(case.friction_arm, autobalancer.pitch_radius, autobalancer.ball_diameter / 2)
-    face = case.contact is not None and case.contact.kind == "face"
+    face = case.contact is not None and case.contact.contact == "face"
     axial = case.table.wheel.axial_runout if face and design.track.groove_radius else 0.0
     axis = steady.axis
     whirl = None if axis is None else abs(axis[0] - 1j * axis[1]) / 2

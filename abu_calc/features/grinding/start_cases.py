@@ -192,7 +192,7 @@ def loaded_start(design: Design, start: LoadedStart, accuracy: float, least: flo
         outcome = _observed(design, start, with_parted_balls(chosen(scene, accuracy, ALWAYS).scene)[0])
     except NotTrustworthyError as error:
         return Lost(start, str(error).splitlines()[0])
-    if outcome.parts and design.case.contact is not None and design.case.contact.kind == "rigid":
+    if outcome.parts and design.case.contact is not None and design.case.contact.contact == "rigid":
         return Lost(start, "the contact is taken as rigid, and would have to pull")
     return outcome
 

@@ -86,13 +86,13 @@ def contact_of(case: Case, added_mass: float, speed: float | None = None, *, rig
     dx, dy = (dynamic_stiffness(case.suspension, axis, at, mass) for axis in (0, 1))
     if contact is None or not contact_presses(case):
         return SteadyContact(at, (dx, dy), 1.0, 0.0, 0.0)
-    compliance = 0.0 if rigid or contact.kind == "rigid" else 1 / contact.stiffness
-    return SteadyContact(at, (dx, dy), compliance, contact.sense * contact.cutting_coefficient)
+    compliance = 0.0 if rigid or contact.contact == "rigid" else 1 / contact.contact_stiffness
+    return SteadyContact(at, (dx, dy), compliance, contact.rotation_sense * contact.cutting_coefficient)
 
 
 def contact_presses(case: Case) -> bool:
     """True if the contact presses in the plane; that of a face does not."""
-    return case.contact is not None and case.contact.kind != "face"
+    return case.contact is not None and case.contact.contact != "face"
 
 
 def runout_of(case: Case) -> complex:
@@ -212,11 +212,8 @@ def changed(design: Design, *, stiffness: float | None = None, press: float | No
     case = design.case
     if case.contact is None:
         return design
-    contact = replace(
-        case.contact,
-        stiffness=case.contact.stiffness if stiffness is None else stiffness,
-        press_force=case.contact.press_force if press is None else press,
-    )
+    given = {"contact_stiffness_N_per_m": stiffness, "press_force_N": press}
+    contact = case.contact.model_copy(update={key: value for key, value in given.items() if value is not None})
     return replace(design, case=replace(case, contact=contact))
 
 

@@ -114,7 +114,7 @@ def _haste(work: Work) -> str:
 
 def _helps(work: Work) -> str:
     contact, case = work.design.case.contact, work.design.case
-    if contact is None or contact.kind == "face":
+    if contact is None or contact.contact == "face":
         return "A face does not press in the plane of the balls, so they settle as at idle."
     balls = work.fitted.steady.balls
     if balls is not None and balls.places == "short":
@@ -164,7 +164,7 @@ def _unknown(work: Work) -> str:
     case, failures = work.design.case, [side.failure for side in (work.without, work.fitted) if side.failure]
     if failures:
         return f"no simulation can be trusted, {failures[0]}"
-    rigid = case.contact is not None and case.contact.kind == "rigid"
+    rigid = case.contact is not None and case.contact.contact == "rigid"
     if rigid and case.contact is not None:
         sides = {"without the autobalancer": work.without, "with it": work.fitted}
         pulls = " and ".join(f"{abs(side.steady.reaction or 0):.0f} N {name}" for name, side in sides.items()

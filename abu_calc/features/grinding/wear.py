@@ -284,7 +284,7 @@ def rigid_course(work: Work, moving: Callable[..., SteadyWork]) -> WearCourse | 
 def bouncing_course(design: Design, side: Side) -> WearCourse | None:
     """The rate of a wheel that parts from its work, by the simulated force."""
     contact = design.case.contact
-    if side.run is None or not side.parts or contact is None or contact.kind != "compliant":
+    if side.run is None or not side.parts or contact is None or contact.contact != "compliant":
         return None
     pressure, runout = side.run.pressure, runout_of(design.case)
     centres = (pressure * runout.conjugate()).real > 0

@@ -231,7 +231,7 @@ def _displacement(design: Design, side: Side, rest: float) -> float | None:
     that was switched on has such balls, so that the run alone is an easier case than the usual one.
     """
     contact, steady = design.case.contact, side.steady
-    rigid = contact is not None and contact.kind == "rigid"
+    rigid = contact is not None and contact.contact == "rigid"
     seen = None if side.run is None else math.sqrt(2) * side.run.velocity / design.case.speed
     if steady.amplitude is not None and not (side.parts and (not rigid or side.pulls)):
         amplitude = math.hypot(steady.amplitude, rest)
@@ -285,18 +285,18 @@ def _with(design: Design, what: What, value: float) -> Design:
 def _candidates(work: Work) -> Iterator[tuple[What, tuple[float, ...]]]:
     """A truer wheel, a softer contact, a harder press."""
     design, contact = work.design, work.design.case.contact
-    if contact is None or contact.kind == "face":
+    if contact is None or contact.contact == "face":
         return
     runout = design.case.runout
     if runout and _better(work, "runout", runout / 100):
         least = crossing(lambda e: _better(work, "runout", e), runout / 100, runout)
         yield "runout", tuple(_rounded(share * least, down=True) for share in LESS)
-    if contact.kind == "compliant" and _better(work, "contact_stiffness", SOFTEST * contact.stiffness):
-        softest = SOFTEST * contact.stiffness
-        least = crossing(lambda c: _better(work, "contact_stiffness", c), softest, contact.stiffness)
+    if contact.contact == "compliant" and _better(work, "contact_stiffness", SOFTEST * contact.contact_stiffness):
+        softest = SOFTEST * contact.contact_stiffness
+        least = crossing(lambda c: _better(work, "contact_stiffness", c), softest, contact.contact_stiffness)
         yield "contact_stiffness", tuple(_rounded(share * least, down=True) for share in LESS)
     forces = [abs(side.steady.reaction or 0.0) for side in (work.fitted, work.without)]
-    needed = max(forces if contact.kind == "rigid" else forces[:1])
+    needed = max(forces if contact.contact == "rigid" else forces[:1])
     if (work.fitted.parts or work.at_once.parts) and _better(work, "press_force", 1.1 * needed):
         needed = max(needed, contact.press_force)
         yield "press_force", tuple(_rounded(needed / share * 1.02, down=False) for share in LESS)

@@ -22,7 +22,7 @@ def side(**values: Any) -> SimpleNamespace:
 
 
 def work(**values: Any) -> Any:
-    face = SimpleNamespace(contact=SimpleNamespace(kind="face", press_force=45.0))
+    face = SimpleNamespace(contact=SimpleNamespace(contact="face", press_force=45.0))
     usual = {
         "levels": LEVELS, "lowered": True, "always": True, "fitted": side(), "without": side(), "at_once": side(),
         "design": SimpleNamespace(case=face), "level_at_once": 104.96, "stays_loud": False,
