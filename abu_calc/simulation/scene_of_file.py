@@ -12,7 +12,7 @@ from abu_calc.dynamics.scene import Scene, parted_angles, placed
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.formulas.balls import INERTIA_FACTORS, half_angle
 from abu_calc.foundation.units import to_si
-from abu_calc.simulation.scene_file import KINDS, Effects, SceneRace, SceneTable
+from abu_calc.simulation.scene_file import KINDS, SceneRace, SceneTable
 
 POINT_MASS = 1.0
 """J of a ball whose rolling is left out."""
@@ -25,8 +25,9 @@ def scene_from(table: SceneTable) -> Scene:
     where it stands; a rigid contact places the axis itself. Raises InputError, naming the key, for an arm that does not
     stand or does not reach its work.
     """
-    support, effects = KINDS[table.support].of(table), effects_from(table.effects)
+    support = KINDS[table.support].of(table)
     position, velocity = support.started(table)
+    effects = [kind.of(getattr(table.effects, name)) for name, kind in REGISTRY if name in table.effects.names]
     couple, couple_angle = table.tilting.couple if table.tilting else (0.0, 0.0)
     if (arm := table.swing_arm) and arm.cutting:  # the work does not pull
         effects += lift_off(cast("SwingArmSupport", support), arm.joint_stiffness, arm.touch_angle)
@@ -66,11 +67,6 @@ def _angles(table: SceneTable, race: SceneRace) -> tuple[float, ...]:
     """Start angles [rad]; balls that touch, but for the digits of the file, touch indeed."""
     angles, contact = race.start_angles, table.effects.ball_contact
     return parted_angles(angles, 2 * half_angle(contact.ball_radius, race.pitch_radius)) if contact else angles
-
-
-def effects_from(tables: Effects) -> tuple[Effect, ...]:
-    """The effects that are on, in SI."""
-    return tuple(kind.of(getattr(tables, name)) for name, kind in REGISTRY if name in tables.names)
 
 
 def in_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:

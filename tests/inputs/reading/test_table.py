@@ -4,7 +4,7 @@ import importlib
 from collections.abc import Iterator
 
 from abu_calc.foundation.validity import bounded
-from abu_calc.inputs.reading.table import Table
+from abu_calc.inputs.reading.table import Table, in_si
 
 UNSAID = {("Bearing", "shaft_bore_mm", "le"), ("SceneTable", "duration_s", "gt"), ("_Scene", "duration_s", "gt"),
           ("_SceneKeys", "duration_s", "gt")}  # fmt: skip
@@ -38,3 +38,18 @@ def test_every_number_says_the_bounds_and_the_default_that_hold() -> None:
 def vars_of(limit: object) -> list[tuple[str, float]]:
     """Bounds of a number that a constraint sets."""
     return [(name, getattr(limit, name)) for name in ("ge", "gt", "le") if getattr(limit, name, None) is not None]
+
+
+TAKEN = {"Handle.position", "MachineTable.speed_range", "TwoRaceMachineTable.speed_range", "Wheel.runout"}
+"""Properties in the units of their keys, whichever key gives them."""
+
+
+def test_a_quantity_in_si_has_a_name_of_its_own() -> None:
+    """`wheel.diameter` is `wheel.diameter_mm` in metres: no other key or property is called so, or it would win."""
+    for table in _tables():
+        quantities = in_si(table)
+        assert len(quantities) == len(table.model_fields), table
+        for name, (key, _) in quantities.items():
+            clash = name != key and (name in table.model_fields or any(name in vars(base) for base in table.__mro__))
+            owners = {f"{base.__name__}.{name}" for base in table.__mro__}
+            assert not clash or owners & TAKEN, (table, name)
