@@ -7,7 +7,7 @@ import typer
 
 from abu_calc.cli.command import add_command
 from abu_calc.foundation.errors import InputError
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.screen import BLANK
 
@@ -117,9 +117,16 @@ def _effect(name: str, kind: str, about: str, detail: str) -> Outcome:
 
 
 def _keys(keys: "Sequence[FileKey]") -> Outcome:
+    from abu_calc.features.explain.pictures import ORIGIN, PICTURES
+
     blocks: list[Block] = []
     for key in keys:
         blocks += [Heading(f"{key.header} {key.name}"), Paragraph(key.meaning or "A table of its own.")]
+    drawn = next((PICTURES[key.path] for key in keys if key.path in PICTURES), ())
+    for lines in drawn:
+        blocks += [Paragraph(""), Picture(lines, "", indent=2)]
+    if drawn:
+        blocks += [Paragraph(""), Paragraph(ORIGIN)]
     return Outcome("explain", {"keys": {key.path: key.meaning for key in keys}}, tuple(blocks))
 
 
