@@ -39,7 +39,10 @@ FACE: Final = (
 )
 ORIGIN: Final = (
     "+ is the centre of mass. Handles are counted from it. z runs along the spindle toward the wheel, x from the body "
-    "toward the spindle, y so that x, y, z are right-handed."
+    "toward the spindle, y so that x, y, z are right-handed. A side handle 85 mm in front of +, 120 mm to the left and "
+    "10 mm above it, wheel below: position_mm = [85, -120, -10]. center_of_mass_from_wheel_mm, in [machine], has the "
+    "same axes and counts from the wheel's centre to +: [-90, 0, -45] is 90 mm behind the spindle and 45 mm above the "
+    "wheel."
 )
 BODY: Final = (STRAIGHT, ANGLE, FACE)
 PICTURES: Final = dict.fromkeys(
