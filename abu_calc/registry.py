@@ -37,12 +37,14 @@ class Known(NamedTuple):
 class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
-    `name`: of the command; `command`: module whose `register` adds it; `results`: types of its results as
-    "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `computes`: whether it
-    loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in `FIGURES`.
+    `name`: of the command; `about`: its line of `abu --help`; `command`: module whose `register` adds it; `results`:
+    types of its results as "module:class"; `makes_figures`: function from a result to its `Extras` as
+    "module:function"; `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`. Its
+    figures stand in `FIGURES`.
     """
 
     name: str
+    about: str
     command: str
     results: tuple[str, ...] = ()
     makes_figures: str = ""
@@ -53,11 +55,6 @@ class Feature(NamedTuple):
     def figures(self) -> tuple[Known, ...]:
         """Figures of its results."""
         return FIGURES.get(self.name, ())
-
-
-def group_of(command: str) -> str | None:
-    """Section of `abu --help` that lists a command; None for a command without an entry."""
-    return BY_NAME[command].group if command in BY_NAME else None
 
 
 def imported(path: str) -> Any:
@@ -155,15 +152,22 @@ FIGURES: Final[Mapping[str, tuple[Known, ...]]] = {
 FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "size",
+        "Size the autobalancer of a machine and simulate it.",
         "design.command",
         ("design.study:SizeResult", "two_races.records:TwoRaceSizeResult"),
         "design.figures:size_extras",
     ),
     Feature(
-        "check-fit", "seats.command", ("seats.study:CheckFitResult",), "seats.figures:check_fit_extras", computes=False
+        "check-fit",
+        "Check bearing seats, or recommend their tolerance classes.",
+        "seats.command",
+        ("seats.study:CheckFitResult",),
+        "seats.figures:check_fit_extras",
+        computes=False,
     ),
     Feature(
         "simulate",
+        "Simulate one scene: amplitude, level, quiet and rest time, ball angles.",
         "simulate.command",
         ("simulate.study:SimulateResult",),
         "simulate.view:simulate_extras",
@@ -171,6 +175,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     ),
     Feature(
         "stability",
+        "Find whether the balanced state is stable, and at which speeds.",
         "stability.command",
         ("stability.study:StabilityResult",),
         "stability.view:stability_extras",
@@ -178,6 +183,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     ),
     Feature(
         "grinding",
+        "Calculate vibration, contact force and wheel wear while grinding.",
         "grinding.command",
         ("grinding.study:GrindingResult", "two_races.work_records:TwoRaceGrindingResult"),
         "grinding.figures:grinding_extras",
@@ -185,6 +191,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     ),
     Feature(
         "balance",
+        "Balance a rotor in one plane or two from runs on a rig or in the field.",
         "balancing.command",
         ("balancing.study:BalanceResult",),
         "balancing.figures:balance_extras",
@@ -192,49 +199,115 @@ FEATURES: Final[tuple[Feature, ...]] = (
     ),
     Feature(
         "effects",
+        "List the effects; for a file, show which are simulated and why.",
         "effects.command",
         ("effects.study:EffectsResult", "effects.study:KnownEffectsResult"),
         group="Simulate",
     ),
     Feature(
         "accuracy",
+        "Compare methods of simulation by error and computing time.",
         "accuracy.command",
         ("accuracy.study:AccuracyResult",),
         "accuracy.view:accuracy_extras",
         group="Simulate",
     ),
-    Feature("sweep", "sweep.command", ("sweep.result:SweepResult",), "sweep.figures:sweep_extras"),
-    Feature("optimise", "optimise.command", ("optimise.result:OptimiseResult",), "optimise.view:optimise_extras"),
-    Feature("levels", "levels.command", ("levels.study:LevelsResult",), group="Measure"),
+    Feature(
+        "sweep",
+        "Vary values over many samples: share that passes, deciding values.",
+        "sweep.command",
+        ("sweep.result:SweepResult",),
+        "sweep.figures:sweep_extras",
+    ),
+    Feature(
+        "optimise",
+        "Find the cheapest design of which a wanted share meets the limits.",
+        "optimise.command",
+        ("optimise.result:OptimiseResult",),
+        "optimise.view:optimise_extras",
+    ),
+    Feature(
+        "levels",
+        "Calculate octave-band levels, weighted acceleration, daily exposure.",
+        "levels.command",
+        ("levels.study:LevelsResult",),
+        group="Measure",
+    ),
     Feature(
         "identify",
+        "Identify viscous drag rate, rolling friction and race eccentricity.",
         "identification.command",
         ("identification.results:IdentifyResult",),
         "identification.view:identify_extras",
         group="Measure",
     ),
-    Feature("measure-plan", "identification.plan_command", ("identification.plan:MeasurePlanResult",), group="Measure"),
+    Feature(
+        "measure-plan",
+        "Plan the recordings for `abu identify`.",
+        "identification.plan_command",
+        ("identification.plan:MeasurePlanResult",),
+        group="Measure",
+    ),
     Feature(
         "declare",
+        "Give the declared vibration value of a type test.",
         "declare.command",
         ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
         "declare.view:declare_extras",
         group="Measure",
     ),
-    Feature("factory", "factory.command", ("factory.study:FactoryResult",), group="Measure"),
+    Feature(
+        "factory",
+        "Compare predicted levels with measured ones.",
+        "factory.command",
+        ("factory.study:FactoryResult",),
+        group="Measure",
+    ),
     Feature(
         "compare",
+        "Compare machines or variants of one machine side by side.",
         "compare.command",
         ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
         "compare.measured_view:any_extras",
     ),
-    Feature("verify", "verify.command", ("verify.study:VerifyResult",), group="Files"),
-    Feature("validate", "files.validate", computes=False, group="Files"),
-    Feature("migrate", "files.migrate", computes=False, group="Files"),
-    Feature("init", "files.init", computes=False, group="Files"),
-    Feature("presets", "files.presets", computes=False, group="Files"),
-    Feature("schema", "files.schema", computes=False, group="Files"),
-    Feature("explain", "explain.command", computes=False),
+    Feature(
+        "verify",
+        "Recompute files and compare with their [expected] values.",
+        "verify.command",
+        ("verify.study:VerifyResult",),
+        group="Files",
+    ),
+    Feature(
+        "validate",
+        "Check files without simulating: keys, types, ranges, rules.",
+        "files.validate",
+        computes=False,
+        group="Files",
+    ),
+    Feature(
+        "migrate",
+        "Rename keys that have changed since the file was written.",
+        "files.migrate",
+        computes=False,
+        group="Files",
+    ),
+    Feature(
+        "init", "Write the short file of a new machine from a few answers.", "files.init", computes=False, group="Files"
+    ),
+    Feature("presets", "List the preset files, or print one.", "files.presets", computes=False, group="Files"),
+    Feature(
+        "schema",
+        "Print the JSON Schema of a kind of files or of results.",
+        "files.schema",
+        computes=False,
+        group="Files",
+    ),
+    Feature(
+        "explain",
+        "Explain a sizing step, a check, an effect or a key of a machine file.",
+        "explain.command",
+        computes=False,
+    ),
 )
 """Features in the order of the help."""
 

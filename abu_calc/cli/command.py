@@ -29,7 +29,7 @@ from abu_calc.foundation.call_files import one_call
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.patience import limited
 from abu_calc.foundation.progress import Progress, Stage
-from abu_calc.registry import extras_of, group_of
+from abu_calc.registry import BY_NAME, extras_of
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -231,12 +231,11 @@ def add_command(
     ]
     run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
-    run.__doc__ = function.__doc__
     app.command(
         name,
         cls=type("Command", (SectionedCommand,), {"seldom": listed}),
-        short_help=inspect.cleandoc(run.__doc__ or "").partition("\n")[0],
-        rich_help_panel=group_of(name),
+        help=function.__doc__,
+        short_help=BY_NAME[name].about,
     )(run)
 
 

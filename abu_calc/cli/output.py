@@ -1,4 +1,4 @@
-"""Delivery of a command's outcome, or of its error, to people and programs.
+"""Delivery of a command's outcome to people and programs.
 
 `--figure NAME=FILE` asks for figures as files of their own. Names and places that cannot work are refused before
 anything is computed.
@@ -9,16 +9,18 @@ import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Final, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 
 import typer
 
 from abu_calc.cli.help import OUTPUT as PANEL
-from abu_calc.foundation.errors import AbuError, InputError, Place
-from abu_calc.foundation.escaping import escaped, escaped_lines, shortened
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.escaping import escaped
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.registry import BY_NAME, known, names_of
-from abu_calc.reporting.outcome import Outcome, document, error_document, to_json
+
+if TYPE_CHECKING:
+    from abu_calc.reporting.outcome import Outcome
 
 OPTION: Final = "--figure"
 PLACE: Final = Place(key=OPTION)
@@ -61,9 +63,6 @@ def check_figures(command: str, figures: Iterable[tuple[str, Path]], *, force: b
             check_matplotlib(f"{path.suffix.lower()} files of {name}")
 
 
-BUG = 3
-
-
 class Delivery(NamedTuple):
     """Requested delivery of an outcome: the options that all commands share."""
 
@@ -89,7 +88,7 @@ class Delivery(NamedTuple):
             check_extra(path.suffix.lower())
 
 
-def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
+def deliver(outcome: "Outcome", how: Delivery, *, wrote: bool = False) -> int:
     """Print the result, return the exit status; `wrote`: files were written, as who interrupts is told."""
     try:
         _print(outcome, how)
@@ -101,9 +100,11 @@ def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
     return outcome.exit_status
 
 
-def _print(outcome: Outcome, how: Delivery) -> None:
+def _print(outcome: "Outcome", how: Delivery) -> None:
     """Print an outcome on standard output; if that is for programs, warnings go to standard error."""
     if how.json:
+        from abu_calc.reporting.outcome import document, to_json
+
         print(to_json(document(outcome)))
         for warning in () if how.quiet else outcome.warnings:
             print(f"warning: {escaped(warning)}", file=sys.stderr)
@@ -116,19 +117,3 @@ def _print(outcome: Outcome, how: Delivery) -> None:
 
         shown = outcome.blocks if how.full else outcome.screen
         show(shown, color=how.color and not os.environ.get("NO_COLOR"))
-
-
-def fail(command: str, error: BaseException, as_json: bool) -> int:
-    """Tell an error: a line or two on standard error, the envelope on standard output if JSON was asked for."""
-    if as_json:
-        print(to_json(error_document(command, error)))
-    head = " ".join(part for part in ("abu", shortened(escaped(command))) if part)
-    if isinstance(error, AbuError):
-        print(f"{head}: {escaped_lines(str(error))}", file=sys.stderr)
-        return error.exit_status
-    print(
-        f"{head}: this is a bug in abu-calc: {type(error).__name__}: {shortened(escaped(str(error)))}\n"
-        "  Set ABU_DEBUG=1 to see where, and report it with your file.",
-        file=sys.stderr,
-    )
-    return BUG

@@ -6,7 +6,8 @@ from typing import Annotated, ClassVar
 
 import pytest
 
-from abu_calc.cli.output import BUG, Delivery, asked_figures, deliver, fail, figure_option
+from abu_calc.cli.app import BUG, fail
+from abu_calc.cli.output import Delivery, asked_figures, deliver, figure_option
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import Quantity, record

@@ -33,7 +33,23 @@ def _loaded_modules(*commands: tuple[str, ...]) -> list[set[str]]:
     )
     told = [line.split() for line in done.stdout.splitlines() if line.startswith("STATUS ")]
     assert [one[1] in ("0", "1") for one in told] == [True] * len(commands), done.stderr
-    return [{name.split(".")[0] for name in one[3:]} for one in told]
+    return [set(one[3:]) for one in told]
+
+
+def _libraries(modules: set[str]) -> set[str]:
+    return {name.partition(".")[0] for name in modules}
+
+
+def test_help_loads_no_more_than_it_shows() -> None:
+    """The list of all commands loads no command; the help of a command loads that one, and no library of results."""
+    whole, single = _loaded_modules(("--help",), ("stability", "--help"))
+    heavy = {"pydantic", "rich", "numpy"}
+    assert not {name for name in whole if name.startswith("abu_calc.features")} and not _libraries(whole) & heavy
+    loaded = {name for name in single if name.startswith("abu_calc.features.")}
+    assert loaded == {"abu_calc.features.stability", "abu_calc.features.stability.command"}
+    assert not _libraries(single) & heavy
+    assert len({name for name in whole if name.startswith("abu_calc")}) <= 20
+    assert len({name for name in single if name.startswith("abu_calc")}) <= 40
 
 
 LIGHT = [
@@ -50,7 +66,7 @@ LIGHT = [
 def test_commands_load_only_what_they_need() -> None:
     """One after the other in one process, sizing last: modules stay loaded."""
     heavy = {"scipy", "numpy", "matplotlib", "jsonschema", "tomlkit", "llvmlite"}
-    *light, modules = _loaded_modules(*LIGHT, ("size", "msh-230", "--json"))
+    *light, modules = map(_libraries, _loaded_modules(*LIGHT, ("size", "msh-230", "--json")))
     assert [(command, loaded & heavy) for command, loaded in zip(LIGHT, light, strict=True) if loaded & heavy] == []
     assert {"llvmlite", "numpy"} <= modules
     assert not modules & {"scipy", "matplotlib", "jsonschema", "tomlkit", "pandas", "multiprocessing"}

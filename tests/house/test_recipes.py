@@ -81,7 +81,7 @@ def test_a_command_is_a_module_and_a_line(monkeypatch: pytest.MonkeyPatch) -> No
     module.__dict__["register"] = register
     monkeypatch.setitem(sys.modules, "abu_calc.features.greet", module)
     monkeypatch.setattr(app, "COMMANDS", (*app.COMMANDS, "greet"))
-    monkeypatch.setitem(registry.BY_NAME, "greet", registry.Feature("greet", "greet"))
+    monkeypatch.setitem(registry.BY_NAME, "greet", registry.Feature("greet", "Greet.", "greet"))
     seen = abu("greet", "Ada", "--json")
     assert seen.status == 0 and seen.document["result"] == {"greeted": "Ada"}
 
