@@ -285,13 +285,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
         group="Files",
     ),
     Feature(
-        "migrate",
-        "Rename keys that have changed since the file was written.",
-        "files.migrate",
-        computes=False,
-        group="Files",
-    ),
-    Feature(
         "init", "Write the short file of a new machine from a few answers.", "files.init", computes=False, group="Files"
     ),
     Feature("presets", "List the preset files, or print one.", "files.presets", computes=False, group="Files"),
