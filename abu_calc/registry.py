@@ -5,8 +5,7 @@ Modules are named here and imported when they are needed, so that a command load
 
 import importlib
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from abu_calc.foundation.errors import InputError, OutputError, Place
@@ -34,19 +33,35 @@ class Known(NamedTuple):
         return re.fullmatch(pattern, name) is not None
 
 
+class Shown(NamedTuple):
+    """One type of result, and the functions that show it; all paths "module:name" are below `abu_calc.features`.
+
+    `view`: beginning of the names of two functions, …_blocks for the whole report, and …_screen for one screen if that
+    is another, which `screen` names if it stands elsewhere; `note`: the formulas with their numbers, for --explain;
+    `drawings`: sheets of a drawing; `solids`: the parts as solids.
+    """
+
+    result: str
+    view: str
+    screen: str = ""
+    note: str = ""
+    drawings: str = ""
+    solids: str = ""
+
+
 class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
-    `name`: of the command; `about`: its line of `abu --help`; `command`: module whose `register` adds it; `results`:
-    types of its results as "module:class"; `makes_figures`: function from a result to its `Extras` as
-    "module:function"; `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`. Its
-    figures stand in `FIGURES`.
+    `name`: of the command; `about`: its line of `abu --help`; `command`: module that declares it as `COMMAND`;
+    `results`: types of its results; `makes_figures`: function from a result to its `Extras` as "module:function";
+    `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in
+    `FIGURES`.
     """
 
     name: str
     about: str
     command: str
-    results: tuple[str, ...] = ()
+    results: tuple[Shown, ...] = ()
     makes_figures: str = ""
     computes: bool = True
     group: str = "Design"
@@ -154,14 +169,36 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "size",
         "Size the autobalancer of a machine and simulate it.",
         "design.command",
-        ("design.study:SizeResult", "two_races.records:TwoRaceSizeResult"),
+        (
+            Shown(
+                "design.study:SizeResult",
+                "design.view:size",
+                "design.screen:size_screen",
+                note="design.step_numbers:explanation_blocks",
+                drawings="design.sheet:size_sheets",
+                solids="design.solids:size_solids",
+            ),
+            Shown(
+                "two_races.records:TwoRaceSizeResult",
+                "two_races.view:two_race",
+                drawings="two_races.view:two_race_sheets",
+                solids="two_races.drawing:both_solids",
+            ),
+        ),
         "design.figures:size_extras",
     ),
     Feature(
         "check-fit",
         "Check bearing seats, or recommend their tolerance classes.",
         "seats.command",
-        ("seats.study:CheckFitResult",),
+        (
+            Shown(
+                "seats.study:CheckFitResult",
+                "seats.view:check_fit",
+                note="seats.figures:seat_note",
+                drawings="seats.figures:seat_sheets",
+            ),
+        ),
         "seats.figures:check_fit_extras",
         computes=False,
     ),
@@ -169,7 +206,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "simulate",
         "Simulate one scene: amplitude, level, quiet and rest time, ball angles.",
         "simulate.command",
-        ("simulate.study:SimulateResult",),
+        (Shown("simulate.study:SimulateResult", "simulate.view:simulate"),),
         "simulate.view:simulate_extras",
         group="Simulate",
     ),
@@ -177,7 +214,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "stability",
         "Find whether the balanced state is stable, and at which speeds.",
         "stability.command",
-        ("stability.study:StabilityResult",),
+        (Shown("stability.study:StabilityResult", "stability.view:stability"),),
         "stability.view:stability_extras",
         group="Simulate",
     ),
@@ -185,7 +222,10 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "grinding",
         "Calculate vibration, contact force and wheel wear while grinding.",
         "grinding.command",
-        ("grinding.study:GrindingResult", "two_races.work_records:TwoRaceGrindingResult"),
+        (
+            Shown("grinding.study:GrindingResult", "grinding.view:grinding"),
+            Shown("two_races.work_records:TwoRaceGrindingResult", "two_races.work_view:work"),
+        ),
         "grinding.figures:grinding_extras",
         group="Simulate",
     ),
@@ -193,7 +233,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "balance",
         "Balance a rotor in one plane or two from runs on a rig or in the field.",
         "balancing.command",
-        ("balancing.study:BalanceResult",),
+        (Shown("balancing.study:BalanceResult", "balancing.view:balance", note="balancing.figures:balance_note"),),
         "balancing.figures:balance_extras",
         group="Measure",
     ),
@@ -201,14 +241,17 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "effects",
         "List the effects; for a file, show which are simulated and why.",
         "effects.command",
-        ("effects.study:EffectsResult", "effects.study:KnownEffectsResult"),
+        (
+            Shown("effects.study:EffectsResult", "effects.view:effects"),
+            Shown("effects.study:KnownEffectsResult", "effects.view:known", "effects.view:known_blocks"),
+        ),
         group="Simulate",
     ),
     Feature(
         "accuracy",
         "Compare methods of simulation by error and computing time.",
         "accuracy.command",
-        ("accuracy.study:AccuracyResult",),
+        (Shown("accuracy.study:AccuracyResult", "accuracy.view:accuracy"),),
         "accuracy.view:accuracy_extras",
         group="Simulate",
     ),
@@ -216,28 +259,28 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "sweep",
         "Vary values over many samples: share that passes, deciding values.",
         "sweep.command",
-        ("sweep.result:SweepResult",),
+        (Shown("sweep.result:SweepResult", "sweep.view:sweep"),),
         "sweep.figures:sweep_extras",
     ),
     Feature(
         "optimise",
         "Find the cheapest design of which a wanted share meets the limits.",
         "optimise.command",
-        ("optimise.result:OptimiseResult",),
+        (Shown("optimise.result:OptimiseResult", "optimise.view:optimise"),),
         "optimise.view:optimise_extras",
     ),
     Feature(
         "levels",
         "Calculate octave-band levels, weighted acceleration, daily exposure.",
         "levels.command",
-        ("levels.study:LevelsResult",),
+        (Shown("levels.study:LevelsResult", "levels.view:levels"),),
         group="Measure",
     ),
     Feature(
         "identify",
         "Identify viscous drag rate, rolling friction and race eccentricity.",
         "identification.command",
-        ("identification.results:IdentifyResult",),
+        (Shown("identification.results:IdentifyResult", "identification.view:identify"),),
         "identification.view:identify_extras",
         group="Measure",
     ),
@@ -245,14 +288,17 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "measure-plan",
         "Plan the recordings for `abu identify`.",
         "identification.plan_command",
-        ("identification.plan:MeasurePlanResult",),
+        (Shown("identification.plan:MeasurePlanResult", "identification.view:plan"),),
         group="Measure",
     ),
     Feature(
         "declare",
         "Give the declared vibration value of a type test.",
         "declare.command",
-        ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
+        (
+            Shown("declare.study:DeclareResult", "declare.view:declare"),
+            Shown("declare.measured:MeasuredDeclareResult", "declare.measured_view:measured"),
+        ),
         "declare.view:declare_extras",
         group="Measure",
     ),
@@ -260,21 +306,28 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "factory",
         "Compare predicted levels with measured ones.",
         "factory.command",
-        ("factory.study:FactoryResult",),
+        (Shown("factory.study:FactoryResult", "factory.view:factory"),),
         group="Measure",
     ),
     Feature(
         "compare",
         "Compare machines or variants of one machine side by side.",
         "compare.command",
-        ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
+        (
+            Shown("compare.study:CompareResult", "compare.view:compare", "compare.screen:compare_screen"),
+            Shown(
+                "compare.measured:MeasuredCompareResult",
+                "compare.measured_view:measured",
+                "compare.measured_view:measured_blocks",
+            ),
+        ),
         "compare.measured_view:any_extras",
     ),
     Feature(
         "verify",
         "Recompute files and compare with their [expected] values.",
         "verify.command",
-        ("verify.study:VerifyResult",),
+        (Shown("verify.study:VerifyResult", "verify.view:verify"),),
         group="Files",
     ),
     Feature(
@@ -305,6 +358,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
 """Features in the order of the help."""
 
 BY_NAME: Final = {feature.name: feature for feature in FEATURES}
+SHOWN: Final = {shown.result: shown for feature in FEATURES for shown in feature.results}
 
 
 def names_of(command: str) -> str:
@@ -340,10 +394,27 @@ def extras_of(result: "Result") -> "Extras":
     return extras
 
 
-def outcome_of(result: "Result") -> "Outcome":
-    """A result as its command shows and writes it, figures of a page included."""
-    outcome: Outcome = imported(f"{BY_NAME[result.command].command}:outcome_of")(result)
-    return replace(outcome, settings=(("command", result.command),), extras=lambda: extras_of(result))
+def outcome_of(result: "Result", *, explain: bool = False) -> "Outcome":
+    """A result as its command shows and writes it, figures of a page included; `explain`: with every formula."""
+    from abu_calc.reporting.outcome import Outcome
+
+    kind = type(result)
+    shown = SHOWN[f"{kind.__module__.removeprefix('abu_calc.features.')}:{kind.__qualname__}"]
+
+    def made(path: str) -> "Callable[[], Any] | None":
+        return (lambda: imported(path)(result)) if path else None
+
+    noted = explain and shown.note
+    return Outcome(
+        result.command,
+        result,
+        lambda: (*imported(f"{shown.view}_blocks")(result), *(imported(shown.note)(result) if noted else ())),
+        short=None if noted else made(shown.screen or f"{shown.view}_screen"),
+        drawings=made(shown.drawings),
+        solids=made(shown.solids),
+        settings=(("command", result.command),),
+        extras=lambda: extras_of(result),
+    )
 
 
 def save(result: "Result", path: "Path", *, force: bool) -> None:

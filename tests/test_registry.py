@@ -1,9 +1,8 @@
 """Entries of features: each names modules, results and figures that are there."""
 
-import importlib
-
 import pytest
 
+from abu_calc.cli.command import Command
 from abu_calc.foundation.errors import InputError
 from abu_calc.registry import BY_NAME, FEATURES, Feature, Known, absent, imported, known, named
 from tests.rows import for_each
@@ -11,8 +10,17 @@ from tests.rows import for_each
 
 @for_each(FEATURES)
 def test_all_that_an_entry_names_is_there(feature: Feature) -> None:
-    assert callable(importlib.import_module(f"abu_calc.features.{feature.command}").register)
-    assert all(isinstance(imported(path), type) for path in feature.results)
+    assert isinstance(imported(f"{feature.command}:COMMAND"), Command)
+    for shown in feature.results:
+        assert isinstance(imported(shown.result), type) and imported(shown.result).command == feature.name
+        makers = (
+            f"{shown.view}_blocks",
+            shown.screen or f"{shown.view}_screen",
+            shown.note,
+            shown.drawings,
+            shown.solids,
+        )
+        assert all(callable(imported(path)) for path in makers if path)
     assert bool(feature.figures) == bool(feature.makes_figures)
     assert not feature.makes_figures or callable(imported(feature.makes_figures))
 

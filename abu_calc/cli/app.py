@@ -68,12 +68,14 @@ def build(names: tuple[str, ...] = COMMANDS, *, listed: bool = False) -> typer.T
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     )
+    if not listed:
+        from abu_calc.cli.command import add_command
     for name in names:
         feature = BY_NAME[name]
         if listed:
             app.command(name, short_help=feature.about, rich_help_panel=feature.group)(_listed)
         else:
-            imported(f"{feature.command}:register")(app)
+            add_command(app, name, imported(f"{feature.command}:COMMAND"))
     if len(names) > 1:
         app.callback()(_main)
     return app

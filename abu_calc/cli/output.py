@@ -4,37 +4,22 @@
 anything is computed.
 """
 
-import inspect
 import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
-import typer
-
-from abu_calc.cli.help import OUTPUT as PANEL
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.escaping import escaped
 from abu_calc.foundation.interruption import EndedBySignal, status_of
-from abu_calc.registry import BY_NAME, known, names_of
+from abu_calc.registry import known
 
 if TYPE_CHECKING:
     from abu_calc.reporting.outcome import Outcome
 
 OPTION: Final = "--figure"
 PLACE: Final = Place(key=OPTION)
-
-
-def figure_option(command: str) -> inspect.Parameter | None:
-    """The option, with the names that a command knows; None for commands without figures."""
-    if command not in BY_NAME or not BY_NAME[command].figures:
-        return None
-    help_ = f"Also write one figure (.svg, .png or .pdf); repeatable. NAME: {names_of(command)}."
-    option = typer.Option(OPTION, metavar="NAME=FILE", help=help_, rich_help_panel=PANEL)
-    return inspect.Parameter(
-        "figure", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[list[str] | None, option]
-    )
 
 
 def asked_figures(given: Iterable[str]) -> tuple[tuple[str, Path], ...]:

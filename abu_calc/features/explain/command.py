@@ -1,11 +1,9 @@
 """`abu explain [STEP|CODE|EFFECT|KEY|TABLE]`: a step's formulas, a check's question, an effect, a key or a table."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import TYPE_CHECKING, Final
 
-import typer
-
-from abu_calc.cli.command import add_command
+from abu_calc.cli.command import Command, Option
 from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.outcome import Outcome
@@ -14,23 +12,12 @@ from abu_calc.reporting.screen import BLANK
 if TYPE_CHECKING:
     from abu_calc.features.explain.keys import FileKey
 
-What = Annotated[
-    str | None,
-    typer.Argument(
-        metavar="STEP|CODE|EFFECT|KEY|TABLE", help="Step, code of a check, effect, or key or table of a machine file."
-    ),
-]
-
-
 CODE_SIGNS: Final = str.maketrans("OILАВО", "011AB0")
 """Signs that are easily taken for those of a code: O for 0, I and l for 1, Cyrillic letters."""
 
 
-def explain(step: What = None) -> Outcome:
-    """Explain a sizing step, a check, an effect or a key of a machine file.
-
-    Without an argument, the command lists them.
-    """
+def explain(step: str | None = None) -> Outcome:
+    """Text about a step, a check, an effect, or a key or table of a machine file; a list of them without a name."""
     from abu_calc.features.explain.steps import STEPS
     from abu_calc.foundation.checks import CHECK_CODES
     from abu_calc.inputs.reading.suggestions import nearest
@@ -144,6 +131,15 @@ def _code(code: str) -> Outcome:
     return Outcome("explain", result, tuple(code_blocks(check)))
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "explain", explain)
+COMMAND = Command(
+    explain,
+    (
+        Option(
+            "step",
+            str,
+            "STEP|CODE|EFFECT|KEY|TABLE",
+            "Step, code of a check, effect, or key or table of a machine file.",
+        ),
+    ),
+    "Without an argument, the command lists them.",
+)

@@ -1,16 +1,12 @@
 """`abu presets [NAME]`: list the presets, or print one."""
 
-from typing import Annotated
-
-import typer
-
-from abu_calc.cli.command import add_command
+from abu_calc.cli.command import Command, Option
 from abu_calc.reporting.blocks import Grid, Heading, Paragraph
 from abu_calc.reporting.outcome import Outcome
 
 
-def presets(name: Annotated[str | None, typer.Argument(metavar="NAME", help="Print this preset.")] = None) -> Outcome:
-    """List the preset files, or print one."""
+def presets(name: str | None = None) -> Outcome:
+    """List of the presets, or the text of one."""
     from abu_calc.inputs.read_machine import read_file
     from abu_calc.inputs.reading.sources import names, text_of
 
@@ -26,6 +22,8 @@ def presets(name: Annotated[str | None, typer.Argument(metavar="NAME", help="Pri
     return Outcome("presets", {"presets": listed}, blocks)
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "presets", presets, formats=(".toml", ".json", ".txt", ".csv and .html (list only)"))
+COMMAND = Command(
+    presets,
+    (Option("name", str, "NAME", "Print this preset."),),
+    formats=(".toml", ".json", ".txt", ".csv and .html (list only)"),
+)

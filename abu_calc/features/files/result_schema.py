@@ -7,12 +7,12 @@ from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, 
 from abu_calc.foundation.checks import Check, Status
 from abu_calc.foundation.quantity import Record, described, hints, quantities
 from abu_calc.inputs.reading.schema import HOME
-from abu_calc.registry import FEATURES, imported
+from abu_calc.registry import SHOWN, imported
 from abu_calc.simulation.result import Result
 
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
-RESULTS: Final[tuple[type[Result], ...]] = tuple(imported(result) for feature in FEATURES for result in feature.results)
+RESULTS: Final[tuple[type[Result], ...]] = tuple(map(imported, SHOWN))
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
 
