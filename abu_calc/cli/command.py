@@ -4,7 +4,6 @@
     MACHINE, FILE, …   options that several commands share
     Command            a study with its options
     settings           the command and its options, which give a result again
-    write_files        the files that a command was asked for, written when all is computed
     add_command        a command that Typer runs
 
 An option is called like the argument of the study that it gives, so that an error about an argument names the option.
@@ -14,10 +13,10 @@ What is not given is left to the study. Studies are named by their paths, so tha
 import inspect
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 from inspect import Parameter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple, TypeAlias
@@ -25,17 +24,16 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple, TypeAlias
 import typer
 
 from abu_calc.cli.help import OUTPUT, HelpAll, SectionedCommand
-from abu_calc.cli.output import Delivery, asked_figures, deliver
+from abu_calc.cli.output import Delivery, asked_figures, deliver, write_files
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.call_files import one_call
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.patience import limited
-from abu_calc.foundation.progress import Progress, Stage, silent
+from abu_calc.foundation.progress import silent
 from abu_calc.registry import BY_NAME, imported, names_of, outcome_of
 
 if TYPE_CHECKING:
     from abu_calc.inputs.reading.document import FileReading
-    from abu_calc.reporting.charts.figure import Figure
     from abu_calc.reporting.outcome import Outcome
     from abu_calc.simulation.result import Result
 
@@ -193,63 +191,6 @@ def _set(option: Option, value: Any) -> Iterator[tuple[str, str]]:
     label = option.name.strip("-_").replace("-", " ").replace("_", " ")
     for each in value if isinstance(value, (list, tuple)) else [value]:
         yield label, {True: "yes", False: "no"}[each] if isinstance(each, bool) else str(each)
-
-
-def write_files(outcome: "Outcome", how: Delivery) -> bool:
-    """Write all that can be written; False: there are none. For a file that cannot, the computed result is told."""
-    if not how.outputs and not outcome.further and not how.figures:
-        return False
-    from abu_calc.reporting.files import as_file, further_sheets
-    from abu_calc.reporting.write import Target, write
-
-    sheets = [sheet for path in how.outputs for sheet in further_sheets(outcome, path)]
-    figures = cache(lambda: outcome.extras().figures if outcome.extras else ())
-    files = (
-        *outcome.further,
-        *(Target(path, _made(as_file, outcome, path.suffix.lower())) for path in how.outputs),
-        *(Target(path, _made(_sheet, path, text, how.force)) for path, text in sheets),
-        *(Target(path, _made(_drawn, outcome.command, figures, name, path)) for name, path in how.figures),
-    )
-    try:
-        with progress(how) as tell:
-            write((Target(path, _told(text, f"writing {path}", tell)) for path, text in files), force=how.force)
-    except InputError as error:
-        computed = (
-            f"The computed result is {outcome.status}; without the file, the exit status is {outcome.exit_status}."
-        )
-        error.remedy = " ".join(part for part in (error.remedy, computed) if part)
-        raise
-    return True
-
-
-def _made(make: "Callable[..., str | bytes]", *arguments: Any) -> Iterator[str | bytes]:
-    """The text of a file, made when it is written."""
-    yield make(*arguments)
-
-
-def _sheet(path: Path, text: str, force: bool) -> str:
-    """The text of a further sheet, whose file was not asked for by name."""
-    from abu_calc.reporting.write import check_target
-
-    check_target(path, force=force)
-    return text
-
-
-def _drawn(command: str, figures: "Callable[[], tuple[Figure, ...]]", name: str, path: Path) -> bytes | str:
-    """File of a figure; raises InputError for one that the result does not have."""
-    from abu_calc.registry import named
-    from abu_calc.reporting.charts.matplotlib_draw import figure_file
-
-    return figure_file(named(command, figures(), name), path.suffix.lower())
-
-
-def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:
-    """The pieces of a text, each told before it is written."""
-    pieces = [text] if isinstance(text, (str, bytes)) else text
-    total = len(pieces) if isinstance(pieces, Sized) else 0
-    for done, piece in enumerate(pieces):
-        tell(Stage(what, done / total) if total else what)
-        yield piece
 
 
 def _shared(name: str, command: Command) -> Iterator[Option]:

@@ -6,16 +6,20 @@ anything is computed.
 
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sized
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.escaping import escaped
 from abu_calc.foundation.interruption import EndedBySignal, status_of
-from abu_calc.registry import known
+from abu_calc.foundation.progress import Progress, Stage
+from abu_calc.registry import known, named
 
 if TYPE_CHECKING:
+    from abu_calc.reporting.charts.figure import Figure
     from abu_calc.reporting.outcome import Outcome
 
 OPTION: Final = "--figure"
@@ -71,6 +75,62 @@ class Delivery(NamedTuple):
         for path in self.outputs:
             check_target(path, force=self.force, suffixes=(*FORMATS, *drawn), option="--output")
             check_extra(path.suffix.lower())
+
+
+def write_files(outcome: "Outcome", how: Delivery) -> bool:
+    """Write all that can be written; False: there are none. For a file that cannot, the computed result is told."""
+    if not how.outputs and not outcome.further and not how.figures:
+        return False
+    from abu_calc.reporting.files import as_file, further_sheets
+    from abu_calc.reporting.write import Target, write
+
+    sheets = [sheet for path in how.outputs for sheet in further_sheets(outcome, path)]
+    figures = cache(lambda: outcome.extras().figures if outcome.extras else ())
+    files = (
+        *outcome.further,
+        *(Target(path, _made(as_file, outcome, path.suffix.lower())) for path in how.outputs),
+        *(Target(path, _made(_sheet, path, text, how.force)) for path, text in sheets),
+        *(Target(path, _made(_drawn, outcome.command, figures, name, path)) for name, path in how.figures),
+    )
+    try:
+        with progress(how) as tell:
+            write((Target(path, _told(text, f"writing {path}", tell)) for path, text in files), force=how.force)
+    except InputError as error:
+        computed = (
+            f"The computed result is {outcome.status}; without the file, the exit status is {outcome.exit_status}."
+        )
+        error.remedy = " ".join(part for part in (error.remedy, computed) if part)
+        raise
+    return True
+
+
+def _made(make: Callable[..., str | bytes], *arguments: Any) -> Iterator[str | bytes]:
+    """The text of a file, made when it is written."""
+    yield make(*arguments)
+
+
+def _sheet(path: Path, text: str, force: bool) -> str:
+    """The text of a further sheet, whose file was not asked for by name."""
+    from abu_calc.reporting.write import check_target
+
+    check_target(path, force=force)
+    return text
+
+
+def _drawn(command: str, figures: "Callable[[], tuple[Figure, ...]]", name: str, path: Path) -> bytes | str:
+    """File of a figure; raises InputError for one that the result does not have."""
+    from abu_calc.reporting.charts.matplotlib_draw import figure_file
+
+    return figure_file(named(command, figures(), name), path.suffix.lower())
+
+
+def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:
+    """The pieces of a text, each told before it is written."""
+    pieces = [text] if isinstance(text, (str, bytes)) else text
+    total = len(pieces) if isinstance(pieces, Sized) else 0
+    for done, piece in enumerate(pieces):
+        tell(Stage(what, done / total) if total else what)
+        yield piece
 
 
 def deliver(outcome: "Outcome", how: Delivery, *, wrote: bool = False) -> int:

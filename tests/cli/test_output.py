@@ -27,13 +27,14 @@ class Sample(Result):
     a: Annotated[float, Quantity("a")] = 1.0
 
 
-OUTCOME = Outcome.of(
+OUTCOME = Outcome(
+    Sample.command,
     Sample(
         title="sample", checks=(Check("ABU201", "capacity", "fail", "too little"),), warnings=("careful",),
         provenance=Provenance.today(),
     ),
     lambda: (Paragraph("whole"),),
-    lambda: (Paragraph("short"),),
+    short=lambda: (Paragraph("short"),),
 )  # fmt: skip
 
 
