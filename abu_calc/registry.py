@@ -36,13 +36,14 @@ class Known(NamedTuple):
 class Shown(NamedTuple):
     """One type of result, and the functions that show it; all paths "module:name" are below `abu_calc.features`.
 
-    `view`: beginning of the names of two functions, …_blocks for the whole report, and …_screen for one screen if that
-    is another, which `screen` names if it stands elsewhere; `note`: the formulas with their numbers, for --explain;
-    `drawings`: sheets of a drawing; `solids`: the parts as solids.
+    `view`: beginning of the names of two functions, …_blocks for the whole report, and …_screen for one screen, which
+    `screen` names if it stands elsewhere; `extras`: its `Extras`, figures and the calculation note of a page; `note`:
+    the formulas with their numbers, for --explain; `drawings`: sheets of a drawing; `solids`: the parts.
     """
 
     result: str
     view: str
+    extras: str = ""
     screen: str = ""
     note: str = ""
     drawings: str = ""
@@ -53,16 +54,13 @@ class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
     `name`: of the command; `about`: its line of `abu --help`; `command`: module that declares it as `COMMAND`;
-    `results`: types of its results; `makes_figures`: function from a result to its `Extras` as "module:function";
     `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in
-    `FIGURES`.
+    `FIGURES`, the views of its results in `SHOWN`.
     """
 
     name: str
     about: str
     command: str
-    results: tuple[Shown, ...] = ()
-    makes_figures: str = ""
     computes: bool = True
     group: str = "Design"
 
@@ -164,172 +162,137 @@ FIGURES: Final[Mapping[str, tuple[Known, ...]]] = {
 }
 """Figures of each command; one without a condition stands in every result of its command."""
 
+SHOWN: Final[Mapping[str, Shown]] = {
+    shown.result: shown
+    for shown in (
+        Shown(
+            "design.study:SizeResult",
+            "design.view:size",
+            "design.figures:size_extras",
+            screen="design.screen:size_screen",
+            note="design.step_numbers:explanation_blocks",
+            drawings="design.sheet:size_sheets",
+            solids="design.solids:size_solids",
+        ),
+        Shown(
+            "two_races.records:TwoRaceSizeResult",
+            "two_races.view:two_race",
+            "two_races.figures:two_race_extras",
+            drawings="two_races.view:two_race_sheets",
+            solids="two_races.drawing:both_solids",
+        ),
+        Shown(
+            "seats.study:CheckFitResult",
+            "seats.view:check_fit",
+            "seats.figures:check_fit_extras",
+            note="seats.figures:seat_note",
+            drawings="seats.figures:seat_sheets",
+        ),
+        Shown("simulate.study:SimulateResult", "simulate.view:simulate", "simulate.view:simulate_extras"),
+        Shown("stability.study:StabilityResult", "stability.view:stability", "stability.view:stability_extras"),
+        Shown("grinding.study:GrindingResult", "grinding.view:grinding", "grinding.figures:grinding_extras"),
+        Shown(
+            "two_races.work_records:TwoRaceGrindingResult",
+            "two_races.work_view:work",
+            "two_races.work_view:work_extras",
+        ),
+        Shown(
+            "balancing.study:BalanceResult",
+            "balancing.view:balance",
+            "balancing.figures:balance_extras",
+            note="balancing.figures:balance_note",
+        ),
+        Shown("effects.study:EffectsResult", "effects.view:effects"),
+        Shown("effects.study:KnownEffectsResult", "effects.view:known", screen="effects.view:known_blocks"),
+        Shown("accuracy.study:AccuracyResult", "accuracy.view:accuracy", "accuracy.view:accuracy_extras"),
+        Shown("sweep.result:SweepResult", "sweep.view:sweep", "sweep.figures:sweep_extras"),
+        Shown("optimise.result:OptimiseResult", "optimise.view:optimise", "optimise.view:optimise_extras"),
+        Shown("levels.study:LevelsResult", "levels.view:levels"),
+        Shown(
+            "identification.results:IdentifyResult",
+            "identification.view:identify",
+            "identification.view:identify_extras",
+        ),
+        Shown("identification.plan:MeasurePlanResult", "identification.view:plan"),
+        Shown("declare.study:DeclareResult", "declare.view:declare", "declare.view:declare_extras"),
+        Shown(
+            "declare.measured:MeasuredDeclareResult",
+            "declare.measured_view:measured",
+            "declare.measured_view:measured_extras",
+        ),
+        Shown("factory.study:FactoryResult", "factory.view:factory"),
+        Shown(
+            "compare.study:CompareResult",
+            "compare.view:compare",
+            "compare.view:compare_extras",
+            screen="compare.screen:compare_screen",
+        ),
+        Shown(
+            "compare.measured:MeasuredCompareResult",
+            "compare.measured_view:measured",
+            "compare.measured_view:measured_extras",
+            screen="compare.measured_view:measured_blocks",
+        ),
+        Shown("verify.study:VerifyResult", "verify.view:verify"),
+    )
+}
+"""Views of each type of result."""
+
 FEATURES: Final[tuple[Feature, ...]] = (
-    Feature(
-        "size",
-        "Size the autobalancer of a machine and simulate it.",
-        "design.command",
-        (
-            Shown(
-                "design.study:SizeResult",
-                "design.view:size",
-                "design.screen:size_screen",
-                note="design.step_numbers:explanation_blocks",
-                drawings="design.sheet:size_sheets",
-                solids="design.solids:size_solids",
-            ),
-            Shown(
-                "two_races.records:TwoRaceSizeResult",
-                "two_races.view:two_race",
-                drawings="two_races.view:two_race_sheets",
-                solids="two_races.drawing:both_solids",
-            ),
-        ),
-        "design.figures:size_extras",
-    ),
-    Feature(
-        "check-fit",
-        "Check bearing seats, or recommend their tolerance classes.",
-        "seats.command",
-        (
-            Shown(
-                "seats.study:CheckFitResult",
-                "seats.view:check_fit",
-                note="seats.figures:seat_note",
-                drawings="seats.figures:seat_sheets",
-            ),
-        ),
-        "seats.figures:check_fit_extras",
-        computes=False,
-    ),
+    Feature("size", "Size the autobalancer of a machine and simulate it.", "design.command"),
+    Feature("check-fit", "Check bearing seats, or recommend their tolerance classes.", "seats.command", computes=False),
     Feature(
         "simulate",
         "Simulate one scene: amplitude, level, quiet and rest time, ball angles.",
         "simulate.command",
-        (Shown("simulate.study:SimulateResult", "simulate.view:simulate"),),
-        "simulate.view:simulate_extras",
         group="Simulate",
     ),
     Feature(
         "stability",
         "Find whether the balanced state is stable, and at which speeds.",
         "stability.command",
-        (Shown("stability.study:StabilityResult", "stability.view:stability"),),
-        "stability.view:stability_extras",
         group="Simulate",
     ),
     Feature(
         "grinding",
         "Calculate vibration, contact force and wheel wear while grinding.",
         "grinding.command",
-        (
-            Shown("grinding.study:GrindingResult", "grinding.view:grinding"),
-            Shown("two_races.work_records:TwoRaceGrindingResult", "two_races.work_view:work"),
-        ),
-        "grinding.figures:grinding_extras",
         group="Simulate",
     ),
     Feature(
         "balance",
         "Balance a rotor in one plane or two from runs on a rig or in the field.",
         "balancing.command",
-        (Shown("balancing.study:BalanceResult", "balancing.view:balance", note="balancing.figures:balance_note"),),
-        "balancing.figures:balance_extras",
         group="Measure",
     ),
     Feature(
         "effects",
         "List the effects; for a file, show which are simulated and why.",
         "effects.command",
-        (
-            Shown("effects.study:EffectsResult", "effects.view:effects"),
-            Shown("effects.study:KnownEffectsResult", "effects.view:known", "effects.view:known_blocks"),
-        ),
         group="Simulate",
     ),
     Feature(
-        "accuracy",
-        "Compare methods of simulation by error and computing time.",
-        "accuracy.command",
-        (Shown("accuracy.study:AccuracyResult", "accuracy.view:accuracy"),),
-        "accuracy.view:accuracy_extras",
-        group="Simulate",
+        "accuracy", "Compare methods of simulation by error and computing time.", "accuracy.command", group="Simulate"
     ),
-    Feature(
-        "sweep",
-        "Vary values over many samples: share that passes, deciding values.",
-        "sweep.command",
-        (Shown("sweep.result:SweepResult", "sweep.view:sweep"),),
-        "sweep.figures:sweep_extras",
-    ),
-    Feature(
-        "optimise",
-        "Find the cheapest design of which a wanted share meets the limits.",
-        "optimise.command",
-        (Shown("optimise.result:OptimiseResult", "optimise.view:optimise"),),
-        "optimise.view:optimise_extras",
-    ),
+    Feature("sweep", "Vary values over many samples: share that passes, deciding values.", "sweep.command"),
+    Feature("optimise", "Find the cheapest design of which a wanted share meets the limits.", "optimise.command"),
     Feature(
         "levels",
         "Calculate octave-band levels, weighted acceleration, daily exposure.",
         "levels.command",
-        (Shown("levels.study:LevelsResult", "levels.view:levels"),),
         group="Measure",
     ),
     Feature(
         "identify",
         "Identify viscous drag rate, rolling friction and race eccentricity.",
         "identification.command",
-        (Shown("identification.results:IdentifyResult", "identification.view:identify"),),
-        "identification.view:identify_extras",
         group="Measure",
     ),
-    Feature(
-        "measure-plan",
-        "Plan the recordings for `abu identify`.",
-        "identification.plan_command",
-        (Shown("identification.plan:MeasurePlanResult", "identification.view:plan"),),
-        group="Measure",
-    ),
-    Feature(
-        "declare",
-        "Give the declared vibration value of a type test.",
-        "declare.command",
-        (
-            Shown("declare.study:DeclareResult", "declare.view:declare"),
-            Shown("declare.measured:MeasuredDeclareResult", "declare.measured_view:measured"),
-        ),
-        "declare.view:declare_extras",
-        group="Measure",
-    ),
-    Feature(
-        "factory",
-        "Compare predicted levels with measured ones.",
-        "factory.command",
-        (Shown("factory.study:FactoryResult", "factory.view:factory"),),
-        group="Measure",
-    ),
-    Feature(
-        "compare",
-        "Compare machines or variants of one machine side by side.",
-        "compare.command",
-        (
-            Shown("compare.study:CompareResult", "compare.view:compare", "compare.screen:compare_screen"),
-            Shown(
-                "compare.measured:MeasuredCompareResult",
-                "compare.measured_view:measured",
-                "compare.measured_view:measured_blocks",
-            ),
-        ),
-        "compare.measured_view:any_extras",
-    ),
-    Feature(
-        "verify",
-        "Recompute files and compare with their [expected] values.",
-        "verify.command",
-        (Shown("verify.study:VerifyResult", "verify.view:verify"),),
-        group="Files",
-    ),
+    Feature("measure-plan", "Plan the recordings for `abu identify`.", "identification.plan_command", group="Measure"),
+    Feature("declare", "Give the declared vibration value of a type test.", "declare.command", group="Measure"),
+    Feature("factory", "Compare predicted levels with measured ones.", "factory.command", group="Measure"),
+    Feature("compare", "Compare machines or variants of one machine side by side.", "compare.command"),
+    Feature("verify", "Recompute files and compare with their [expected] values.", "verify.command", group="Files"),
     Feature(
         "validate",
         "Check files without simulating: keys, types, ranges, rules.",
@@ -358,7 +321,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
 """Features in the order of the help."""
 
 BY_NAME: Final = {feature.name: feature for feature in FEATURES}
-SHOWN: Final = {shown.result: shown for feature in FEATURES for shown in feature.results}
 
 
 def names_of(command: str) -> str:
@@ -385,12 +347,17 @@ def absent(command: str, name: str, there: Iterable[str]) -> InputError:
     return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")
 
 
+def _shown(result: "Result") -> Shown | None:
+    kind = type(result)
+    return SHOWN.get(f"{kind.__module__.removeprefix('abu_calc.features.')}:{kind.__qualname__}")
+
+
 def extras_of(result: "Result") -> "Extras":
     """Figures of a result and the calculation note of its page; none if its feature makes none."""
     from abu_calc.reporting.charts.figure import Extras
 
-    maker = BY_NAME[result.command].makes_figures if result.command in BY_NAME else ""
-    extras: Extras = imported(maker)(result) if maker else Extras()
+    shown = _shown(result)
+    extras: Extras = imported(shown.extras)(result) if shown and shown.extras else Extras()
     return extras
 
 
@@ -398,8 +365,9 @@ def outcome_of(result: "Result", *, explain: bool = False) -> "Outcome":
     """A result as its command shows and writes it, figures of a page included; `explain`: with every formula."""
     from abu_calc.reporting.outcome import Outcome
 
-    kind = type(result)
-    shown = SHOWN[f"{kind.__module__.removeprefix('abu_calc.features.')}:{kind.__qualname__}"]
+    shown = _shown(result)
+    if shown is None:
+        raise TypeError(f"{type(result).__name__} stands not in SHOWN")
 
     def made(path: str) -> "Callable[[], Any] | None":
         return (lambda: imported(path)(result)) if path else None

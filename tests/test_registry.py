@@ -4,25 +4,21 @@ import pytest
 
 from abu_calc.cli.command import Command
 from abu_calc.foundation.errors import InputError
-from abu_calc.registry import BY_NAME, FEATURES, Feature, Known, absent, imported, known, named
+from abu_calc.registry import BY_NAME, FEATURES, SHOWN, Feature, Known, Shown, absent, imported, known, named
 from tests.rows import for_each
 
 
 @for_each(FEATURES)
-def test_all_that_an_entry_names_is_there(feature: Feature) -> None:
+def test_a_feature_declares_its_command(feature: Feature) -> None:
     assert isinstance(imported(f"{feature.command}:COMMAND"), Command)
-    for shown in feature.results:
-        assert isinstance(imported(shown.result), type) and imported(shown.result).command == feature.name
-        makers = (
-            f"{shown.view}_blocks",
-            shown.screen or f"{shown.view}_screen",
-            shown.note,
-            shown.drawings,
-            shown.solids,
-        )
-        assert all(callable(imported(path)) for path in makers if path)
-    assert bool(feature.figures) == bool(feature.makes_figures)
-    assert not feature.makes_figures or callable(imported(feature.makes_figures))
+
+
+@for_each(SHOWN.values())
+def test_all_that_shows_a_result_is_there(shown: Shown) -> None:
+    result, screen = imported(shown.result), shown.screen or f"{shown.view}_screen"
+    assert isinstance(result, type) and bool(shown.extras) == bool(BY_NAME[result.command].figures)
+    makers = (f"{shown.view}_blocks", screen, shown.extras, shown.note, shown.drawings, shown.solids)
+    assert all(callable(imported(path)) for path in makers if path)
 
 
 def test_names_of_features_and_of_their_figures_differ() -> None:
