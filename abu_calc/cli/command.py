@@ -135,7 +135,7 @@ class Command(NamedTuple):
         arguments.pop("explain", None)
         read = [(each.key, each.reads) for each in self.options if each.reads and each.key in arguments]
         overrides = arguments.pop("set_", ()) if read else ()
-        with progress(how) if "progress" in takes else nullcontext(silent) as tell:
+        with progress(quiet=how.quiet) if "progress" in takes else nullcontext(silent) as tell:
             sources = [reads(arguments.pop(key), overrides) for key, reads in read]
             offered = {"how": how, "progress": tell, "workers": os.cpu_count() or 1}
             arguments |= {key: value for key, value in offered.items() if key in takes and key not in own}

@@ -93,7 +93,7 @@ def write_files(outcome: "Outcome", how: Delivery) -> bool:
         *(Target(path, _made(_drawn, outcome.command, figures, name, path)) for name, path in how.figures),
     )
     try:
-        with progress(how) as tell:
+        with progress(quiet=how.quiet) as tell:
             write((Target(path, _told(text, f"writing {path}", tell)) for path, text in files), force=how.force)
     except InputError as error:
         computed = (
