@@ -53,7 +53,7 @@ class Shown(NamedTuple):
 class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
-    `name`: of the command; `about`: its line of `abu --help`; `command`: module that declares it as `COMMAND`;
+    `name`: of the command; `about`: its line of `abu --help`; `command`: its declaration, as "module:name";
     `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in
     `FIGURES`, the views of its results in `SHOWN`.
     """
@@ -239,82 +239,103 @@ SHOWN: Final[Mapping[str, Shown]] = {
 """Views of each type of result."""
 
 FEATURES: Final[tuple[Feature, ...]] = (
-    Feature("size", "Size the autobalancer of a machine and simulate it.", "design.command"),
-    Feature("check-fit", "Check bearing seats, or recommend their tolerance classes.", "seats.command", computes=False),
+    Feature("size", "Size the autobalancer of a machine and simulate it.", "design.command:COMMAND"),
+    Feature(
+        "check-fit",
+        "Check bearing seats, or recommend their tolerance classes.",
+        "seats.command:COMMAND",
+        computes=False,
+    ),
     Feature(
         "simulate",
         "Simulate one scene: amplitude, level, quiet and rest time, ball angles.",
-        "simulate.command",
+        "simulate.command:COMMAND",
         group="Simulate",
     ),
     Feature(
         "stability",
         "Find whether the balanced state is stable, and at which speeds.",
-        "stability.command",
+        "stability.command:COMMAND",
         group="Simulate",
     ),
     Feature(
         "grinding",
         "Calculate vibration, contact force and wheel wear while grinding.",
-        "grinding.command",
+        "grinding.command:COMMAND",
         group="Simulate",
     ),
     Feature(
         "balance",
         "Balance a rotor in one plane or two from runs on a rig or in the field.",
-        "balancing.command",
+        "balancing.command:COMMAND",
         group="Measure",
     ),
     Feature(
         "effects",
         "List the effects; for a file, show which are simulated and why.",
-        "effects.command",
+        "effects.command:COMMAND",
         group="Simulate",
     ),
     Feature(
-        "accuracy", "Compare methods of simulation by error and computing time.", "accuracy.command", group="Simulate"
+        "accuracy",
+        "Compare methods of simulation by error and computing time.",
+        "accuracy.command:COMMAND",
+        group="Simulate",
     ),
-    Feature("sweep", "Vary values over many samples: share that passes, deciding values.", "sweep.command"),
-    Feature("optimise", "Find the cheapest design of which a wanted share meets the limits.", "optimise.command"),
+    Feature("sweep", "Vary values over many samples: share that passes, deciding values.", "sweep.command:COMMAND"),
+    Feature(
+        "optimise", "Find the cheapest design of which a wanted share meets the limits.", "optimise.command:COMMAND"
+    ),
     Feature(
         "levels",
         "Calculate octave-band levels, weighted acceleration, daily exposure.",
-        "levels.command",
+        "levels.command:COMMAND",
         group="Measure",
     ),
     Feature(
         "identify",
         "Identify viscous drag rate, rolling friction and race eccentricity.",
-        "identification.command",
+        "identification.command:COMMAND",
         group="Measure",
     ),
-    Feature("measure-plan", "Plan the recordings for `abu identify`.", "identification.plan_command", group="Measure"),
-    Feature("declare", "Give the declared vibration value of a type test.", "declare.command", group="Measure"),
-    Feature("factory", "Compare predicted levels with measured ones.", "factory.command", group="Measure"),
-    Feature("compare", "Compare machines or variants of one machine side by side.", "compare.command"),
-    Feature("verify", "Recompute files and compare with their [expected] values.", "verify.command", group="Files"),
+    Feature(
+        "measure-plan",
+        "Plan the recordings for `abu identify`.",
+        "identification.command:MEASURE_PLAN",
+        group="Measure",
+    ),
+    Feature("declare", "Give the declared vibration value of a type test.", "declare.command:COMMAND", group="Measure"),
+    Feature("factory", "Compare predicted levels with measured ones.", "factory.command:COMMAND", group="Measure"),
+    Feature("compare", "Compare machines or variants of one machine side by side.", "compare.command:COMMAND"),
+    Feature(
+        "verify", "Recompute files and compare with their [expected] values.", "verify.command:COMMAND", group="Files"
+    ),
     Feature(
         "validate",
         "Check files without simulating: keys, types, ranges, rules.",
-        "files.validate",
+        "files.command:VALIDATE",
         computes=False,
         group="Files",
     ),
     Feature(
-        "init", "Write the short file of a new machine from a few answers.", "files.init", computes=False, group="Files"
+        "init",
+        "Write the short file of a new machine from a few answers.",
+        "files.command:INIT",
+        computes=False,
+        group="Files",
     ),
-    Feature("presets", "List the preset files, or print one.", "files.presets", computes=False, group="Files"),
+    Feature("presets", "List the preset files, or print one.", "files.command:PRESETS", computes=False, group="Files"),
     Feature(
         "schema",
         "Print the JSON Schema of a kind of files or of results.",
-        "files.schema",
+        "files.command:SCHEMA",
         computes=False,
         group="Files",
     ),
     Feature(
         "explain",
         "Explain a sizing step, a check, an effect or a key of a machine file.",
-        "explain.command",
+        "explain.command:COMMAND",
         computes=False,
     ),
 )

@@ -10,7 +10,7 @@ from tests.rows import for_each
 
 @for_each(FEATURES)
 def test_a_feature_declares_its_command(feature: Feature) -> None:
-    assert isinstance(imported(f"{feature.command}:COMMAND"), Command)
+    assert isinstance(imported(feature.command), Command)
 
 
 @for_each(SHOWN.values())

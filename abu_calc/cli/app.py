@@ -75,7 +75,7 @@ def build(names: tuple[str, ...] = COMMANDS, *, listed: bool = False) -> typer.T
         if listed:
             app.command(name, short_help=feature.about, rich_help_panel=feature.group)(_listed)
         else:
-            add_command(app, name, imported(f"{feature.command}:COMMAND"))
+            add_command(app, name, imported(feature.command))
     if len(names) > 1:
         app.callback()(_main)
     return app

@@ -76,7 +76,7 @@ def test_a_command_is_a_module_and_a_line(monkeypatch: pytest.MonkeyPatch) -> No
     module.__dict__["COMMAND"] = Command(greet, (Option("name", str, "NAME", "Who is greeted.", default=REQUIRED),))
     monkeypatch.setitem(sys.modules, "abu_calc.features.greet", module)
     monkeypatch.setattr(app, "COMMANDS", (*app.COMMANDS, "greet"))
-    monkeypatch.setitem(registry.BY_NAME, "greet", registry.Feature("greet", "Greet.", "greet"))
+    monkeypatch.setitem(registry.BY_NAME, "greet", registry.Feature("greet", "Greet.", "greet:COMMAND"))
     seen = abu("greet", "Ada", "--json")
     assert seen.status == 0 and seen.document["result"] == {"greeted": "Ada"}
 

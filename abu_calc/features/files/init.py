@@ -7,14 +7,15 @@ from typing import Any
 
 import typer
 
-from abu_calc.cli.command import REQUIRED, Command, Option
 from abu_calc.cli.output import Delivery
+from abu_calc.features.files.new_machine import completed, machine_text
 from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.read_machine import read, read_file
+from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
+from abu_calc.inputs.reading.sources import text_of
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.write import Target, check_target
-
-MACHINE = "The machine"
 
 
 def init(
@@ -57,10 +58,6 @@ def init(
 
 def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]:
     """A preset, or the commented file of a kind, and the command for it."""
-    from abu_calc.inputs.read_machine import read_file
-    from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
-    from abu_calc.inputs.reading.sources import text_of
-
     if preset is not None:
         return text_of(preset), kind_of(read_file(preset).document.content).command
     chosen = BY_NAME[kind]
@@ -69,8 +66,6 @@ def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]
 
 def _short(answers: Mapping[str, Any]) -> str:
     """The short file of a machine, read as a check before it is written."""
-    from abu_calc.features.files.new_machine import completed, machine_text
-    from abu_calc.inputs.read_machine import read
 
     def ask(words: str, usual: str) -> str:
         """An answer from the terminal; the usual one where none is given."""
@@ -79,36 +74,3 @@ def _short(answers: Mapping[str, Any]) -> str:
     text = machine_text(*completed(answers, ask if sys.stdin.isatty() else None))
     read(text)
     return text
-
-
-COMMAND = Command(
-    init,
-    (
-        Option("file", Path, "FILE", "New file, ending in .toml.", default=REQUIRED),
-        Option("layout", str, "--layout NAME", "straight, angle or face.", MACHINE),
-        Option("wheel", str, "--wheel MM", "Diameter of the wheel.", MACHINE),
-        Option("mass", str, "--mass KG", "Mass without wheel and cable.", MACHINE),
-        Option("speed", str, "--speed RPM", "Rated speed of the spindle.", MACHINE),
-        Option("room", str, "--room ØxWIDTH", "Room for the autobalancer, mm.", MACHINE),
-        Option("level", str, "--level DB", "Idle level measured without it.", MACHINE),
-        Option(
-            "handle",
-            list[str],
-            "--handle NAME=x,y,z",
-            "Handle, mm from the centre of mass: x to the spindle, y across, z to the wheel; repeatable.",
-            MACHINE,
-        ),
-        Option("all_keys", bool, "--all-keys", "Write every key with a comment instead."),
-        Option("preset", str, "--preset NAME", "Copy this preset."),
-        Option("scene", bool, "--scene", "Write a scene file for `abu simulate`."),
-        Option("readings", bool, "--readings", "Write a file of readings for `abu balance`."),
-        Option(
-            "method",
-            str,
-            "--method NAME",
-            "With --readings, the method: rig-data, trials, single-plane, four-runs, least-squares or coefficients.",
-        ),
-        Option("recordings", bool, "--recordings", "Write a list of recordings for `abu declare --recordings`."),
-    ),
-    "In a terminal the command asks for what the options do not give, with usual values. The file is for `abu size`.",
-)

@@ -7,11 +7,10 @@ grows from run to run: what is missing for an answer is said, with the next run.
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from abu_calc.cli.command import REQUIRED, SET, Command, Option
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.quantity import as_plain
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.read_machine import Machine, read_document
 from abu_calc.inputs.reading.document import Document, FileReading, open_document
 from abu_calc.inputs.reading.kinds import KINDS
 from abu_calc.inputs.scene import SceneDescription
@@ -102,8 +101,6 @@ def _named(stored: "Stored") -> str:
 
 def validate(files: Sequence[str], set_: Sequence[str] = ()) -> Outcome:
     """Check files of any kind that abu reads; raises InputError with all that is wrong in them."""
-    from abu_calc.inputs.read_machine import read_document
-
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
@@ -134,12 +131,3 @@ def validate(files: Sequence[str], set_: Sequence[str] = ()) -> Outcome:
     if faults:
         raise InputError("\n".join(map(str, faults)))
     return Outcome("validate", {"files": results}, tuple(blocks), notes=tuple(warnings))
-
-
-COMMAND = Command(
-    validate,
-    (
-        Option("files", list[str], "FILE", "Files of any kind that abu reads, or names of presets.", default=REQUIRED),
-        SET,
-    ),
-)

@@ -1,4 +1,7 @@
-"""`abu identify MACHINE|SCENE RECORDING…`: drag, friction and eccentricity from recorded starts."""
+"""`abu identify MACHINE|SCENE RECORDING…`: drag, friction and eccentricity from recorded starts.
+
+`abu measure-plan MACHINE|SCENE`: what to record for it, and what it will tell.
+"""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -44,4 +47,15 @@ COMMAND = Command(
     ),
     "Each recording begins when the machine is switched on and lasts until the balls rest. Its "
     "columns are t_s, vx_mm_per_s (or ax_m_per_s2) and mark, one pulse per revolution.",
+)
+
+MEASURE_PLAN = Command(
+    "identification.plan:measure_plan",
+    (
+        *(FILE, SET),
+        Option("runs", int, "--runs N", "Starts to record.", default=10),
+        Option("noise_um", float, "--noise UM", "Noise of a recorded place over two revolutions, µm.", default=0.3),
+        RUN_UP,
+    ),
+    "Starts of this machine are simulated and identified like recordings: the intervals are those to expect.",
 )
