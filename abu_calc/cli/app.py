@@ -132,7 +132,9 @@ def run(arguments: list[str]) -> int:
     try:
         try:
             alone = command in COMMANDS and command == arguments[0]
-            app = build((command,)) if alone else build(listed=command not in COMMANDS and COMPLETION not in os.environ)
+            # Options of the application end it: a command that is not the first word follows "--".
+            listed = not alone and "--" not in arguments and COMPLETION not in os.environ
+            app = build((command,) if alone else COMMANDS, listed=listed)
             given, name = (arguments[1:], f"abu {command}") if alone else (arguments, "abu")
             status = typer.main.get_command(app).main(given, prog_name=name, standalone_mode=False)
         except Exception:

@@ -245,12 +245,13 @@ def add_command(app: typer.Typer, name: str, command: Command) -> None:
     helped = [Parameter("help_all", Parameter.KEYWORD_ONLY, default=False, annotation=HelpAll)] * bool(command.seldom)
     run.__signature__ = inspect.Signature([*(option.parameter for option in options), *helped])  # type: ignore[attr-defined]
     run.__annotations__ = {each.name: each.annotation for each in run.__signature__.parameters.values()}  # type: ignore[attr-defined]
-    about = BY_NAME[name].about
+    feature = BY_NAME[name]
     app.command(
         name,
         cls=type("Command", (SectionedCommand,), {"seldom": frozenset(command.seldom)}),
-        help=f"{about}\n\n{command.text}",
-        short_help=about,
+        help=f"{feature.about}\n\n{command.text}",
+        short_help=feature.about,
+        rich_help_panel=feature.group,
     )(run)
 
 
