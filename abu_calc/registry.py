@@ -64,11 +64,6 @@ class Feature(NamedTuple):
     computes: bool = True
     group: str = "Design"
 
-    @property
-    def figures(self) -> tuple[Known, ...]:
-        """Figures of its results."""
-        return FIGURES.get(self.name, ())
-
 
 def imported(path: str) -> Any:
     """Object of a path "module:name" below `abu_calc.features`."""
@@ -346,16 +341,12 @@ BY_NAME: Final = {feature.name: feature for feature in FEATURES}
 
 def names_of(command: str) -> str:
     """All figure names of a command, as help texts list them."""
-    return ", ".join(entry.name for entry in BY_NAME[command].figures)
-
-
-def _figures(command: str) -> tuple[Known, ...]:
-    return BY_NAME[command].figures if command in BY_NAME else ()
+    return ", ".join(entry.name for entry in FIGURES.get(command, ()))
 
 
 def known(command: str, name: str) -> Known:
     """Figure that a name stands for; raises InputError for one that no result of the command has."""
-    entry = next((candidate for candidate in _figures(command) if candidate.fits(name)), None)
+    entry = next((candidate for candidate in FIGURES.get(command, ()) if candidate.fits(name)), None)
     if entry is None:
         raise InputError("no such figure", place=Place(key="--figure"), found=name, allowed=names_of(command))
     return entry
@@ -363,7 +354,7 @@ def known(command: str, name: str) -> Known:
 
 def absent(command: str, name: str, there: Iterable[str]) -> InputError:
     """The error about a name that this result does not have, with the reason."""
-    when = next((entry.when for entry in _figures(command) if entry.fits(name)), "")
+    when = next((entry.when for entry in FIGURES.get(command, ()) if entry.fits(name)), "")
     reason = f"; one is there where {when}" if when else ""
     return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")
 

@@ -4,7 +4,7 @@ import pytest
 
 from abu_calc.cli.command import Command
 from abu_calc.foundation.errors import InputError
-from abu_calc.registry import BY_NAME, FEATURES, SHOWN, Feature, Known, Shown, absent, imported, known, named
+from abu_calc.registry import BY_NAME, FEATURES, FIGURES, SHOWN, Feature, Known, Shown, absent, imported, known, named
 from tests.rows import for_each
 
 
@@ -16,15 +16,16 @@ def test_a_feature_declares_its_command(feature: Feature) -> None:
 @for_each(SHOWN.values())
 def test_all_that_shows_a_result_is_there(shown: Shown) -> None:
     result, screen = imported(shown.result), shown.screen or f"{shown.view}_screen"
-    assert isinstance(result, type) and bool(shown.extras) == bool(BY_NAME[result.command].figures)
+    assert isinstance(result, type) and bool(shown.extras) == (result.command in FIGURES)
     makers = (f"{shown.view}_blocks", screen, shown.extras, shown.note, shown.drawings, shown.solids)
     assert all(callable(imported(path)) for path in makers if path)
 
 
 def test_names_of_features_and_of_their_figures_differ() -> None:
     assert len(BY_NAME) == len(FEATURES)
-    for feature in FEATURES:
-        assert len({entry.name for entry in feature.figures}) == len(feature.figures)
+    assert BY_NAME.keys() >= FIGURES.keys()
+    for figures in FIGURES.values():
+        assert len({entry.name for entry in figures}) == len(figures)
 
 
 @pytest.mark.parametrize(("pattern", "name", "fits"), [
