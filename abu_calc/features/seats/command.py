@@ -151,19 +151,17 @@ def band(key: str, text: str) -> list[float]:
 
 
 def _judged(study: Study, machine: str | None = None, set_: Sequence[str] = (), **bearing: object) -> Answer:
-    return study(_of_options(bearing, set_) if machine is None else _of_file(machine, set_, bearing))
-
-
-def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":
     from abu_calc.inputs.read_machine import read_machine
 
-    if given:
+    if machine is None:
+        return study(_of_options(bearing, set_))
+    if bearing:
         raise InputError(
             "a file and options of one bearing exclude each other",
-            found=NAMES[next(iter(given))],
+            found=NAMES[next(iter(bearing))],
             remedy="Remove the file or the options.",
         )
-    return read_machine(machine, overrides)
+    return study(read_machine(machine, set_))
 
 
 def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine":
