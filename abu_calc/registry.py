@@ -33,7 +33,7 @@ class Known(NamedTuple):
         return re.fullmatch(pattern, name) is not None
 
 
-class Shown(NamedTuple):
+class Views(NamedTuple):
     """One type of result, and the functions that show it; all paths "module:name" are below `abu_calc.features`.
 
     `view`: beginning of the names of two functions, …_blocks for the whole report, and …_screen for one screen, which
@@ -55,7 +55,7 @@ class Feature(NamedTuple):
 
     `name`: of the command; `about`: its line of `abu --help`; `command`: its declaration, as "module:name";
     `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in
-    `FIGURES`, the views of its results in `SHOWN`.
+    `FIGURES`, the views of its results in `VIEWS`.
     """
 
     name: str
@@ -157,10 +157,10 @@ FIGURES: Final[Mapping[str, tuple[Known, ...]]] = {
 }
 """Figures of each command; one without a condition stands in every result of its command."""
 
-SHOWN: Final[Mapping[str, Shown]] = {
-    shown.result: shown
-    for shown in (
-        Shown(
+VIEWS: Final[Mapping[str, Views]] = {
+    views.result: views
+    for views in (
+        Views(
             "design.study:SizeResult",
             "design.view:size",
             "design.figures:size_extras",
@@ -169,66 +169,66 @@ SHOWN: Final[Mapping[str, Shown]] = {
             drawings="design.sheet:size_sheets",
             solids="design.solids:size_solids",
         ),
-        Shown(
+        Views(
             "two_races.records:TwoRaceSizeResult",
             "two_races.view:two_race",
             "two_races.figures:two_race_extras",
             drawings="two_races.view:two_race_sheets",
             solids="two_races.drawing:both_solids",
         ),
-        Shown(
+        Views(
             "seats.study:CheckFitResult",
             "seats.view:check_fit",
             "seats.figures:check_fit_extras",
             note="seats.figures:seat_note",
             drawings="seats.figures:seat_sheets",
         ),
-        Shown("simulate.study:SimulateResult", "simulate.view:simulate", "simulate.view:simulate_extras"),
-        Shown("stability.study:StabilityResult", "stability.view:stability", "stability.view:stability_extras"),
-        Shown("grinding.study:GrindingResult", "grinding.view:grinding", "grinding.figures:grinding_extras"),
-        Shown(
+        Views("simulate.study:SimulateResult", "simulate.view:simulate", "simulate.view:simulate_extras"),
+        Views("stability.study:StabilityResult", "stability.view:stability", "stability.view:stability_extras"),
+        Views("grinding.study:GrindingResult", "grinding.view:grinding", "grinding.figures:grinding_extras"),
+        Views(
             "two_races.work_records:TwoRaceGrindingResult",
             "two_races.work_view:work",
             "two_races.work_view:work_extras",
         ),
-        Shown(
+        Views(
             "balancing.study:BalanceResult",
             "balancing.view:balance",
             "balancing.figures:balance_extras",
             note="balancing.figures:balance_note",
         ),
-        Shown("effects.study:EffectsResult", "effects.view:effects"),
-        Shown("effects.study:KnownEffectsResult", "effects.view:known", screen="effects.view:known_blocks"),
-        Shown("accuracy.study:AccuracyResult", "accuracy.view:accuracy", "accuracy.view:accuracy_extras"),
-        Shown("sweep.result:SweepResult", "sweep.view:sweep", "sweep.figures:sweep_extras"),
-        Shown("optimise.result:OptimiseResult", "optimise.view:optimise", "optimise.view:optimise_extras"),
-        Shown("levels.study:LevelsResult", "levels.view:levels"),
-        Shown(
+        Views("effects.study:EffectsResult", "effects.view:effects"),
+        Views("effects.study:KnownEffectsResult", "effects.view:known", screen="effects.view:known_blocks"),
+        Views("accuracy.study:AccuracyResult", "accuracy.view:accuracy", "accuracy.view:accuracy_extras"),
+        Views("sweep.result:SweepResult", "sweep.view:sweep", "sweep.figures:sweep_extras"),
+        Views("optimise.result:OptimiseResult", "optimise.view:optimise", "optimise.view:optimise_extras"),
+        Views("levels.study:LevelsResult", "levels.view:levels"),
+        Views(
             "identification.results:IdentifyResult",
             "identification.view:identify",
             "identification.view:identify_extras",
         ),
-        Shown("identification.plan:MeasurePlanResult", "identification.view:plan"),
-        Shown("declare.study:DeclareResult", "declare.view:declare", "declare.view:declare_extras"),
-        Shown(
+        Views("identification.plan:MeasurePlanResult", "identification.view:plan"),
+        Views("declare.study:DeclareResult", "declare.view:declare", "declare.view:declare_extras"),
+        Views(
             "declare.measured:MeasuredDeclareResult",
             "declare.measured_view:measured",
             "declare.measured_view:measured_extras",
         ),
-        Shown("factory.study:FactoryResult", "factory.view:factory"),
-        Shown(
+        Views("factory.study:FactoryResult", "factory.view:factory"),
+        Views(
             "compare.study:CompareResult",
             "compare.view:compare",
             "compare.view:compare_extras",
             screen="compare.screen:compare_screen",
         ),
-        Shown(
+        Views(
             "compare.measured:MeasuredCompareResult",
             "compare.measured_view:measured",
             "compare.measured_view:measured_extras",
             screen="compare.measured_view:measured_blocks",
         ),
-        Shown("verify.study:VerifyResult", "verify.view:verify"),
+        Views("verify.study:VerifyResult", "verify.view:verify"),
     )
 }
 """Views of each type of result."""
@@ -359,17 +359,17 @@ def absent(command: str, name: str, there: Iterable[str]) -> InputError:
     return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")
 
 
-def _shown(result: "Result") -> Shown | None:
+def _views(result: "Result") -> Views | None:
     kind = type(result)
-    return SHOWN.get(f"{kind.__module__.removeprefix('abu_calc.features.')}:{kind.__qualname__}")
+    return VIEWS.get(f"{kind.__module__.removeprefix('abu_calc.features.')}:{kind.__qualname__}")
 
 
 def extras_of(result: "Result") -> "Extras":
     """Figures of a result and the calculation note of its page; none if its feature makes none."""
     from abu_calc.reporting.charts.figure import Extras
 
-    shown = _shown(result)
-    extras: Extras = imported(shown.extras)(result) if shown and shown.extras else Extras()
+    views = _views(result)
+    extras: Extras = imported(views.extras)(result) if views and views.extras else Extras()
     return extras
 
 
@@ -377,21 +377,21 @@ def outcome_of(result: "Result", *, explain: bool = False) -> "Outcome":
     """A result as its command shows and writes it, figures of a page included; `explain`: with every formula."""
     from abu_calc.reporting.outcome import Outcome
 
-    shown = _shown(result)
-    if shown is None:
-        raise TypeError(f"{type(result).__name__} stands not in SHOWN")
+    views = _views(result)
+    if views is None:
+        raise TypeError(f"{type(result).__name__} stands not in VIEWS")
 
     def made(path: str) -> "Callable[[], Any] | None":
         return (lambda: imported(path)(result)) if path else None
 
-    noted = explain and shown.note
+    noted = explain and views.note
     return Outcome(
         result.command,
         result,
-        lambda: (*imported(f"{shown.view}_blocks")(result), *(imported(shown.note)(result) if noted else ())),
-        short=None if noted else made(shown.screen or f"{shown.view}_screen"),
-        drawings=made(shown.drawings),
-        solids=made(shown.solids),
+        lambda: (*imported(f"{views.view}_blocks")(result), *(imported(views.note)(result) if noted else ())),
+        short=None if noted else made(views.screen or f"{views.view}_screen"),
+        drawings=made(views.drawings),
+        solids=made(views.solids),
         settings=(("command", result.command),),
         extras=lambda: extras_of(result),
     )

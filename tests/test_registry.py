@@ -4,7 +4,7 @@ import pytest
 
 from abu_calc.cli.command import Command
 from abu_calc.foundation.errors import InputError
-from abu_calc.registry import BY_NAME, FEATURES, FIGURES, SHOWN, Feature, Known, Shown, absent, imported, known, named
+from abu_calc.registry import BY_NAME, FEATURES, FIGURES, VIEWS, Feature, Known, Views, absent, imported, known, named
 from tests.rows import for_each
 
 
@@ -13,11 +13,11 @@ def test_a_feature_declares_its_command(feature: Feature) -> None:
     assert isinstance(imported(feature.command), Command)
 
 
-@for_each(SHOWN.values())
-def test_all_that_shows_a_result_is_there(shown: Shown) -> None:
-    result, screen = imported(shown.result), shown.screen or f"{shown.view}_screen"
-    assert isinstance(result, type) and bool(shown.extras) == (result.command in FIGURES)
-    makers = (f"{shown.view}_blocks", screen, shown.extras, shown.note, shown.drawings, shown.solids)
+@for_each(VIEWS.values())
+def test_all_that_shows_a_result_is_there(views: Views) -> None:
+    result, screen = imported(views.result), views.screen or f"{views.view}_screen"
+    assert isinstance(result, type) and bool(views.extras) == (result.command in FIGURES)
+    makers = (f"{views.view}_blocks", screen, views.extras, views.note, views.drawings, views.solids)
     assert all(callable(imported(path)) for path in makers if path)
 
 

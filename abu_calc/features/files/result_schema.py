@@ -7,12 +7,12 @@ from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, 
 from abu_calc.foundation.checks import Check, Status
 from abu_calc.foundation.quantity import Record, described, hints, quantities
 from abu_calc.inputs.reading.schema import HOME
-from abu_calc.registry import SHOWN, imported
+from abu_calc.registry import VIEWS, imported
 from abu_calc.simulation.result import Result
 
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
-RESULTS: Final[tuple[type[Result], ...]] = tuple(map(imported, SHOWN))
+RESULTS: Final[tuple[type[Result], ...]] = tuple(map(imported, VIEWS))
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
 
