@@ -54,8 +54,8 @@ class Option(NamedTuple):
 
     `key`: the argument of the study; `usage`: the names with their dashes and what stands for the value, of an argument
     by place this alone; `default`: a value that help shows, `REQUIRED`, or None for one that only the study knows;
-    `reads`: function from the name of a file, and the entries that --set replaces, to what the study takes; `writes`:
-    the file that the value names.
+    `converts`: function from the text that is given to the argument; `reads`: function from the name of a file, and the
+    entries that --set replaces, to what the study takes first; `writes`: the file that the value names.
     """
 
     key: str
@@ -64,7 +64,8 @@ class Option(NamedTuple):
     text: str
     panel: str | None = None
     default: Any = None
-    reads: "Callable[[str, Sequence[str]], FileReading] | None" = None
+    converts: Callable[[Any], Any] | None = None
+    reads: Callable[[Any, Sequence[str]], Any] | None = None
     writes: FurtherFile | None = None
 
     @property
@@ -128,7 +129,7 @@ class Command(NamedTuple):
         takes = inspect.signature(study).parameters | inspect.signature(self.around or study).parameters
         own = {option.key: option for option in self.options}
         arguments = {
-            key: given[key]
+            key: option.converts(given[key]) if option.converts else given[key]
             for key, option in own.items()
             if given[key] not in (None, option.usual) and (key in takes or not option.writes)
         }
@@ -157,11 +158,12 @@ def _any(file: str, overrides: Sequence[str]) -> "FileReading":
 SCENES: Final = ("idle", "grinding", "run-up", "swing-arm-idle", "swing-arm-cutting")
 """Scenes of a machine; written out here so that `--help` loads no numerics."""
 
-ANY_FILE: Final = "Machine file, scene file or name of a preset."
-NAMED: Final = Option("machine", str, "MACHINE", "Machine file or name of a preset.")
-"""A machine that need not be named, and is read by the command itself."""
-MACHINE: Final = NAMED._replace(default=REQUIRED, reads=_machine)
-FILE: Final = Option("file", str, "MACHINE|SCENE", ANY_FILE, default=REQUIRED, reads=_any)
+MACHINE: Final = Option(
+    "machine", str, "MACHINE", "Machine file or name of a preset.", default=REQUIRED, reads=_machine
+)
+FILE: Final = Option(
+    "file", str, "MACHINE|SCENE", "Machine file, scene file or name of a preset.", default=REQUIRED, reads=_any
+)
 SET: Final = Option("set_", list[str], "--set TABLE.KEY=VALUE", "Replace one entry by a TOML value; repeatable.")
 SCENE: Final = Option("scene", str, "--scene NAME", f"Scene of a machine: {', '.join(SCENES)}.")
 START: Final = Option(

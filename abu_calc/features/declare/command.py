@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, Final
 
-from abu_calc.cli.command import NAMED, SET, Answer, Command, Option, Study
+from abu_calc.cli.command import MACHINE, SET, Answer, Command, Option, Study
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress
 
@@ -13,7 +13,7 @@ MEASURED: Final = "Measured runs"
 
 def _tested(
     study: Study,
-    machine: str | None = None,
+    machine: object = None,
     set_: Sequence[str] = (),
     recordings: Sequence[str] = (),
     *,
@@ -42,15 +42,13 @@ def _tested(
     if sensitivity or automatic_balancing:
         key = "--sensitivity" if sensitivity else "--automatic-balancing"
         raise InputError("for recordings only", place=Place(key=key), remedy="Leave it out, or give --recordings FILE.")
-    from abu_calc.inputs.read_machine import read_machine
-
-    return study(read_machine(machine, set_), progress=progress, **given)
+    return study(machine, progress=progress, **given)
 
 
 COMMAND = Command(
     "declare.study:declare",
     (
-        *(NAMED, SET),
+        *(MACHINE._replace(default=None), SET),
         Option("starts", int, "--starts N", "Starts of the balls to simulate.", default=10_000),
         Option(
             "recordings",

@@ -7,12 +7,11 @@ from abu_calc.cli.command import ACCURACY, FILE, SCENE, SET, WITH, WITHOUT, Answ
 from abu_calc.foundation.errors import InputError
 
 
-def _listed(study: Study, file: str | None = None, set_: Sequence[str] = (), **given: Any) -> Answer:
+def _listed(study: Study, source: object = None, set_: Sequence[str] = (), **given: Any) -> Answer:
     from abu_calc.features.effects.study import known_effects
-    from abu_calc.inputs.scene import read_any
 
-    if file is not None:
-        return study(read_any(file, set_), **given)
+    if source is not None:
+        return study(source, **given)
     if set_ or given.keys() - {"accuracy"}:
         raise InputError("these options need a file", remedy="Name a machine or a scene.")
     return known_effects()
@@ -20,7 +19,7 @@ def _listed(study: Study, file: str | None = None, set_: Sequence[str] = (), **g
 
 COMMAND = Command(
     "effects.study:effects",
-    (FILE._replace(default=None, reads=None), SET, SCENE, ACCURACY, WITH, WITHOUT),
+    (FILE._replace(default=None), SET, SCENE, ACCURACY, WITH, WITHOUT),
     "Each effect has an estimated influence on the result.",
     around=_listed,
 )

@@ -1,15 +1,18 @@
 """`abu factory [FILE …]`: measured levels of machines with autobalancers, beside predictions."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
-from abu_calc.cli.command import Answer, Command, Option, Study
+from abu_calc.cli.command import Command, Option
+
+if TYPE_CHECKING:
+    from abu_calc.inputs.read_machine import Machine
 
 
-def _read(study: Study, files: Sequence[str] = (), **given: Any) -> Answer:
+def _machines(files: Sequence[str], _: Sequence[str]) -> "list[Machine]":
     from abu_calc.inputs.read_machine import read
 
-    return study([read(file) for file in files], **given)
+    return [read(file) for file in files]
 
 
 COMMAND = Command(
@@ -20,8 +23,8 @@ COMMAND = Command(
             list[str],
             "[MACHINE …]",
             "Machine files with tables [[measured]]. Without them: the presets that a factory measured.",
+            reads=_machines,
         ),
     ),
-    around=_read,
     simulates=True,
 )

@@ -1,34 +1,32 @@
 """`abu levels FILE.csv|.wav`, or MACHINE|SCENE: octave levels, weighted acceleration, daily exposure."""
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Final
 
-from abu_calc.cli.command import ACCURACY, DURATION, REQUIRED, SET, START, Answer, Command, Option, Study
+from abu_calc.cli.command import ACCURACY, DURATION, REQUIRED, SET, START, Command, Option
 from abu_calc.foundation.errors import InputError, Place
 
 RECORDING: Final = "Recording"
 """Panel of the options about a recorded signal."""
 
 
-def _heard(
-    study: Study, source: str, set_: Sequence[str] = (), channels: str = "", handles: Sequence[str] = (), **given: Any
-) -> Answer:
+def _signal(source: str, overrides: Sequence[str]) -> object:
+    """Name of a recording, or the machine or scene of a file."""
     from abu_calc.inputs.recording_files import is_recording
     from abu_calc.inputs.scene import read_any
 
     recorded = is_recording(source)
-    if recorded and set_:
+    if recorded and overrides:
         raise InputError("for machines and scenes only", place=Place(key="--set"), remedy="Leave it out.")
-    signal = source if recorded else read_any(source, set_)
-    return study(signal, channels=_channels(channels), handles=_handles(handles), **given)
+    return source if recorded else read_any(source, overrides)
 
 
 def _channels(text: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
-def _handles(given: Sequence[str]) -> dict[str, tuple[str, ...]] | None:
-    """Channels by handle, of texts such as "front=1,2,3"; None without any."""
+def _handles(given: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """Channels by handle, of texts such as "front=1,2,3"."""
     handles: dict[str, tuple[str, ...]] = {}
     for text in given:
         name, equals, channels = text.partition("=")
@@ -40,7 +38,7 @@ def _handles(given: Sequence[str]) -> dict[str, tuple[str, ...]] | None:
                 remedy="--handle front=1,2,3 --handle rear=4,5,6",
             )
         handles[name.strip()] = _channels(channels)
-    return handles or None
+    return handles
 
 
 COMMAND = Command(
@@ -52,6 +50,7 @@ COMMAND = Command(
             "FILE.csv|FILE.wav|MACHINE|SCENE",
             "Recorded signal, or machine or scene to simulate.",
             default=REQUIRED,
+            reads=_signal,
         ),
         SET,
         Option(
@@ -68,7 +67,7 @@ COMMAND = Command(
             "SI value (m/s², m/s, m) of one unit of the file; for WAV, of full scale.",
             RECORDING,
         ),
-        Option("channels", str, "--channels 1,2|NAMES", "Columns or channels to use.", RECORDING),
+        Option("channels", str, "--channels 1,2|NAMES", "Columns or channels to use.", RECORDING, converts=_channels),
         Option("from_s", float, "--from S", "Leave the first seconds out of the means.", RECORDING),
         Option("rate_hz", float, "--rate HZ", "Samples a second of a file without times.", RECORDING),
         Option("time", str, "--time COLUMN[:UNIT]", "Column of times; unit s, ms, us, ns or min.", RECORDING),
@@ -87,13 +86,19 @@ COMMAND = Command(
             "Voltage at full scale of a WAV file, with --sensitivity.",
             RECORDING,
         ),
-        Option("handles", list[str], "--handle NAME=1,2,3", "Columns or channels at a handle. Repeatable.", RECORDING),
+        Option(
+            "handles",
+            list[str],
+            "--handle NAME=1,2,3",
+            "Columns or channels at a handle. Repeatable.",
+            RECORDING,
+            converts=_handles,
+        ),
         Option("third_octaves", bool, "--third-octaves", "Calculate third octaves beside octaves."),
         Option("minutes", float, "--minutes MIN", "Minutes of work a day, for A(8)."),
         Option("scene", str, "--scene NAME", "Scene of a machine: idle (default) or grinding."),
         *(START, ACCURACY, DURATION),
     ),
     "Levels are compared with their limits.",
-    around=_heard,
     simulates=True,
 )

@@ -8,7 +8,7 @@ import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.cli.command import EXPLAIN, NAMED, SET, Answer, Command, Option, Study
+from abu_calc.cli.command import EXPLAIN, MACHINE, SET, Answer, Command, Option, Study
 from abu_calc.foundation.errors import InputError, Place
 
 if TYPE_CHECKING:
@@ -150,9 +150,7 @@ def band(key: str, text: str) -> list[float]:
     return [least, most]
 
 
-def _judged(study: Study, machine: str | None = None, set_: Sequence[str] = (), **bearing: object) -> Answer:
-    from abu_calc.inputs.read_machine import read_machine
-
+def _judged(study: Study, machine: object = None, set_: Sequence[str] = (), **bearing: object) -> Answer:
     if machine is None:
         return study(_of_options(bearing, set_))
     if bearing:
@@ -161,7 +159,7 @@ def _judged(study: Study, machine: str | None = None, set_: Sequence[str] = (), 
             found=NAMES[next(iter(bearing))],
             remedy="Remove the file or the options.",
         )
-    return study(read_machine(machine, set_))
+    return study(machine)
 
 
 def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine":
@@ -180,7 +178,7 @@ def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine"
 
 COMMAND = Command(
     "seats.study:check_fit",
-    (NAMED, SET, EXPLAIN._replace(text="Print the report with every formula."), *OPTIONS),
+    (MACHINE._replace(default=None), SET, EXPLAIN._replace(text="Print the report with every formula."), *OPTIONS),
     "Specify a machine file, or one bearing by options. The checks cover interference, creep, stress and clearance.",
     around=_judged,
     drawn=(".svg",),

@@ -1,15 +1,11 @@
 """`abu stability MACHINE|SCENE`: is the balanced state stable, and at which speeds does that change?"""
 
-from typing import Any, Final
+from typing import Final
 
-from abu_calc.cli.command import FILE, SET, Answer, Command, Option, Study
+from abu_calc.cli.command import FILE, SET, Command, Option
 from abu_calc.foundation.errors import InputError, Place
 
 SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
-
-
-def _over_speeds(study: Study, source: object, speeds_rpm: str | None = None, **given: Any) -> Answer:
-    return study(source, speeds_rpm=None if speeds_rpm is None else _two(speeds_rpm), **given)
 
 
 def _two(text: str) -> tuple[float, float]:
@@ -32,7 +28,11 @@ COMMAND = Command(
         *(FILE, SET),
         Option("scene", str, "--scene NAME", f"Scene of a machine: {', '.join(SCENES)}; default {SCENES[0]}."),
         Option(
-            "speeds_rpm", str, "--speeds LOW:HIGH", "Range of speeds, rpm. Find every speed at which stability changes."
+            "speeds_rpm",
+            str,
+            "--speeds LOW:HIGH",
+            "Range of speeds, rpm. Find every speed at which stability changes.",
+            converts=_two,
         ),
         Option(
             "arrangement",
@@ -50,6 +50,5 @@ COMMAND = Command(
         Option("only", str, "--only START", "Follow this one start of --attractors: drawn-7."),
     ),
     "The report gives eigenvalues or Floquet multipliers, the growth rate and the stability boundaries.",
-    around=_over_speeds,
     simulates=True,
 )
