@@ -259,11 +259,12 @@ def add_command(app: typer.Typer, name: str, command: Command) -> None:
 
 @contextmanager
 def _naming_options(options: Iterable[Option]) -> Iterator[None]:
-    """Errors about an argument name its option; those about entries of a file stay as they are."""
+    """Errors about an argument, or a key within it, name its option; those about entries of a file stay as they are."""
     try:
         yield
     except InputError as error:
         names = {option.key: option.name for option in options if option.usage.startswith("-")}
-        if error.place.file is not None or error.place.key not in names:
+        argument, *within = (error.place.key or "").split(" ", 1)
+        if error.place.file is not None or argument not in names:
             raise
-        raise error.at(Place(key=names[error.place.key])) from None
+        raise error.at(Place(key=" ".join((names[argument], *within)))) from None

@@ -1,7 +1,6 @@
 """`abu optimise MACHINE [MACHINE …]`: the cheapest design of which a wanted share meets the limits."""
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -10,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Final
 from abu_calc.cli.command import REQUIRED, SET, Answer, Command, Option
 from abu_calc.cli.output import Delivery
 from abu_calc.features.sweep.command import CLUSTER, CLUSTER_WAIT, EACH_ACCURACY, RESUME, STORE, WORKERS, computed
-from abu_calc.foundation.errors import InputError, Place
 from abu_calc.registry import outcome_of
 from abu_calc.reporting.write import Target, check_target
 
@@ -37,8 +35,7 @@ def _optimised(
     for file in files:
         check_target(file, force=how.force, suffixes=(".toml",), option="--write")
     read = cache(lambda: [read_machine(machine, set_) for machine in machines])
-    with _naming():
-        result = computed(study, read, how=how, **given)
+    result = computed(study, read, how=how, **given)
     return replace(outcome_of(result), further=tuple(_written(files, read(), result)) if files else ())
 
 
@@ -56,18 +53,6 @@ def _written(files: Sequence[Path], machines: "Sequence[Machine]", result: "Opti
     each = [values] if len(files) == 1 else list(values.values())
     for file, machine, its in zip(files, machines, each, strict=True):
         yield Target(file, written_text(machine, its, result))
-
-
-@contextmanager
-def _naming() -> Iterator[None]:
-    """Errors about a choice name the option."""
-    try:
-        yield
-    except InputError as error:
-        key = error.place.key or ""
-        if error.place.file is not None or not key.startswith("choose"):
-            raise
-        raise error.at(Place(key=f"--{key}")) from None
 
 
 COMMAND = Command(

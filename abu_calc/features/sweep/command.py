@@ -12,7 +12,7 @@ from typing import Any, Final, TypeVar
 from abu_calc.cli.command import ACCURACY, FILE, SET, Answer, Command, Option, Study
 from abu_calc.cli.output import Delivery
 from abu_calc.foundation.call_files import enter
-from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place, StoppedError
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, StoppedError
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 
 Asked = TypeVar("Asked")
@@ -74,14 +74,9 @@ def _command() -> str:
 
 @contextmanager
 def _wording(store: Path | None) -> Iterator[None]:
-    """Errors name the option; who interrupts is told how to go on."""
+    """Who interrupts, or meets an error, is told how to go on."""
     try:
         yield
-    except InputError as error:
-        key = error.place.key or ""
-        if error.place.file is not None or not key.startswith("vary "):
-            raise
-        raise error.at(Place(key=f"--{key}")) from None
     except NotTrustworthyError as error:
         kept = getattr(error, "__notes__", ())
         if store is None or not kept:
