@@ -98,14 +98,14 @@ class Option(NamedTuple):
 class Command(NamedTuple):
     """A study with the options that give its arguments.
 
-    `study`: its path below `abu_calc.features`, or a function of the command's own; `options` in the order of help;
-    `text`: what help says below the command's line; `around`: function that is given the study and calls it;
-    `drawn`: suffixes of its drawing's files; `formats`: those of --output, for commands whose result is a text of its
-    own; `simulates`: whether the command has the option --patience; `seldom`: panels and options that `--help` lists by
-    name and `--help-all` explains.
+    `study`: its path "module:name" below `abu_calc.features`; `options` in the order of help; `text`: what help says
+    below the command's line; `around`: function that is given the study and calls it; `drawn`: suffixes of its
+    drawing's files; `formats`: those of --output, for commands whose result is a text of its own; `simulates`: whether
+    the command has the option --patience; `seldom`: panels and options that `--help` lists by name and `--help-all`
+    explains.
     """
 
-    study: str | Callable[..., Answer]
+    study: str
     options: tuple[Option, ...]
     text: str = ""
     around: Callable[..., Answer] | None = None
@@ -124,7 +124,7 @@ class Command(NamedTuple):
         A study that takes them is also told `how` the outcome is delivered, how many `workers` there may be, and a
         function to tell its `progress`.
         """
-        study = imported(self.study) if isinstance(self.study, str) else self.study
+        study = imported(self.study)
         run = partial(self.around, study) if self.around else study
         takes = inspect.signature(study).parameters | inspect.signature(self.around or study).parameters
         own = {option.key: option for option in self.options}

@@ -170,7 +170,7 @@ def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
 def test_options_are_arguments_of_their_study(feature: Feature) -> None:
     """Each by its name; and a default that help shows is that of the study, to which it is left."""
     command: Command = imported(feature.command)
-    study = imported(command.study) if isinstance(command.study, str) else command.study
+    study = imported(command.study)
     takes = inspect.signature(study).parameters | inspect.signature(command.around or study).parameters
     if "store" in takes:
         takes |= inspect.signature(computed).parameters

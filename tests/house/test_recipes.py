@@ -73,7 +73,10 @@ def test_a_command_is_a_module_and_a_line(monkeypatch: pytest.MonkeyPatch) -> No
     def greet(name: str) -> Outcome:
         return Outcome("greet", {"greeted": name}, ())
 
-    module.__dict__["COMMAND"] = Command(greet, (Option("name", str, "NAME", "Who is greeted.", default=REQUIRED),))
+    module.__dict__["greet"] = greet
+    module.__dict__["COMMAND"] = Command(
+        "greet:greet", (Option("name", str, "NAME", "Who is greeted.", default=REQUIRED),)
+    )
     monkeypatch.setitem(sys.modules, "abu_calc.features.greet", module)
     monkeypatch.setattr(app, "COMMANDS", (*app.COMMANDS, "greet"))
     monkeypatch.setitem(registry.BY_NAME, "greet", registry.Feature("greet", "Greet.", "greet:COMMAND"))
