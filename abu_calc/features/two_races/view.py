@@ -13,10 +13,8 @@ from abu_calc.features.design.screen import (
     verdict_paragraph,
 )
 from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
-from abu_calc.registry import imported
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
 from abu_calc.reporting.drawings.shapes import Drawing
-from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.parts import (
     check_blocks,
     contents,
@@ -32,15 +30,7 @@ MEANT: Final = (
 )
 
 
-def two_race_outcome(result: TwoRaceSizeResult) -> Outcome:
-    """Outcome of the command: screen and whole report."""
-    return Outcome.of(
-        result, lambda: two_race_blocks(result), lambda: two_race_screen(result), lambda: _drawings(result),
-        lambda: imported("two_races.drawing:both_solids")(result),
-    )  # fmt: skip
-
-
-def _drawings(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
+def two_race_sheets(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
     """The section of both autobalancers."""
     from abu_calc.features.two_races.drawing import both_sections
 

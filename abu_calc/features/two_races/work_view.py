@@ -5,14 +5,8 @@ from abu_calc.features.two_races.work_records import TwoRaceGrindingResult, Whee
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, db
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.parts import check_blocks, facts, file_of, notices, provenance_blocks
 from abu_calc.reporting.screen import one_screen, verdict_line
-
-
-def work_outcome(result: TwoRaceGrindingResult) -> Outcome:
-    """Outcome of the command: screen and whole report."""
-    return Outcome.of(result, lambda: work_blocks(result), lambda: work_screen(result))
 
 
 def work_screen(result: TwoRaceGrindingResult) -> tuple[Block, ...]:
