@@ -156,7 +156,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "size",
         "design.command",
-        ("design.study:SizeResult", "two_races.records:TwoRaceSizeResult"),
+        ("design.study:SizeResult", "spindle.records:SpindleSizeResult"),
         "design.figures:size_extras",
     ),
     Feature(
@@ -179,7 +179,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         "grinding",
         "grinding.command",
-        ("grinding.study:GrindingResult", "two_races.work_records:TwoRaceGrindingResult"),
+        ("grinding.study:GrindingResult", "spindle.records:SpindleGrindingResult"),
         "grinding.figures:grinding_extras",
         group="Simulate",
     ),

@@ -35,7 +35,7 @@ from abu_calc.simulation.residual_criteria import (
     slip,
 )
 from abu_calc.simulation.response import Response, needed_times
-from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
+from abu_calc.simulation.scene_of_design import guided, idle_scene
 from abu_calc.simulation.start_cases import Member, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.places import level_at_loudest
@@ -44,7 +44,7 @@ from abu_calc.sizing.places import level_at_loudest
 def hanging_bounds(design: Design) -> HangingBounds:
     """Drags [1/s] above which no balls of a design hang at any speed of its range; `doubt(drag)` asks of one."""
     horizontal = design.case.table.machine.spindle_axis == "horizontal"
-    return bounds_of(idle_scene(design), contact_half_angle(design), design.case.speed_range, horizontal=horizontal)
+    return bounds_of(idle_scene(design), design.autobalancer.half_angle, design.case.speed_range, horizontal=horizontal)
 
 
 TOLERANCE, TIGHTER = 2e-4, 0.1

@@ -6,8 +6,7 @@ import pytest
 
 import abu_calc
 import abu_calc.sizing
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.spindle.case import SpindleDesign, choose_all, read_case
 from abu_calc.features.verify.study import compare, recompute
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read, read_machine
@@ -102,10 +101,10 @@ def test_requirements_that_are_missed_are_named(entries: dict[str, object], name
     assert name in missed(size(with_entries(table, {**chosen, **entries})))
 
 
-def both(preset: str) -> TwoRaceDesign:
-    tables = read_machine(preset).two_races
+def both(preset: str) -> SpindleDesign:
+    tables = read_machine(preset).spindle
     assert tables is not None
-    return choose_both(read_case(tables))
+    return choose_all(read_case(tables))
 
 
 @pytest.mark.slow

@@ -38,7 +38,7 @@ def size_extras(result: SizeResult) -> Extras:
     A machine with two races has figures of its own.
     """
     if not isinstance(result, SizeResult):
-        two: Extras = imported("two_races.figures:two_race_extras")(result)
+        two: Extras = imported("spindle.figures:spindle_extras")(result)
         return two
     figures = (
         *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),

@@ -36,7 +36,7 @@ def outcome_of(result: "GrindingResult") -> Outcome:
     from abu_calc.features.grinding.view import grinding_blocks, grinding_screen
 
     if not isinstance(result, GrindingResult):
-        outcome: Outcome = imported("two_races.work_view:work_outcome")(result)
+        outcome: Outcome = imported("spindle.work_view:work_outcome")(result)
         return outcome
     return Outcome.of(result, lambda: grinding_blocks(result), lambda: grinding_screen(result))
 

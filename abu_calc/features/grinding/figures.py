@@ -25,7 +25,7 @@ Course = list[tuple[float, float | None]]
 def grinding_extras(result: GrindingResult) -> Extras:
     """Figures, and the calculation note."""
     if not isinstance(result, GrindingResult):
-        two: Extras = imported("two_races.work_view:work_extras")(result)
+        two: Extras = imported("spindle.work_view:work_extras")(result)
         return two
     figures = (
         *_levels(result), *_wear(result), *_orbits(result), *_hodograph(result), *_response(result), *_force(result),

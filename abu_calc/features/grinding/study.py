@@ -55,7 +55,7 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import wrapped_deg
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.two_races import TwoRaceFile
+from abu_calc.inputs.spindle import TwoRaceFile
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
@@ -198,12 +198,12 @@ def grinding(
 ) -> GrindingResult:
     """The machine of a file at its work, by closed forms and by simulation to `accuracy`.
 
-    A machine with two races gets a `TwoRaceGrindingResult`: each wheel at work in turn, or only `wheel`, from 1.
+    A machine with several races gets a result of its own: each wheel at work in turn, or only `wheel`, from 1.
     Raises InputError for a file without [grinding], and with file, line, key and remedy for what is wrong in it.
     """
     ACCURACY.check(accuracy)
-    if machine.two_races is not None:
-        two: GrindingResult = imported("two_races.work:grind_two_races")(machine, progress, wheel)
+    if machine.spindle is not None:
+        two: GrindingResult = imported("spindle.work:grind_spindle")(machine, progress, wheel)
         return two
     if wheel is not None:
         raise InputError(
@@ -321,7 +321,7 @@ def _printed(work: Work) -> Printed | None:
     mass, ratio = case.body.effective_mass(autobalancer.mass), autobalancer.requirement.plane_ratio
     natural = natural_frequency(case.suspension, 0, mass)
     printed = ratio * published_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
-    share = abs(printed) / (2 * autobalancer.ball_mass * autobalancer.pitch_radius)
+    share = abs(printed) / (2 * autobalancer.ball_moment)
     half = math.acos(share) if autobalancer.ball_count == 2 and share <= 1 else None
     place = cmath.phase(printed)
     return Printed(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from abu_calc.formulas.two_races import (
+from abu_calc.formulas.tilting_rotor import (
     Bearing,
     PlacedImbalance,
     TiltingRotor,
