@@ -6,7 +6,7 @@ import pytest
 
 import abu_calc
 import abu_calc.sizing
-from abu_calc.features.spindle.case import SpindleDesign, choose_all, read_case
+from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.verify.study import compare, recompute
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read, read_machine
@@ -102,9 +102,7 @@ def test_requirements_that_are_missed_are_named(entries: dict[str, object], name
 
 
 def both(preset: str) -> SpindleDesign:
-    tables = read_machine(preset).spindle
-    assert tables is not None
-    return choose_all(read_case(tables))
+    return size_races(read_machine(preset))
 
 
 @pytest.mark.slow

@@ -31,7 +31,7 @@ from abu_calc.features.design.next_step import (
     next_step,
     proposals,
 )
-from abu_calc.features.spindle import advice
+from abu_calc.features.spindle import judgement as advice
 from abu_calc.features.spindle import study as two_studies
 from abu_calc.features.spindle.judgement import SpindleJudgement
 from abu_calc.features.spindle.judgement import judge as judge_two
@@ -165,7 +165,7 @@ def searched(seed: int, folder: Path) -> dict[str, Any]:
     machine = abu_calc.read(str(file))
     begun = time.process_time()
     if machine.spindle is not None:
-        before: Any = judge_two(machine.spindle, two_studies.ACCURACY, silent, 1)
+        before: Any = judge_two(machine, two_studies.ACCURACY, silent, 1)
         pool, judged_by, own = (
             pool_of_two(before),
             two_studies._judge(two_studies.ACCURACY, 1),

@@ -37,7 +37,7 @@ def size(
 
 def outcome_of(result: "SizeResult", *, explain: bool = False) -> Outcome:
     """Outcome of a result: how it is shown and written; `explain`: with every formula."""
-    if hasattr(result, "autobalancers"):
+    if len(result.autobalancers) > 1:
         outcome: Outcome = imported("spindle.view:spindle_outcome")(result)
         return outcome
     short = None if explain else lambda: _screen(result)

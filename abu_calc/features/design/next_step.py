@@ -15,10 +15,10 @@ from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import ACCURACY, Judgement, TrialWatcher
 from abu_calc.features.design.judgement import judge as judge_file
 from abu_calc.features.design.region import steadier
-from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
+from abu_calc.features.design.start_rules import FULL, LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_rules import OF_STARTS as OF_BALANCE
 from abu_calc.features.design.start_search import loudness, slowness
-from abu_calc.features.design.verdict import WORDS, creeps
+from abu_calc.features.design.verdict import WORDS, Verdict, creeps
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import RANK, Action, Check, worst
 from abu_calc.foundation.errors import AbuError
@@ -30,6 +30,7 @@ from abu_calc.reporting.blocks import capitalised
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
+from abu_calc.simulation.result import Provenance
 from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing.actions import SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
@@ -492,7 +493,16 @@ def _own(before: Judged) -> Entries:
     return overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
 
 
-def change_in_short(before: Judged, step: NextStep) -> str | None:
+def verdict_of(judged: Judged, checks: Sequence[Check], step: NextStep, told: str, reading: Provenance) -> Verdict:
+    """The verdict with what the autobalancer does, as it is `told`, and the change that mends the machine."""
+    sought = judged.facts.starts == FULL and not patience.over()
+    return Verdict.of(
+        checks, told, reading, step.entries, promise(judged, step), incurable=sought and step.futile,
+        change=_in_short(judged, step),
+    )  # fmt: skip
+
+
+def _in_short(before: Judged, step: NextStep) -> str | None:
     """The change that was tried, without what it replaces: balls come last."""
     return in_words(step.entries, None, _own(before)).partition(" instead of ")[0] if step.entries else None
 

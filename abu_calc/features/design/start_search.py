@@ -26,9 +26,9 @@ from abu_calc.simulation.ensemble import (
     WORK,
     Runner,
     Watch,
+    called_for,
     every_start,
     first_tolerance,
-    integrator_for,
     start_once,
 )
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
@@ -361,7 +361,7 @@ def _run(
     """Outcomes of the start cases that gave an answer. When balls rest decides nothing beside listed ones."""
     early, runner = (
         [(start, True) for start in starts],
-        Runner(partial(start_once, to_rest=False), integrator_for, watch=watch),
+        Runner(partial(start_once, to_rest=False), called_for, watch=watch),
     )
     answers = every_start(
         design, early, accuracy, first_tolerance(design), within(progress, "further"), workers, runner=runner

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, TrialWatcher, judge
-from abu_calc.features.design.next_step import Judge, NextStep, actions, change_in_short, next_step, promise, proposals
+from abu_calc.features.design.next_step import Judge, NextStep, actions, next_step, proposals, verdict_of
 from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
@@ -32,7 +32,6 @@ from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_en
 from abu_calc.features.grinding.work import Work, loaded_levels
 from abu_calc.features.seats.seats import SeatResult
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
-from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.parallel import meanwhile, processors
@@ -347,16 +346,7 @@ def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading
     if any(check.code == "ABU702" and check.status != "pass" for check in checks):
         quiet = None  # the sentence tells it otherwise
     told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
-    sought = judged.facts.starts == FULL and not patience.over()
-    return Verdict.of(
-        checks,
-        told,
-        reading,
-        step.entries,
-        promise(judged, step),
-        incurable=sought and step.futile,
-        change=change_in_short(judged, step),
-    )
+    return verdict_of(judged, checks, step, told, reading)
 
 
 def merged(*warnings: str) -> tuple[str, ...]:

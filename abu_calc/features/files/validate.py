@@ -48,7 +48,7 @@ def _machine(machine: Machine) -> None:
     if machine.spindle is not None:
         from abu_calc.registry import imported
 
-        imported("spindle.case:choose_all")(imported("spindle.case:read_case")(machine.spindle))
+        imported("spindle.case:size_races")(machine)
     elif machine.autobalancers:
         _design(machine)
 

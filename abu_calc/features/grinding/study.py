@@ -53,9 +53,8 @@ from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import wrapped_deg
-from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.duty import Grinding
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.spindle import TwoRaceFile
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
@@ -212,7 +211,7 @@ def grinding(
         )  # fmt: skip
     tables = machine.whole("grinding")
     with machine.located():
-        refuse_idle(tables)
+        refuse_idle(tables.grinding)
         design = size_design(tables)
         work = at_work(design, accuracy, progress)
         work, loads = with_starts(work, loaded_ensemble(design, accuracy, progress, processors()))
@@ -290,9 +289,9 @@ def _orbits(work: Work, still: SteadyWork) -> Iterator[Orbit]:
             yield Orbit.through(name, run.path)
 
 
-def refuse_idle(tables: MachineFile | TwoRaceFile) -> None:
+def refuse_idle(table: Grinding | None) -> None:
     """Raise InputError for a file without [grinding]."""
-    if tables.grinding is None:
+    if table is None:
         raise InputError(
             "this command needs the machine on its workpiece",
             place=Place(key="grinding"),

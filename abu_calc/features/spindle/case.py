@@ -32,6 +32,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.duty import Grinding
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.spindle import PlacedAutobalancer, TwoRaceFile
 from abu_calc.sizing import RaceDesign, size_race
 from abu_calc.sizing.balls import Candidate
@@ -452,6 +453,13 @@ class SpindleDesign:
         case = bare.carrying(tuple(made.housing.mass for made in self.autobalancers))
         made = (built_race(race, one_race_machine(case, k, race.need)) for k, race in enumerate(self.races))
         return SpindleDesign(case, bare, tuple(made))
+
+
+def size_races(machine: Machine) -> SpindleDesign:
+    """Balls and races of a machine. Raises InputError for a file with one race, and for what cannot be sized."""
+    if machine.spindle is None:
+        raise InputError("this file has one race")
+    return choose_all(read_case(machine.spindle))
 
 
 def choose_all(case: SpindleCase) -> SpindleDesign:

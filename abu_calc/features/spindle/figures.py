@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.features.design.records import AutobalancerRecord, Section
-from abu_calc.features.design.section_drawing import described, section_view
+from abu_calc.features.design.section_drawing import alone, described, section_view
 from abu_calc.features.design.solids import design_items
 from abu_calc.features.spindle.records import SpindleSizeResult
 from abu_calc.foundation.frozen import dataclass
@@ -69,7 +69,6 @@ ROOM: Final = 110.0
 """Outer diameter of the larger autobalancer on paper, at most [mm]."""
 GAP: Final = 12.0
 """Distance from one view to the other, on paper [mm]."""
-MARGIN: Final = 3.0
 
 
 @dataclass(frozen=True)
@@ -98,13 +97,8 @@ def both_sections(result: SpindleSizeResult, room: float = ROOM) -> Drawing:
         view = tuple(_titled(section_view(race, scale), place))
         right = 0.0 if not shapes else extent(shapes, scale)[1][0] + GAP / scale - extent(view, scale)[0][0]
         shapes += [moved(shape, (right, 0.0)) for shape in view]
-    low, high = extent(shapes, scale)
-    margin = MARGIN / scale
     words = " ".join(f"Race {number}: {described(race)}" for number, race in enumerate(races_of(result), 1))
-    return Drawing(
-        "section", f"Section of both autobalancers, {result.title}", words, scale,
-        (low[0] - margin, low[1] - margin), (high[0] + margin, high[1] + margin), tuple(shapes),
-    )  # fmt: skip
+    return alone("section", f"Section of both autobalancers, {result.title}", words, shapes, scale)
 
 
 def both_solids(result: SpindleSizeResult) -> SolidAssembly:

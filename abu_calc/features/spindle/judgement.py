@@ -10,13 +10,14 @@ from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.judgement import TrialWatcher
 from abu_calc.features.design.next_step import Entries, together
 from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
-from abu_calc.features.spindle.case import SpindleCase, SpindleDesign, choose_all, read_case
+from abu_calc.features.spindle.case import SpindleCase, SpindleDesign, size_races
 from abu_calc.features.spindle.records import OneRace, PlaceOnSpindleLevel, SpindleVibration
 from abu_calc.features.spindle.start_cases import (
     all_phases,
     ensemble_of,
     level_of,
-    stability_scene,
+    scene_of,
+    start_of,
 )
 from abu_calc.formulas.tilting_rotor import (
     PlacedImbalance,
@@ -29,7 +30,7 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.spindle import TwoRaceFile
+from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing.actions import overrides
 from abu_calc.sizing.vibration import truer_races
@@ -71,11 +72,11 @@ class SpindleJudgement:
 
 
 def judge(
-    table: TwoRaceFile, accuracy: float, progress: Progress, workers: int, trial: TrialWatcher | None = None
+    machine: Machine, accuracy: float, progress: Progress, workers: int, trial: TrialWatcher | None = None
 ) -> SpindleJudgement:
     """Design, simulate and judge a machine; whatever `trial` raises ends it."""
     trial = trial or TrialWatcher()
-    design = choose_all(read_case(table))
+    design = size_races(machine)
     made = *capacity_checks(design), *race_checks(design), *mass_checks(design)
     trial.checked((region_check(design, None), *made))
     one = _one_race(design)
@@ -112,10 +113,10 @@ def _stability(design: SpindleDesign, speed: float) -> SpeedStability:
         return SpeedStability(speed, True, None)
     growths: list[float] = []
     for phases in all_phases(case):
-        scene = replace(stability_scene(design, phases), speed=speed)
-        abu = design.races[0].autobalancer
+        balanced = scene_of(design, start_of(design, "spread", phases))
+        scene = replace(balanced, effects=(), speed=speed)
         try:
-            found = stability(scene, abu.half_angle)
+            found = stability(scene, design.autobalancers[0].half_angle)
         except NotTrustworthyError as error:
             return SpeedStability(speed, None, None, str(error).splitlines()[0])
         if found.growth_rate is None:
@@ -163,7 +164,7 @@ def _one_race(design: SpindleDesign) -> OneRace | None:
     """The single race between both races that leaves the least at the loudest place; None if none balances."""
     case = design.bare
     # The autobalancer's own mass h at its place z_r adds h to M and h·z_r² to J': together 2·h in the limit to z_r.
-    own = max(race.autobalancer.mass for race in design.races)
+    own = max(made.mass for made in design.autobalancers)
     limit = one_race_limit(replace(case.rotor, mass=case.rotor.mass + 2 * own), case.speed)
     tried: list[tuple[float, float]] = []
     first, second = case.races

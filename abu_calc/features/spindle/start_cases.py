@@ -16,15 +16,13 @@ from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEff
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
-from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.dynamics.trajectory import Samples, Sampling, Until, merged
 from abu_calc.features.design.band import FRICTION, NEW_WHEEL, SPEED, axes_in_use, between, sequence
-from abu_calc.features.spindle.case import SpindleCase, SpindleDesign, choose_all, felt_mass, read_case
+from abu_calc.features.spindle.case import SpindleCase, SpindleDesign, felt_mass, size_races
 from abu_calc.formulas.motion import HARDLY, SETTLED
 from abu_calc.formulas.tilting_rotor import PlacedImbalance, eccentricity_resultants
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
@@ -204,14 +202,13 @@ def start_phases(design: SpindleDesign, member: Member) -> tuple[float, ...]:
     return (*[0.0] * none_known, *(member.phases or ()))
 
 
-def race_needs(design: SpindleDesign, member: Member) -> tuple[complex, complex]:
+def race_needs(design: SpindleDesign, member: Member) -> tuple[complex, ...]:
     """Imbalance [kg m] that each race has to balance in this start case."""
     wheels = _wheels(design, member)
-    first, second = (
+    return tuple(
         sum((share * wheel.imbalance for share, wheel in zip(race.shares, wheels, strict=True)), 0j)
         for race in design.races
     )
-    return first, second
 
 
 def _effects(design: SpindleDesign, member: Member) -> Iterator[Effect]:
@@ -303,20 +300,14 @@ def _enough(design: SpindleDesign, member: Member, scene: Scene, samples: Sample
     late = turns[-int(SEEN * len(turns)) :]
     ahead = (scene.duration - end) / (late[-1] - late[0])
     left = imbalances_left(scene, samples.at(late), race_needs(design, member))
-    moved = _references(scene, race_needs(design, of_file))
+    moved = references(scene, race_needs(design, of_file))
     if any(movement(each, ahead) > STILL * most for each, most in zip(left, moved, strict=True)):
         return False
     outcome, limits = _observed(design, member, scene, samples, 0), design.case.table.limits
     return not outcome.creeping and outcome.holds(limits, limits.vibration_level_db - MARGIN)
 
 
-def _integrator(design: SpindleDesign, member: Member, accuracy: float, tolerance: float) -> str:
-    """Integrator of all starts: they differ only in what turns where."""
-    name = choose(assemble(scene_of(at_speed(design, member.speed), member)), "auto", tolerance).name
-    return "compiled" if name.startswith("compiled") else "auto"
-
-
-TWO_RACES: Final = Runner(start_once, _integrator, MOST_MORE // 6)
+ON_SPINDLE: Final = Runner(start_once, lambda design, member, _: scene_of(design, member), MOST_MORE // 6)
 """An evaluation with two races takes three to four times as long as its balls alone say."""
 
 
@@ -324,10 +315,8 @@ def ensemble_of(
     design: SpindleDesign, accuracy: float, progress: Progress, workers: int, watch: Watch | None = None
 ) -> Ensemble:
     """All start cases, each once; those that decide a check once more at a tighter tolerance."""
-    starts = list(start_cases(design))
-    return simulate_starts(
-        design, starts, accuracy, FIRST_TOLERANCE, progress, workers, TWO_RACES._replace(watch=watch)
-    )
+    starts, runner = list(start_cases(design)), ON_SPINDLE._replace(watch=watch)
+    return simulate_starts(design, starts, accuracy, FIRST_TOLERANCE, progress, workers, runner)
 
 
 def _observed(design: SpindleDesign, member: Member, scene: Scene, samples: Samples, work: int) -> StartOutcome:
@@ -340,28 +329,27 @@ def _observed(design: SpindleDesign, member: Member, scene: Scene, samples: Samp
     scene = replace(scene, duration=end)
     window, response = amplitude_window(scene).times, evaluate(scene, samples, course.until(end))
     # Whether it balances is judged by the imbalances of the file, however little there is.
-    of_file, at = replace(member, varied=Variation()), [held.place for held in case.places]
-    states = samples.at(revolution_times(scene))
-    needs, of_wheels = race_needs(design, member), race_needs(design, of_file)
-    left = [float(_end(np.abs(each))) for each in imbalances_left(scene, states, needs)]
-    creeping = creep(scene, states, needs, of_wheels)
-    allowed = [max(abs(need) / 2, unavoidable_imbalance(design, k)) for k, need in enumerate(of_wheels)]
-    farther = max((0, 1), key=lambda k: left[k] / allowed[k] if allowed[k] else left[k])
-    displacements = tuple(_amplitude(scene, samples, window, place) for place in at)
+    needs, of_file = race_needs(design, member), race_needs(design, replace(member, varied=Variation()))
+    left, small = imbalances_left(scene, samples.at(revolution_times(scene)), needs), references(scene, of_file)
+    ends = [float(_end(np.abs(own))) for own in left]
+    creeping = any(drift(own, len(own)) > SETTLED * most for own, most in zip(left, small, strict=True))
+    allowed = [max(abs(need) / 2, unavoidable_imbalance(design, k)) for k, need in enumerate(of_file)]
+    farther = max(range(len(ends)), key=lambda k: ends[k] / allowed[k] if allowed[k] else ends[k])
+    displacements = tuple(_amplitude(scene, samples, window, held.place) for held in case.places)
     return StartOutcome(
         member=member,
-        settling_time=settling_time(scene, states, needs),
+        settling_time=settling_time(scene, left, references(scene, needs)),
         quiet_time=response.quiet_time,
-        rest_time=None if creeping else rest_time(scene, states, needs, of_wheels),
+        rest_time=None if creeping else rest_time(scene, left, small),
         creeping=creeping,
         residual=max(_amplitude(scene, samples, window, place) for place in case.races),
         level=level_of(max(displacements), case.speed),
         slip=slip(response, case.speed),
         ball_angles=response.ball_angles,
-        imbalance=left[farther],
+        imbalance=ends[farther],
         allowed=allowed[farther],
         work=work,
-        moved=abs(of_wheels[farther]),
+        moved=abs(of_file[farther]),
         displacements=displacements,
     )
 
@@ -391,64 +379,46 @@ def revolution_times(scene: Scene) -> Array:
     return np.asarray(scene.full_speed + scene.revolution / PER_TURN * np.arange(turns * PER_TURN), dtype=float)
 
 
-def settling_time(scene: Scene, states: Array, needs: tuple[complex, complex]) -> float | None:
-    """Settling time [s] from full speed of the slower race: residual imbalance of each race as of one race alone.
+def settling_time(scene: Scene, left: Sequence[Array], small: Sequence[float]) -> float | None:
+    """Settling time [s] from full speed of the slowest race by the imbalances [kg m] that races leave at each step.
 
-    That is |S_i + Σ m·R_p·e^{iθ}|, S_i what the race has to balance [kg m]. The race has settled when it stays below
-    its mean over the last twentieth plus a tenth of S_i, or of a hundredth of what its balls could carry.
+    A race has settled when it stays below its mean over the last twentieth plus a tenth of what is `small`, as one race
+    alone.
     """
     last = 0
-    for moved, left in zip(_references(scene, needs), imbalances_left(scene, states, needs), strict=True):
-        above = np.flatnonzero(np.abs(left) > _end(np.abs(left)) + SETTLED * moved)
+    for own, most in zip(left, small, strict=True):
+        above = np.flatnonzero(np.abs(own) > _end(np.abs(own)) + SETTLED * most)
         last = max(last, int(above[-1]) + 1 if len(above) else 0)
     time = last * scene.revolution / PER_TURN
     return time if time <= LAST * (scene.duration - scene.full_speed) else None
 
 
-def imbalances_left(scene: Scene, states: Array, needs: Sequence[complex]) -> list[Array]:
-    """Imbalance [kg m] that each race leaves at these states, in the rotor: S_i + Σ m·R_p·e^{iθ}."""
-    first, left = 2 * len(scene.support.names), list[Array]()
-    for race, need in zip(scene.races, needs, strict=True):
-        count = len(race.ball_masses)
-        moments = np.array(race.ball_masses) * race.pitch_radius
-        left.append(need + (moments[:, None] * np.exp(1j * states[first : first + count])).sum(axis=0))
-        first += count
-    return left
-
-
-def _references(scene: Scene, needs: tuple[complex, complex]) -> list[float]:
-    """What an imbalance [kg m] that each race leaves is small against, as `reference_imbalance` of one race."""
-    return [max(abs(need), HARDLY * race.static_moment) for race, need in zip(scene.races, needs, strict=True)]
-
-
-def rest_time(
-    scene: Scene, states: Array, needs: tuple[complex, complex], of_file: tuple[complex, complex] | None = None
-) -> float | None:
-    """Rest time [s] from full speed of the slower race: its imbalance, in the rotor, stays near that of the end.
-
-    `of_file`: what each race has to balance by the file, which says how near; None: as in this scene.
-    """
-    times: list[float | None] = []
-    for moved, left in zip(_references(scene, of_file or needs), imbalances_left(scene, states, needs), strict=True):
-        away = np.abs(left - _end(left))
-        times.append(last_crossing(scene.revolution / PER_TURN * np.arange(len(left)), away, SETTLED * moved))
+def rest_time(scene: Scene, left: Sequence[Array], small: Sequence[float]) -> float | None:
+    """Rest time [s] from full speed of the slowest race: its imbalance, in the rotor, stays near that of the end."""
+    steps = scene.revolution / PER_TURN * np.arange(len(left[0]))
+    times = [
+        last_crossing(steps, np.abs(own - _end(own)), SETTLED * most) for own, most in zip(left, small, strict=True)
+    ]
     return None if None in times else max(time for time in times if time is not None)
 
 
-def creep(scene: Scene, states: Array, needs: tuple[complex, complex], of_file: tuple[complex, complex]) -> bool:
-    """True if the balls of a race still drift at the end, as those of one race do."""
-    pairs = zip(_references(scene, of_file), imbalances_left(scene, states, needs), strict=True)
-    return any(drift(left, len(left)) > SETTLED * moved for moved, left in pairs)
+def imbalances_left(scene: Scene, states: Array, needs: Sequence[complex]) -> list[Array]:
+    """Imbalance [kg m] that each race leaves at these states, in the rotor: S_i + Σ m·R_p·e^{iθ}."""
+    first = 2 * len(scene.support.names)
+    return [
+        need + ((np.array(race.ball_masses) * race.pitch_radius)[:, None] * np.exp(1j * own)).sum(axis=0)
+        for (race, own), need in zip(scene.by_race(states[first:]), needs, strict=True)
+    ]
+
+
+def references(scene: Scene, needs: Sequence[complex]) -> list[float]:
+    """What an imbalance [kg m] that each race leaves is small against, as `reference_imbalance` of one race."""
+    return [max(abs(need), HARDLY * race.static_moment) for race, need in zip(scene.races, needs, strict=True)]
 
 
 def _end(values: Array) -> Any:
     """Mean over the last twentieth."""
     return values[-max(1, len(values) // 20) :].mean()
-
-
-def stability_scene(design: SpindleDesign, phases: tuple[float, ...]) -> Scene:
-    """The scene of small motions about the balanced state: no effects, imbalances at these phases."""
-    return replace(scene_of(design, start_of(design, "spread", phases)), effects=())
 
 
 SCENE: Final = "idle"
@@ -469,9 +439,6 @@ def spindle_subject(
     `race_centre_deg` from it. The balls start where [start] of the file places them, unless another start is asked for.
     Raises InputError for another scene or start, and for what cannot be sized.
     """
-    table = machine.spindle
-    if table is None:
-        raise InputError("this file has one race")
     for key, given, allowed in (("scene", scene, (SCENE,)), ("start", start, KINDS)):
         if given is not None and given not in allowed:
             raise InputError(
@@ -480,12 +447,11 @@ def spindle_subject(
             )  # fmt: skip
     centre = ALIKE if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
     with machine.located():
-        design = choose_all(read_case(table))
-    unknown = design.case.unknown_phases
+        design = size_races(machine)
+    table, unknown = design.case.table, design.case.unknown_phases
     kind = next(each for each in KINDS if each == (start or "bunched"))
-    sized = [race.autobalancer for race in design.races]
     placed = table.start if start in (None, "run-up") else None
-    balls = sum(abu.ball_count for abu in sized)
+    balls = sum(made.ball_count for made in design.autobalancers)
     if placed is not None and (len(placed.angles_deg) != balls or placed.speeds_rpm is not None):
         with machine.located():
             raise InputError(
@@ -499,6 +465,6 @@ def spindle_subject(
         reading=machine,
         scene=scene_of(design, start_of(design, kind, eccentricity=centre, angles=angles)),
         start="as the file places the balls" if placed else IN_WORDS[kind],
-        half_angle=max(abu.half_angle for abu in sized),
+        half_angle=max(made.half_angle for made in design.autobalancers),
         warnings=(*machine.warnings, *notes),
     )

@@ -5,9 +5,9 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.features.design.judgement import TrialWatcher
-from abu_calc.features.design.next_step import Judge, actions, change_in_short, next_step, promise
+from abu_calc.features.design.next_step import Judge, actions, next_step, verdict_of
 from abu_calc.features.design.records import Eccentricity, Section
-from abu_calc.features.design.verdict import Verdict, benefit
+from abu_calc.features.design.verdict import benefit
 from abu_calc.features.spindle.case import SpindleCase, SpindleDesign, arms, capacity_needs
 from abu_calc.features.spindle.judgement import SpeedStability, SpindleJudgement, judge, proposals
 from abu_calc.features.spindle.records import (
@@ -21,7 +21,6 @@ from abu_calc.features.spindle.records import (
 )
 from abu_calc.features.spindle.start_cases import ACCURACY, FIRST_TOLERANCE, scene_of, start_of, start_once
 from abu_calc.foundation import patience
-from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si, to_si
@@ -47,41 +46,31 @@ def size_spindle(
     `accuracy` moves nothing: start cases run at tolerances of their own. `workers`: start cases side by side, None: one
     for each processor.
 
-    Raises InputError with file, line and key for what cannot be made, and if the file has one race.
+    Raises InputError with file, line and key for what cannot be made.
     """
-    table = machine.spindle
-    if table is None:
-        raise InputError("this file has one race", remedy="Use `abu size FILE`.")
     accuracy, threads = max(accuracy, ACCURACY), processors() if workers is None else workers
     with machine.located():
-        judged = judge(table, accuracy, progress, threads)
+        judged = judge(machine, accuracy, progress, threads)
         step = next_step(machine, judged, proposals(judged), _judge(accuracy, threads), progress)
     design, ensemble, one, vibration = judged.facts.design, judged.facts.ensemble, judged.one_race, judged.vibration
     checks = actions(judged, step)
     many = None if ensemble is None else SpindleEnsemble.of(ensemble, design)
-    limit = table.limits.vibration_level_db
     quiet = None if many is None else many.quiet_time_s.worst
-    told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
+    levels = vibration.level_before_db, vibration.level_after_db
+    told = benefit("loudest place", *levels, design.case.level_limit, quiet)
+    races = tuple(PlacedAutobalancerRecord.of_race(design, index) for index in range(len(design.races)))
     return SpindleSizeResult(
-        title=table.machine.name,
-        verdict=Verdict.of(
-            checks,
-            told,
-            Provenance.of(machine),
-            () if step.best is None else step.best.entries,
-            promise(judged, step),
-            incurable=step.futile and not patience.over(),
-            change=change_in_short(judged, step),
-        ),
+        title=machine.title,
+        verdict=verdict_of(judged, checks, step, told, Provenance.of(machine)),
         checks=checks,
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
         frequency=_frequency(design, judged.stability),
-        imbalances=tuple(abs(wheel.imbalance) for wheel in design.case.wheels),
+        imbalances=design.imbalances,
         required_capacity=design.races[0].need,
-        autobalancer=PlacedAutobalancerRecord.of_race(design, 0),
-        autobalancers=tuple(PlacedAutobalancerRecord.of_race(design, index) for index in (0, 1)),
+        autobalancer=races[0],
+        autobalancers=races,
         eccentricities=tuple(Eccentricity.of(race.eccentricity) for race in design.races),
         sections=tuple(Section.of(race) for race in design.races),
         one_race=one,
@@ -97,8 +86,7 @@ def _judge(accuracy: float, workers: int) -> Judge:
 
     def judged(machine: Machine, progress: Progress, trial: TrialWatcher) -> SpindleJudgement:
         """As `size_spindle` judges it."""
-        assert machine.spindle is not None
-        return judge(machine.spindle, accuracy, progress, workers, trial)
+        return judge(machine, accuracy, progress, workers, trial)
 
     def once(design: SpindleDesign, member: Member, *, closer: bool = False) -> StartOutcome | Lost:
         """One start case."""
@@ -167,10 +155,10 @@ def _frequency(design: SpindleDesign, judged: Sequence[SpeedStability]) -> Spind
 def _search_notes(design: SpindleDesign) -> Iterator[str]:
     """Places that were searched, with the displacement and capacities that they and the given ones ask for."""
     case = design.bare
-    given = first, second = [to_si(race.plane_mm, "mm") for race in case.table.autobalancer]
+    given = tuple(to_si(race.plane_mm, "mm") for race in case.table.autobalancer)
     if all(race.plane_range_mm is None for race in case.table.autobalancer):
         return
-    before = case.with_races((first, second))
+    before = case.with_races(given)
     needs, needs_before = capacity_needs(case), capacity_needs(before)
     for number, (race, place, old) in enumerate(zip(case.table.autobalancer, case.races, given, strict=True), 1):
         if race.plane_range_mm is not None:

@@ -6,7 +6,7 @@ from typing import Final
 
 from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.study import refuse_idle
-from abu_calc.features.spindle.case import PressedWheel, SpindleDesign, choose_all, pressed_wheels, read_case
+from abu_calc.features.spindle.case import PressedWheel, SpindleDesign, pressed_wheels, size_races
 from abu_calc.features.spindle.records import (
     PlaceAtWork,
     RaceAtWork,
@@ -103,12 +103,9 @@ def grind_spindle(
 
     Raises InputError for a file without [grinding], for a wheel that it does not have, and below a critical speed.
     """
-    tables = machine.spindle
-    if tables is None:
-        raise InputError("this file has one race", remedy="Use `abu grinding FILE`.")
     with machine.located():
-        refuse_idle(tables)
-        design = choose_all(read_case(tables))
+        refuse_idle(getattr(machine.tables, "grinding", None))
+        design = size_races(machine)
         wheels = pressed_wheels(design.case)
         if number is not None and not 1 <= number <= len(wheels):
             raise InputError(

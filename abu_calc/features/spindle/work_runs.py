@@ -214,19 +214,8 @@ def work_scene(design: SpindleDesign, case: WorkCase) -> Scene:
         idle = start_once(design, member, ACCURACY, TOLERANCE)
         if isinstance(idle, Lost):
             raise NotTrustworthyError(idle.reason)
-        scene = _at(scene, idle.ball_angles)
+        scene = scene.started(idle.ball_angles)
     return _pressed(with_parted_balls(scene)[0], wheel, design, member)
-
-
-def _at(scene: Scene, angles: Sequence[float] | Array) -> Scene:
-    """The scene with balls at rest in the races at these angles."""
-    races, first = [], 0
-    for race in scene.races:
-        count = len(race.ball_masses)
-        own = tuple(float(angle) for angle in angles[first : first + count])
-        races.append(replace(race, start_angles=own, start_speeds=(0.0,) * count))
-        first += count
-    return replace(scene, races=tuple(races))
 
 
 def _pressed(scene: Scene, wheel: PressedWheel, design: SpindleDesign, member: Member) -> Scene:
@@ -276,7 +265,7 @@ def agreement(design: SpindleDesign, wheel: PressedWheel, member: Member) -> flo
     angles = ball_angles(design, resultants)
     if angles is None or not wheel.presses or not wheel.runout:
         return None
-    scene = _at(scene_of(design, member), [angle for own in angles for angle in own])
+    scene = scene_of(design, member).started([angle for own in angles for angle in own])
     ideal = replace(scene, effects=(wheel.effect(design.case, phases),), duration=IDEAL_S)
     expected = abs(contact_of(design, wheel, phases).balanced_force())
     try:

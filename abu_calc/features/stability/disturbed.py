@@ -100,18 +100,14 @@ def consequence(scene: Scene, worst: Stability, half_angle: float = 0.0) -> Arra
 
 def _disturbed(scene: Scene, angles: tuple[float, ...]) -> Scene:
     """The scene at rest in the arrangement, gaps between neighbours opened but for the widest one of each race."""
-    races, first = [], 0
-    for race in scene.races:
-        count = len(race.ball_masses)
-        own = np.array(angles[first : first + count])
-        rank = _ranks(own)
-        # Not even, so that no symmetry of the arrangement is kept.
-        moved = own + DISTURBANCE * (rank / max(1, count - 1)) ** 1.5
-        races.append(replace(race, start_angles=tuple(moved.tolist()), start_speeds=(0.0,) * count))
-        first += count
+    # Not even, so that no symmetry of the arrangement is kept.
+    parts = [
+        own + DISTURBANCE * (_ranks(own) / max(1, len(own) - 1)) ** 1.5 for _, own in scene.by_race(np.array(angles))
+    ]
     still = (0.0,) * len(scene.support.names)
     contact = [effect.name for effect in scene.effects if effect.name == "ball_contact"]
-    return replace(only(scene, contact), races=tuple(races), start_position=still, start_velocity=still)
+    moved = only(scene, contact).started(np.concatenate(parts).tolist())
+    return replace(moved, start_position=still, start_velocity=still)
 
 
 def _ranks(angles: Array) -> Array:

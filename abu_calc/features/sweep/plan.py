@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
 
-from abu_calc.features.spindle.case import SpindleDesign, choose_all, read_case
+from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.sweep.columns import TEMPERATURE
 from abu_calc.features.sweep.samples import PHASE, Builds, Designs, Scenes, SpindleBuilds, SweepStudy, phase_keys
 from abu_calc.features.sweep.sampling import Factor, Sample
@@ -22,7 +22,7 @@ from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneDescription, SceneFile
-from abu_calc.inputs.spindle import MOST_WHEELS, TwoRaceFile
+from abu_calc.inputs.spindle import MOST_WHEELS
 from abu_calc.inputs.variation import (
     MOST_RUNS,
     NOT_OF_THE_MACHINE,
@@ -186,16 +186,16 @@ def of_tolerances(design: Design | SpindleDesign, *, building: bool) -> Iterator
         if imbalance > 0:
             key = f"wheel{f'.{number}' if numbered else ''}.imbalance_g_mm"
             ways[key] = f"lognormal({from_si(imbalance, 'g_mm'):.6g}, {WORN})"
-    ways |= _hands(tables)
+    ways |= _hands(tables.suspension.frequencies)
     low, high = tables.machine.speed_range
     if low < high:
         ways["machine.speed_rpm"] = f"uniform({low!r}, {high!r})"
     yield from _scatter_ways(ways)
 
 
-def _hands(tables: MachineFile | TwoRaceFile) -> dict[str, str]:
+def _hands(frequencies: tuple[float, float] | None) -> dict[str, str]:
     """The natural frequencies of springs that stand for hands; both alike where the file has both alike."""
-    frequencies, key = tables.suspension.frequencies, "suspension.natural_frequencies_hz"
+    key = "suspension.natural_frequencies_hz"
     if frequencies is None:
         return {}
     if frequencies[0] == frequencies[1]:
@@ -258,7 +258,7 @@ def _planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: fl
     building, spindle = ask.what == "build", source.spindle
     tables = source.whole("sweep") if spindle is None else spindle
     with source.located():
-        design = sized(tables) if isinstance(tables, MachineFile) else choose_all(read_case(tables))
+        design = sized(tables) if isinstance(tables, MachineFile) else size_races(source)
     phases = phase_keys(design.case) if isinstance(design, SpindleDesign) else ()
     ways = dict(of_tolerances(design, building=building)) if ask.tolerances else {}
     ways |= dict(ask.vary)

@@ -29,7 +29,6 @@ from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.scene import SceneFile
-from abu_calc.inputs.spindle import TwoRaceFile
 from abu_calc.inputs.variation import Variants, in_all_races
 from abu_calc.simulation.ensemble import MORE, TOLERANCE, WORK, first_tolerance, integrated, run_of_start
 from abu_calc.simulation.ensemble_results import Lost, StartOutcome
@@ -177,7 +176,7 @@ class SpindleBuilds(SweepStudy):
 
     what: ClassVar[What] = "build"
 
-    variants: Variants[TwoRaceFile]
+    variants: Variants[Any]
     design: SpindleDesign
 
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:

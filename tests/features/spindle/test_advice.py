@@ -9,7 +9,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.start_rules import checks_of_starts
-from abu_calc.features.spindle.case import SpindleDesign, choose_all, read_case
+from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.spindle.judgement import facts_of, judge, level_checks, proposals
 from abu_calc.features.spindle.records import SpindleSizeResult
 from abu_calc.features.spindle.start_cases import (
@@ -28,9 +28,7 @@ from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 
 @cache
 def design_of(*overrides: str) -> SpindleDesign:
-    tables = read_machine("pedestal-grinder", overrides).spindle
-    assert tables is not None
-    return choose_all(read_case(tables))
+    return size_races(read_machine("pedestal-grinder", overrides))
 
 
 def sized(*overrides: str) -> SpindleSizeResult:
@@ -42,7 +40,7 @@ def sized(*overrides: str) -> SpindleSizeResult:
 @pytest.mark.slow
 def test_changes_are_proposed_for_what_does_not_pass_alone() -> None:
     """Entries of both tables; a larger ball for start cases that are late, never a drag rate, which nobody can set."""
-    judgement = judge(design_of().bare.table, 0.05, silent, 1)
+    judgement = judge(read_machine("pedestal-grinder"), 0.05, silent, 1)
     assert list(proposals(judgement)) == []
     late = replace(judgement, checks=(Check("ABU702", "quiet time", "fail", "late"),))
     assert all("ball_diameter_mm" in entry for entry in next(proposals(late)))

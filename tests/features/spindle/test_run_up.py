@@ -7,16 +7,14 @@ from itertools import pairwise
 import pytest
 from scipy.integrate import solve_ivp
 
-from abu_calc.features.spindle.case import SpindleDesign, choose_all, read_case
+from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.spindle.study import run_up_amplitudes
 from abu_calc.inputs.read_machine import read_machine
 
 
 @cache
 def design_of() -> SpindleDesign:
-    tables = read_machine("pedestal-grinder", ['machine.spindle_axis="vertical"']).spindle
-    assert tables is not None
-    return choose_all(read_case(tables))
+    return size_races(read_machine("pedestal-grinder", ['machine.spindle_axis="vertical"']))
 
 
 @pytest.mark.slow

@@ -9,14 +9,16 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from abu_calc.dynamics.scene import without
-from abu_calc.features.spindle.case import SpindleDesign, choose_all, read_case
+from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.spindle.start_cases import (
     FIRST_TOLERANCE,
     OF_BAND,
     OF_USUAL,
     StartOutcome,
     ensemble_of,
+    imbalances_left,
     race_needs,
+    references,
     rest_time,
     revolution_times,
     scene_of,
@@ -49,9 +51,7 @@ SOFT = {"stiffness_N_per_m": 2.0, "damping_N_s_per_m": 0.01}
 
 @cache
 def design_of(*overrides: str) -> SpindleDesign:
-    tables = read_machine("pedestal-grinder", overrides).spindle
-    assert tables is not None
-    return choose_all(read_case(tables))
+    return size_races(read_machine("pedestal-grinder", overrides))
 
 
 @pytest.mark.slow
@@ -189,9 +189,10 @@ def test_settling_agrees_with_an_own_integration() -> None:
         assert left[-1] < 0.03 * abs(need)
         settled = max(settled, until[np.flatnonzero(left > 0.1 * abs(need))[-1] + 1])
     needs = race_needs(design, member)
-    assert settling_time(ours, states, needs) == pytest.approx(settled, abs=1e-9)
+    left, small = imbalances_left(ours, states, needs), references(ours, needs)
+    assert settling_time(ours, left, small) == pytest.approx(settled, abs=1e-9)
     # Nothing is left, so that |U − U_end| is |U|: they rest when that has settled, between two samples.
-    assert rest_time(ours, states, needs) == pytest.approx(settled, abs=until[1])
+    assert rest_time(ours, left, small) == pytest.approx(settled, abs=until[1])
     # A turn of the velocity at each place, less its mean and the change since the turn before.
     until_quiet = 0
     for held in case.places:
@@ -230,7 +231,7 @@ def test_a_start_that_no_two_runs_repeat_is_judged_by_the_worse_of_them(monkeypa
         tolerances.append(tolerance)
         return replace(run, member=member, quiet_time=0.01 * (next(times) % 7 + 1))  # type: ignore[arg-type]
 
-    runner = ensemble_module.Runner(chaotic, lambda *_: "auto")
+    runner = ensemble_module.Runner(chaotic, lambda design, member, _: scene_of(design, member))
     starts = list(start_cases(design))
     found = ensemble_module.simulate_starts(design, starts, 0.05, TOLERANCE, silent, 1, runner)
     assert found.members == len(starts) and not found.lost
@@ -283,7 +284,7 @@ def test_no_start_is_begun_after_the_work_of_all(monkeypatch: pytest.MonkeyPatch
         begun.append(member.name)
         return Lost(member, "more work than allowed", MOST_MORE // 10)
 
-    runner = Runner(dear, lambda *_: "auto", MOST_MORE // 4)
+    runner = Runner(dear, lambda design, member, _: scene_of(design, member), MOST_MORE // 4)
     found = simulate_starts(design, list(start_cases(design)), 0.05, FIRST_TOLERANCE, silent, 1, runner)
     assert len(begun) == 2 and found.outcomes == ()
     reasons = {lost.reason for lost in found.lost}

@@ -11,7 +11,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.start_rules import checks_of_starts
-from abu_calc.features.spindle.case import capacity_needs, choose_all, read_case
+from abu_calc.features.spindle.case import capacity_needs, read_case, size_races
 from abu_calc.features.spindle.figures import both_solids, spindle_extras
 from abu_calc.features.spindle.judgement import capacity_checks, facts_of, region_check
 from abu_calc.features.spindle.records import SpindleSizeResult
@@ -80,9 +80,7 @@ def test_the_advice_of_one_race_is_true(place: float, stable: bool) -> None:
 
 @pytest.mark.slow
 def test_a_disc_is_told_to_take_one_race() -> None:
-    tables = read_machine("pedestal-grinder", ["machine.rotor_polar_inertia_kg_m2=3.5"]).spindle
-    assert tables is not None
-    check = region_check(choose_all(read_case(tables)), None)
+    check = region_check(size_races(read_machine("pedestal-grinder", ["machine.rotor_polar_inertia_kg_m2=3.5"])), None)
     assert check.status == "fail"
     assert "takes one race" in str(check.remedy)
 
@@ -153,9 +151,7 @@ def test_screen_page_and_json_tell_of_both_races(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_lost_start_cases_are_not_passed() -> None:
-    tables = read_machine("pedestal-grinder").spindle
-    assert tables is not None
-    design = choose_all(read_case(tables))
+    design = size_races(read_machine("pedestal-grinder"))
     ensemble = Ensemble(design.case.drag, (), (Lost(start_of(design), "too much work"),))
     checks = list(checks_of_starts(facts_of(design, ensemble)))
     assert [check.status for check in checks] == ["not-done"] * 3
@@ -179,9 +175,7 @@ def test_what_cannot_be_made_is_refused(overrides: tuple[str, ...], words: str) 
 
 @pytest.mark.slow
 def test_an_imbalance_that_no_ball_carries_fails() -> None:
-    tables = read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]).spindle
-    assert tables is not None
-    design = choose_all(read_case(tables))
+    design = size_races(read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]))
     assert "fail" in [check.status for check in capacity_checks(design)]
     assert region_check(design, None).status == "fail"
 

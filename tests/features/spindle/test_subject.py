@@ -10,7 +10,7 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.compare import study
 from abu_calc.features.compare.study import compare
-from abu_calc.features.spindle.case import choose_all, read_case
+from abu_calc.features.spindle.case import size_races
 from abu_calc.features.spindle.records import repeated
 from abu_calc.features.spindle.start_cases import scene_of, spindle_subject, start_cases
 from abu_calc.foundation.errors import InputError
@@ -74,9 +74,7 @@ def test_a_start_that_is_placed_has_an_angle_for_each_ball() -> None:
 def test_printed_options_make_the_scene_of_every_start_case(name: str) -> None:
     """Phases, sides, angles of balls, oil, speed, run-up and the variations of what is promised."""
     machine = abu_calc.read(name)
-    tables = machine.spindle
-    assert tables is not None
-    design = choose_all(read_case(tables))
+    design = size_races(machine)
     for member in start_cases(design):
         words = shlex.split(repeated(outcome_of(member), design))
         options = dict(zip(words[::2], words[1::2], strict=True))

@@ -8,7 +8,14 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.spindle.case import SpindleDesign, capacity_needs, choose_all, read_case, work_needs
+from abu_calc.features.spindle.case import (
+    SpindleDesign,
+    capacity_needs,
+    pressed_wheels,
+    read_case,
+    size_races,
+    work_needs,
+)
 from abu_calc.features.spindle.start_cases import start_of
 from abu_calc.features.spindle.work_runs import (
     agreement,
@@ -16,7 +23,6 @@ from abu_calc.features.spindle.work_runs import (
     capacities_at_work,
     contact_of,
     growth_rates,
-    pressed_wheels,
     resultants_at_work,
 )
 from abu_calc.foundation.errors import InputError
@@ -32,9 +38,7 @@ SET = tuple(part for entry in WORK for part in ("--set", entry))
 
 @cache
 def design_of(*overrides: str) -> SpindleDesign:
-    tables = read_machine("pedestal-grinder", (*WORK, *overrides)).spindle
-    assert tables is not None
-    return choose_all(read_case(tables))
+    return size_races(read_machine("pedestal-grinder", (*WORK, *overrides)))
 
 
 def document(*arguments: str) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.features.spindle.case import choose_all, read_case
+from abu_calc.features.spindle.case import size_races
 from abu_calc.features.spindle.records import PlacedAutobalancerRecord
 from abu_calc.features.verify.study import compare, expectations
 from abu_calc.foundation.units import from_si
@@ -52,7 +52,7 @@ def test_designs_of_two_races_keep_what_is_expected(name: str) -> None:
     """What needs no start case of what their files expect: balls, race, capacity, mass."""
     machine = read_machine(name)
     assert machine.spindle is not None
-    design = choose_all(read_case(machine.spindle))
+    design = size_races(machine)
     entries = {
         "required_capacity_g_mm": from_si(design.races[0].need, "g_mm"),
         "autobalancer": PlacedAutobalancerRecord.of_race(design, 0),
