@@ -96,9 +96,13 @@ def pool_of_two(before: SpindleJudgement) -> Pool:
     """Every change for a machine with two races, alike for both of them."""
     design = before.facts.design
     pool = Pool()
-    made = [*advice._sturdier(design), *advice._truer(design), *advice._quicker(design)]
+    made = [
+        *advice._sturdier(design),
+        *advice._truer(design),
+        *({"ball_diameter_mm": larger} for larger in advice._larger(design)),
+    ]
     for entries in made:
-        pool.setdefault("+".join(sorted(entries)), []).append(advice._of_both(entries))
+        pool.setdefault("+".join(sorted(entries)), []).append(advice._of_all(design, entries))
     return {kind: list(dict.fromkeys(changes)) for kind, changes in pool.items()}
 
 

@@ -34,7 +34,6 @@ from abu_calc.simulation.result import Provenance
 from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing.actions import SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.case import UNKNOWN_OIL
 from abu_calc.sizing.change_words import PINNED, in_words
 from abu_calc.sizing.proposals import ARM, ON_ARM, PROPOSED, mended
 
@@ -227,7 +226,7 @@ def _in_design(design: Any, own: Any, member: Member) -> Member | None:
     run_up = not member.run_up or case.table.run_up == other.table.run_up
     if not (placed and run_up and (member.speed is None or case.speed_range == other.speed_range)):
         return None
-    known, shares = (getattr(each, "drag_shares", UNKNOWN_OIL) for each in (other, case))
+    known, shares = other.drag_shares, case.drag_shares
     share = member.drag / other.drag if other.drag else 1.0
     near = min(range(len(known)), key=lambda k: abs(math.log(known[k] / share)))
     own_share = shares[near] if math.isclose(known[near], share, rel_tol=ALIKE) else share

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import pairwise, product
-from typing import Final
+from typing import ClassVar, Final
 
 from pydantic import ValidationError
 
@@ -36,6 +36,7 @@ from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.spindle import PlacedAutobalancer, TwoRaceFile
 from abu_calc.sizing import RaceDesign, size_race
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import UNKNOWN_OIL
 from abu_calc.sizing.design import built_race
 from abu_calc.standards.vibration import permissible_imbalance
 
@@ -62,12 +63,23 @@ class SpindleCase:
     eccentricity: float
     friction_arm: float
     inertia_factor: float
+    drag_shares: ClassVar = UNKNOWN_OIL
     places: tuple[LevelPlaceOnSpindle, ...]
 
     @property
     def autobalancer(self) -> PlacedAutobalancer:
         """Table of the first race, whose eccentricity, friction and kind of balls are those of all."""
         return self.table.autobalancer[0]
+
+    @property
+    def race_keys(self) -> tuple[str, ...]:
+        """Keys of the tables of all races."""
+        return tuple(f"autobalancer.{number}" for number in range(len(self.races)))
+
+    @property
+    def wheel_keys(self) -> tuple[str, ...]:
+        """Keys of the tables of all wheels."""
+        return tuple(f"wheel.{number}" for number in range(len(self.wheels)))
 
     @property
     def drags(self) -> tuple[float, ...]:

@@ -232,15 +232,12 @@ def stability_check(design: SpindleDesign, judged: Sequence[SpeedStability]) -> 
 def capacity_checks(design: SpindleDesign) -> Iterator[Check]:
     """ABU201 for each race: its balls carry the required capacity times the margin."""
     for number, race in enumerate(design.races, 1):
-        table = design.case.table.autobalancer[number - 1]
-        needed = race.need * table.capacity_margin
-        passed = race.autobalancer.capacity >= needed * (1 - 1e-9)
+        made, margin = race.autobalancer, race.case.autobalancer.capacity_margin
+        needed = race.need * margin
         yield coded(
-            "ABU201", verdict(passed),
-            f"{race.autobalancer.ball_count} balls must carry the required capacity of the worst phase times "
-            f"the margin {table.capacity_margin:g}", from_si(race.autobalancer.capacity, "g_mm"),
-            from_si(needed, "g_mm"), "g·mm",
-            bound="least", of=f"race {number}",
+            "ABU201", verdict(made.capacity >= needed * (1 - 1e-9)),
+            f"{made.ball_count} balls must carry the required capacity of the worst phase times the margin {margin:g}",
+            from_si(made.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm", bound="least", of=f"race {number}",
         )  # fmt: skip
 
 
@@ -253,14 +250,12 @@ def race_checks(design: SpindleDesign) -> Iterator[Check]:
 
 def mass_checks(design: SpindleDesign) -> Iterator[Check]:
     """ABU203 for each autobalancer: its share of the mass of the machine."""
-    machine = design.case.table.machine.mass_kg
-    for number, (race, table) in enumerate(zip(design.races, design.case.table.autobalancer, strict=True), 1):
-        share = race.autobalancer.mass / machine
-        passed = share <= table.max_mass_fraction
+    tables, machine = design.case.table.autobalancer, design.case.table.machine.mass_kg
+    for number, (made, table) in enumerate(zip(design.autobalancers, tables, strict=True), 1):
+        share, most = made.mass / machine, table.max_mass_fraction
         yield coded(
-            "ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",
-            100 * share, 100 * table.max_mass_fraction, "%",
-            of=f"race {number}",
+            "ABU203", verdict(share <= most), "The autobalancer with its balls takes this share of the machine's mass",
+            100 * share, 100 * most, "%", of=f"race {number}",
         )  # fmt: skip
 
 
@@ -320,26 +315,19 @@ def proposals(before: SpindleJudgement) -> Iterator[Entries]:
     if "ABU401" in bad:
         of_starts += _truer(design)
     if bad & {"ABU701", "ABU702", "ABU704"}:
-        of_starts += _quicker(design)
+        of_starts += ({"ball_diameter_mm": larger} for larger in _larger(design))
     made = [*_sturdier(design)] if bad - {"ABU401", "ABU402", "ABU701", "ABU702", "ABU704"} else []
-    yield from together([*map(_of_both, made)], [*map(_of_both, of_starts)])
+    yield from together(*([_of_all(design, entries) for entries in kind] for kind in (made, of_starts)))
 
 
-def _of_both(entries: dict[str, object]) -> Entries:
+def _of_all(design: SpindleDesign, entries: dict[str, object]) -> Entries:
     """Entries of each [[autobalancer]]."""
-    return overrides({f"autobalancer.{race}.{key}": value for race in (0, 1) for key, value in entries.items()})
-
-
-def _quicker(design: SpindleDesign) -> Iterator[dict[str, object]]:
-    """Larger balls of the stock."""
-    for larger in _larger(design):
-        yield {"ball_diameter_mm": larger}
+    return overrides({f"{race}.{key}": value for race in design.case.race_keys for key, value in entries.items()})
 
 
 def _larger(design: SpindleDesign) -> Iterator[float]:
     """Diameters [mm] of larger balls in stock."""
-    diameter = design.races[0].autobalancer.ball_diameter
-    stock = stock_diameters(design.case.table.autobalancer[0].ball_sizes)
+    diameter, stock = design.autobalancers[0].ball_diameter, stock_diameters(design.case.autobalancer.ball_sizes)
     for factor in LARGER:
         if larger := next((size for size in stock if size >= factor * diameter), None):
             yield round(from_si(larger, "mm"), 6)

@@ -4,19 +4,18 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import Annotated, Any, ClassVar, Self
 
-from abu_calc.features.design.band import FRICTION, NEW_WHEEL, SPEED, BandRow
+from abu_calc.features.design.band import BandRow, band
 from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
 from abu_calc.features.design.repeats import as_options, places
 from abu_calc.features.design.starts import DecisiveRun, Spread
 from abu_calc.features.design.verdict import Verdict
 from abu_calc.features.grinding.records import AxisMotion
-from abu_calc.features.spindle.case import SizedRace, SpindleCase, SpindleDesign
+from abu_calc.features.spindle.case import SizedRace, SpindleDesign
 from abu_calc.features.spindle.start_cases import horizontal, scene_of, start_phases
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.result import Result
-from abu_calc.sizing.case import UNKNOWN_OIL
 
 
 @record
@@ -121,31 +120,9 @@ class SpindleEnsemble(Record):
             rest_time_s=Spread.of(ensemble, lambda outcome: outcome.rest_time_or_inf),
             settling_time_s=Spread.of(ensemble, lambda outcome: outcome.settling_time_or_inf),
             slowest=None if slowest is None else slowest.member.name,
-            band=tuple(spindle_band(design.case)),
+            band=band(design),
             worst_run=DecisiveRun.of(design, ensemble, repeated=repeated),
         )
-
-
-def spindle_band(case: SpindleCase) -> Iterator[BandRow]:
-    """Values of the file that the start cases vary: promised are eccentricities and imbalances, usual are
-    oil, friction and speed.
-    """
-    for race, table in enumerate(case.table.autobalancer):
-        yield BandRow(
-            key=f"autobalancer.{race}.race_eccentricity_mm", low=0.0, high=table.race_eccentricity_mm, promised=True
-        )
-    for number, wheel in enumerate(case.wheels):
-        most = from_si(abs(wheel.imbalance), "g_mm")
-        yield BandRow(key=f"wheel.{number}.imbalance_g_mm", low=NEW_WHEEL * most, high=most, promised=True)
-    for race, drag in enumerate(case.drags):
-        yield _usual(f"autobalancer.{race}.rolling_drag_per_s", (min(UNKNOWN_OIL), max(UNKNOWN_OIL)), drag)
-        yield _usual(f"autobalancer.{race}.rolling_friction_mm", FRICTION, from_si(case.friction_arm, "mm"))
-    yield _usual("machine.speed_rpm", SPEED, from_si(case.speed, "rpm"))
-
-
-def _usual(key: str, factors: tuple[float, float], value: float) -> BandRow:
-    low, high = factors
-    return BandRow(key=key, low=low * value, high=high * value, promised=False)
 
 
 @record
@@ -230,14 +207,15 @@ def repeated(outcome: StartOutcome, design: SpindleDesign) -> str:
 
 def _made(design: SpindleDesign) -> Iterator[tuple[str, Any]]:
     """Entries that pin balls, races and their places."""
-    for k, race in enumerate(design.races):
-        balls, own = race.autobalancer, f"autobalancer.{k}."
-        yield f"{own}ball_count", balls.ball_count
-        yield f"{own}ball_diameter_mm", from_si(balls.ball_diameter, "mm")
-        yield f"{own}race_radius_mm", from_si(balls.race_radius, "mm")
-        if design.case.table.autobalancer[k].plane_range_mm is not None:
+    case = design.case
+    for own, race, table in zip(case.race_keys, design.races, case.table.autobalancer, strict=True):
+        balls = race.autobalancer
+        yield f"{own}.ball_count", balls.ball_count
+        yield f"{own}.ball_diameter_mm", from_si(balls.ball_diameter, "mm")
+        yield f"{own}.race_radius_mm", from_si(balls.race_radius, "mm")
+        if table.plane_range_mm is not None:
             place = from_si(race.place, "mm")
-            yield from ((f"{own}plane_mm", place), (f"{own}plane_range_mm", [place, place]))
+            yield from ((f"{own}.plane_mm", place), (f"{own}.plane_range_mm", [place, place]))
 
 
 def _of_start(outcome: StartOutcome, design: SpindleDesign) -> Iterator[tuple[str, Any]]:
@@ -251,21 +229,19 @@ def _of_start(outcome: StartOutcome, design: SpindleDesign) -> Iterator[tuple[st
     if varied.spindle_axis is not None:
         yield "machine.spindle_axis", "horizontal" if horizontal(design, member) else "vertical"
     phases = iter(start_phases(design, member))
-    for k, (wheel, angle) in enumerate(zip(case.wheels, case.angles, strict=True)):
+    for own, wheel, angle in zip(case.wheel_keys, case.wheels, case.angles, strict=True):
         if member.speed is not None or varied.imbalance != 1:
-            yield f"wheel.{k}.imbalance_g_mm", varied.imbalance * from_si(abs(wheel.imbalance), "g_mm")
+            yield f"{own}.imbalance_g_mm", varied.imbalance * from_si(abs(wheel.imbalance), "g_mm")
         if angle is None:
-            yield f"wheel.{k}.imbalance_angle_deg", wrapped_deg(next(phases, 0.0))
-    for k, drag in enumerate(case.drags):
+            yield f"{own}.imbalance_angle_deg", wrapped_deg(next(phases, 0.0))
+    for own, drag in zip(case.race_keys, case.drags, strict=True):
         if member.drag != case.drag:
-            yield f"autobalancer.{k}.rolling_drag_per_s", drag * member.drag / case.drag
+            yield f"{own}.rolling_drag_per_s", drag * member.drag / case.drag
         if varied.friction_arm != 1:
-            yield f"autobalancer.{k}.rolling_friction_mm", varied.friction_arm * from_si(case.friction_arm, "mm")
+            yield f"{own}.rolling_friction_mm", varied.friction_arm * from_si(case.friction_arm, "mm")
         if varied.race_eccentricity != 1:
-            yield (
-                f"autobalancer.{k}.race_eccentricity_mm",
-                varied.race_eccentricity * from_si(case.eccentricity, "mm"),
-            )
+            off = varied.race_eccentricity * from_si(case.eccentricity, "mm")
+            yield f"{own}.race_eccentricity_mm", off
 
 
 @record

@@ -50,7 +50,6 @@ from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.start_cases import ALIKE, KINDS, RUN_UP, Axis, Kind, Member, Variation
 from abu_calc.simulation.subject import RACE_CENTRE, Subject
-from abu_calc.sizing.case import UNKNOWN_OIL
 
 OF_BAND: Final = 12
 """Start cases of machines within what the file promises."""
@@ -92,7 +91,7 @@ def start_cases(design: SpindleDesign) -> Iterator[Member]:
     turned = all_phases(design.case)
     few = turned[:: max(1, len(turned) // 2)]
     for speed in (None, *speed_ends(design.case)):
-        for drag in dict.fromkeys(factor * design.case.drag for factor in UNKNOWN_OIL):
+        for drag in dict.fromkeys(factor * design.case.drag for factor in design.case.drag_shares):
             given = drag == design.case.drag
             for phases in turned if given and speed is None else few:
                 for kind in KINDS:
@@ -115,7 +114,7 @@ def promised(design: SpindleDesign) -> Iterator[Member]:
 
 def usual(design: SpindleDesign) -> Iterator[Member]:
     """The first of them with another friction arm, another oil and another speed, within what is usual."""
-    case, oils = design.case, (min(UNKNOWN_OIL), max(UNKNOWN_OIL))
+    case, oils = design.case, (min(design.case.drag_shares), max(design.case.drag_shares))
     for start, point in zip(islice(promised(design), OF_USUAL), sequence(slice(5, 8)), strict=False):
         friction, oil, speed = map(between, (FRICTION, oils, SPEED), point)
         varied = replace(start.varied, friction_arm=friction)
@@ -212,7 +211,7 @@ def race_needs(design: SpindleDesign, member: Member) -> tuple[complex, ...]:
 
 
 def _effects(design: SpindleDesign, member: Member) -> Iterator[Effect]:
-    case, radius = design.case, design.races[0].autobalancer.ball_diameter / 2
+    case, radius = design.case, design.autobalancers[0].ball_diameter / 2
     if horizontal(design, member):
         yield GravityEffect()
     if friction_arm := member.varied.friction_arm * case.friction_arm:
@@ -357,8 +356,8 @@ def _observed(design: SpindleDesign, member: Member, scene: Scene, samples: Samp
 def unavoidable_imbalance(design: SpindleDesign, race: int) -> float:
     """Imbalance [kg m] that eccentricity of both races and friction may leave at a race whose balls balance."""
     case = design.case
-    eccentric = eccentricity_resultants(case.rotor, case.races, (case.eccentricity, case.eccentricity), case.speed)
-    friction = design.races[race].autobalancer.budget.rolling_friction
+    eccentric = eccentricity_resultants(case.rotor, case.races, (case.eccentricity,) * 2, case.speed)
+    friction = design.autobalancers[race].budget.rolling_friction
     return abs(eccentric[race]) + felt_mass(case, race) * friction
 
 

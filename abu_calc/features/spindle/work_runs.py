@@ -38,7 +38,6 @@ from abu_calc.simulation.residual_criteria import SLIPPING
 from abu_calc.simulation.run_up_amplitude import without_balls
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.start_cases import Kind, Member
-from abu_calc.sizing.case import UNKNOWN_OIL
 
 ARRANGEMENTS: Final = 12
 """Arrangements of the balls that are judged besides the even one, drawn at random with a fixed seed."""
@@ -282,10 +281,10 @@ def agreement(design: SpindleDesign, wheel: PressedWheel, member: Member) -> flo
 
 def work_cases(design: SpindleDesign, wheel: PressedWheel) -> tuple[WorkCase, ...]:
     """All runs of a wheel: phases of the imbalances; balls settled or not; hot and cold oil where they are settled."""
-    turned, given = all_phases(design.case), design.case.drag
+    case, turned = design.case, all_phases(design.case)
     spread = [start_of(design, "spread", phases) for phases in turned]
     few = spread[:: max(1, len(turned) // 2)]
-    oils = [replace(each, drag=factor * given, promised=False) for factor in UNKNOWN_OIL[1:] for each in few]
+    oils = [replace(each, drag=share * case.drag, promised=False) for share in case.drag_shares[1:] for each in few]
     early = [start_of(design, kind, phases) for kind in EARLY for phases in turned]
     return (
         *(WorkCase(wheel, "without", each) for each in spread),

@@ -164,13 +164,12 @@ def of_tolerances(design: Design | SpindleDesign, *, building: bool) -> Iterator
 
     `building`: the design is fixed; one that is made anew has no balls or race yet that could be off, and no start.
     """
-    case, tables, made = design.case, design.case.table, design.autobalancers
-    numbered, ways = not isinstance(design, Design), dict[str, str]()
+    case, tables, made, ways = design.case, design.case.table, design.autobalancers, dict[str, str]()
     if building:
         diameter = from_si(made[0].ball_diameter, "mm")
         ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
-        for number, own in enumerate(made):
-            radius, key = from_si(own.race_radius, "mm"), f"autobalancer{f'.{number}' if numbered else ''}"
+        for key, own in zip(case.race_keys, made, strict=True):
+            radius = from_si(own.race_radius, "mm")
             ways[f"{key}.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
         if warmth := _warmth(tables.oil):
             ways[WARMTH] = warmth
@@ -182,10 +181,9 @@ def of_tolerances(design: Design | SpindleDesign, *, building: bool) -> Iterator
         value = getattr(case.autobalancer, key)
         if value > 0 and (building or key != DRAG_RATE):
             ways[f"autobalancer.{key}"] = f"lognormal({value!r}, {spread:.6g})"
-    for number, imbalance in enumerate(design.imbalances):
+    for key, imbalance in zip(case.wheel_keys, design.imbalances, strict=True):
         if imbalance > 0:
-            key = f"wheel{f'.{number}' if numbered else ''}.imbalance_g_mm"
-            ways[key] = f"lognormal({from_si(imbalance, 'g_mm'):.6g}, {WORN})"
+            ways[f"{key}.imbalance_g_mm"] = f"lognormal({from_si(imbalance, 'g_mm'):.6g}, {WORN})"
     ways |= _hands(tables.suspension.frequencies)
     low, high = tables.machine.speed_range
     if low < high:

@@ -209,13 +209,10 @@ def start_on_spindle(design: SpindleDesign, values: Values) -> Member:
 def capacity_ratio(design: SpindleDesign, member: Member) -> float:
     """Smaller ratio of capacity to what a race needs at the phases and eccentricities of this start."""
     case = design.case
-    off = cmath.rect(case.eccentricity, race_centre(design, member))
-    eccentric = eccentricity_resultants(case.rotor, case.races, (off, off), case.speed)
-    ratios = [
-        race.autobalancer.capacity / need
-        for index, race in enumerate(design.races)
-        if (need := abs(eccentric[index] - race_needs(design, member)[index])) > 0
-    ]
+    whirl = cmath.rect(case.eccentricity, race_centre(design, member))
+    eccentric = eccentricity_resultants(case.rotor, case.races, (whirl, whirl), case.speed)
+    needs = (abs(off - idle) for off, idle in zip(eccentric, race_needs(design, member), strict=True))
+    ratios = (made.capacity / need for made, need in zip(design.autobalancers, needs, strict=True) if need > 0)
     return min(ratios, default=math.inf)
 
 
