@@ -222,7 +222,7 @@ class ChangeWatcher(NoWorse):
 def _in_design(design: Any, own: Any, member: Member) -> Member | None:
     """The start case of another design that stands for one of its own; None: there is none."""
     case, other = design.case, own.case
-    placed = not member.angles or len(member.angles) == design.autobalancer.ball_count
+    placed = not member.angles or len(member.angles) == sum(made.ball_count for made in design.autobalancers)
     run_up = not member.run_up or case.table.run_up == other.table.run_up
     if not (placed and run_up and (member.speed is None or case.speed_range == other.speed_range)):
         return None
@@ -356,8 +356,13 @@ def _rare(judged: Judged) -> float | None:
     return math.nan if searched is None else finite(searched.foreseen)
 
 
+def _of_one(judged: Judged) -> bool:
+    """True of a machine with one race."""
+    return len(judged.facts.design.autobalancers) == 1
+
+
 def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judged], float | None]:
-    return lambda judged: value(judged.facts.design.autobalancer) if hasattr(judged.facts.design, "choice") else None
+    return lambda judged: value(judged.facts.design.autobalancer) if _of_one(judged) else None
 
 
 NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
@@ -416,7 +421,7 @@ SEATS: Final = "6"
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
-    codes = SEARCHED if hasattr(before.facts.design, "choice") else OF_STARTS
+    codes = SEARCHED if _of_one(before) else OF_STARTS
     bad = [check for check in before.checks
            if check.requested and check.status != "pass" and (_searched(check, codes) or not check.remedy)]  # fmt: skip
     first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
@@ -488,8 +493,7 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
 
 def _own(before: Judged) -> Entries:
     """Entries that pin the present balls and race; none of two races."""
-    design = before.facts.design
-    return overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
+    return overrides(pins(before.facts.design.autobalancer)) if _of_one(before) else ()
 
 
 def verdict_of(judged: Judged, checks: Sequence[Check], step: NextStep, told: str, reading: Provenance) -> Verdict:
