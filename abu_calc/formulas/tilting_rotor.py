@@ -5,7 +5,6 @@ Imbalances U_j [kg m, complex] lie at z_j, the races at z₁ and z₂. With Z = 
 whirl is q = Ω²·Z⁻¹·Σ (1, z)ᵀU. Bearings are alike along x and y.
 """
 
-import cmath
 import math
 from collections.abc import Iterable, Sequence
 from functools import cached_property
@@ -396,12 +395,3 @@ def mode_margin(
         mode, gap / speed / (3 * share / J) ** (1 / 3), zeta / damping if damping else math.inf,
         drag / least_drag if least_drag else math.inf,
     )  # fmt: skip
-
-
-def polar(size: float, degrees: float) -> complex:
-    """Vector of a size and an angle [°].
-
-    >>> round(polar(2.0, 90.0).imag, 9)
-    2.0
-    """
-    return cmath.rect(size, math.radians(degrees))
