@@ -1,9 +1,9 @@
 """A scene: everything that one simulation needs, in SI, nothing optional."""
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
-from typing import Any, Self, TypeVar, cast
+from typing import Self
 
 import numpy as np
 
@@ -16,8 +16,6 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
 
 __all__ = ["Effect", "Race", "Scene", "Support", "only", "parted_angles", "placed", "with_parted_balls", "without"]
-
-Values = TypeVar("Values")
 
 SMALLEST_GAP = 1e-6
 """Balls nearer to each other than this at the start [rad] are parted: from exactly one place they could never part."""
@@ -93,13 +91,6 @@ class Scene(Circumstances):
         for static_moment, angle in zip(self.static_moments, angles, strict=True):
             total += static_moment * np.exp(1j * angle)
         return total
-
-    def by_race(self, values: Values) -> Iterator[tuple[Race, Values]]:
-        """Each race with its own of values that all balls have."""
-        every, first = cast("Any", values), 0
-        for race in self.races:
-            yield race, every[first : first + len(race.ball_masses)]
-            first += len(race.ball_masses)
 
     def started(self, angles: Sequence[float], speeds: Sequence[float] | None = None) -> Self:
         """The scene with all balls started at these angles [rad]; speeds against the race [rad/s], None: at rest."""

@@ -11,7 +11,7 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene, only
-from abu_calc.dynamics.stability.family import closed
+from abu_calc.dynamics.stability.family import closed, parts
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.search import MARGIN, Search, decided, searched
 from abu_calc.dynamics.stability.verdict import Stability, judged
@@ -149,9 +149,6 @@ def _followed(scene: Scene, duration: float, search: Search) -> ArrangementEnd:
 
 def _residual(search: Search, angles: Array) -> Array:
     """Σ over races of |Σ m e^{iθ} − what balances| [kg], over time."""
-    total, first = np.zeros(angles.shape[1]), 0
-    for masses, resultant, _ in search.races:
-        own = angles[first : first + len(masses)]
-        total += np.abs(masses @ np.exp(1j * own) - resultant)
-        first += len(masses)
-    return total
+    every = zip(search.races, parts(search.races, angles), strict=True)
+    left = (np.abs(masses @ np.exp(1j * own) - resultant) for (masses, resultant, _), own in every)
+    return sum(left, np.zeros(angles.shape[1]))
