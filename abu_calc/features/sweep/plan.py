@@ -207,17 +207,12 @@ def _scatter_ways(ways: dict[str, str]) -> Iterator[tuple[str, Variation]]:
 
 
 START: Final = "start."
+OF_BUILD: Final = ("start.kind", "start.angle_deg", "start.eccentricity_deg", "start.temperature_C")
 KEYS: Final = {
-    "build": ("start.kind", "start.angle_deg", "start.eccentricity_deg", "start.temperature_C"),
+    "build": OF_BUILD,
     "design": (),
     "scene": ("start.angle_deg", "start.temperature_C"),
-    "several races": (
-        "start.kind",
-        "start.angle_deg",
-        "start.eccentricity_deg",
-        "start.temperature_C",
-        *(PHASE.format(number) for number in range(1, MOST_WHEELS + 1)),
-    ),
+    "several races": (*OF_BUILD, *(PHASE.format(number) for number in range(1, MOST_WHEELS + 1))),
 }
 """Keys of the start, which no file has."""
 CHECKED: Final = 50
