@@ -354,7 +354,8 @@ class Variants(Generic[Model]):
 
 def in_all_races(path: tuple[Part, ...], races: object) -> list[tuple[Part, ...]]:
     """The paths of a key in each of several [[autobalancer]], unless it names one of them; else the path itself."""
-    if not isinstance(races, (list, tuple)) or len(races) < 2 or path[0] != RACES or isinstance(path[1], int):
+    whole = path[0] != RACES or len(path) < 2 or isinstance(path[1], int)
+    if whole or not isinstance(races, (list, tuple)) or len(races) < 2:
         return [path]
     return [(RACES, number, *path[1:]) for number in range(len(races))]
 

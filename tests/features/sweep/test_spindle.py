@@ -111,8 +111,14 @@ def test_one_of_two_known_phases_leaves_the_other() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "vary", ["start.phase_21_deg=uniform(0, 9)", "wheel.plane_mm=uniform(1, 2)", "autobalancer.nothing=uniform(1, 2)"]
-)
+    "vary",
+    [
+        "start.phase_21_deg=uniform(0, 9)",
+        "wheel.plane_mm=uniform(1, 2)",
+        "autobalancer.nothing=uniform(1, 2)",
+        "autobalancer=1,2",
+    ],
+)  # fmt: skip
 def test_what_the_file_does_not_bear_is_refused(vary: str) -> None:
     with pytest.raises(InputError):
         study_of(read_machine("pedestal-grinder"), vary)
