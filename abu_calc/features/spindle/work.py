@@ -104,7 +104,7 @@ def grind_spindle(
     Raises InputError for a file without [grinding], for a wheel that it does not have, and below a critical speed.
     """
     with machine.located():
-        refuse_idle(machine.spindle and machine.spindle.grinding)
+        refuse_idle(getattr(machine.tables, "grinding", None))
         design = size_races(machine)
         wheels = pressed_wheels(design.case)
         if number is not None and not 1 <= number <= len(wheels):
