@@ -170,11 +170,11 @@ VIEWS: Final[Mapping[str, Views]] = {
             solids="design.solids:size_solids",
         ),
         Views(
-            "two_races.records:TwoRaceSizeResult",
-            "two_races.view:two_race",
-            "two_races.figures:two_race_extras",
-            drawings="two_races.view:two_race_sheets",
-            solids="two_races.drawing:both_solids",
+            "spindle.records:SpindleSizeResult",
+            "spindle.view:spindle",
+            "spindle.figures:spindle_extras",
+            drawings="spindle.view:spindle_sheets",
+            solids="spindle.figures:both_solids",
         ),
         Views(
             "seats.study:CheckFitResult",
@@ -187,9 +187,9 @@ VIEWS: Final[Mapping[str, Views]] = {
         Views("stability.study:StabilityResult", "stability.view:stability", "stability.view:stability_extras"),
         Views("grinding.study:GrindingResult", "grinding.view:grinding", "grinding.figures:grinding_extras"),
         Views(
-            "two_races.work_records:TwoRaceGrindingResult",
-            "two_races.work_view:work",
-            "two_races.work_view:work_extras",
+            "spindle.records:SpindleGrindingResult",
+            "spindle.work_view:work",
+            "spindle.work_view:work_extras",
         ),
         Views(
             "balancing.study:BalanceResult",

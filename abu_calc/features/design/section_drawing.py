@@ -123,19 +123,22 @@ def _clear_of_balls(abu: "AutobalancerRecord") -> tuple[float, ...]:
 
 def section_drawing(result: "SizeResult", scale: float) -> Drawing:
     """The section alone, as a report shows it."""
-    return _alone("section", f"Section of the autobalancer, {result.title}", result, section_view(result, scale), scale)
+    title, shapes = f"Section of the autobalancer, {result.title}", section_view(result, scale)
+    return alone("section", title, described(result), shapes, scale)
 
 
 def face_drawing(result: "SizeResult", scale: float) -> Drawing:
     """The face alone, as a report shows it."""
-    return _alone("face", f"Face of the autobalancer, {result.title}", result, face_view(result, scale), scale)
+    title, shapes = f"Face of the autobalancer, {result.title}", face_view(result, scale)
+    return alone("face", title, described(result), shapes, scale)
 
 
-def _alone(name: str, title: str, result: "SizeResult", shapes: Sequence[Shape], scale: float) -> Drawing:
+def alone(name: str, title: str, words: str, shapes: Sequence[Shape], scale: float) -> Drawing:
+    """Shapes as a report shows them, without a frame."""
     low, high = extent(shapes, scale)
     margin = 3 / scale
     return Drawing(
-        name, title, described(result), scale, (low[0] - margin, low[1] - margin),
+        name, title, words, scale, (low[0] - margin, low[1] - margin),
         (high[0] + margin, high[1] + margin), tuple(shapes),
     )  # fmt: skip
 

@@ -42,11 +42,11 @@ def _machine(machine: Machine) -> None:
         from abu_calc.features.seats.study import judged_seats
 
         judged_seats(machine)
-    if machine.two_races is not None:
+    if machine.spindle is not None:
         from abu_calc.registry import imported
 
-        imported("two_races.choice:choose_both")(imported("two_races.case:read_case")(machine.two_races))
-    elif getattr(machine.tables, "autobalancer", None) is not None:
+        imported("spindle.case:size_races")(machine)
+    elif machine.autobalancers:
         _design(machine)
 
 

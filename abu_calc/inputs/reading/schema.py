@@ -11,7 +11,7 @@ from abu_calc.inputs.reading.format import FORMAT, KEY
 from abu_calc.inputs.reading.table import Table, all_tables
 from abu_calc.inputs.reading.values_with_units import canonical_keys
 from abu_calc.inputs.scene import SceneFile
-from abu_calc.inputs.two_races import TwoRaceFile
+from abu_calc.inputs.spindle import TwoRaceFile
 
 HOME: Final = "https://json.schemastore.org/"
 """Where the public schema store serves schemas; its names are those of the files of the bundle."""

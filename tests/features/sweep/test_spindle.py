@@ -7,18 +7,16 @@ from typing import Any
 import pytest
 
 import abu_calc
+from abu_calc.features.spindle.case import SpindleDesign
 from abu_calc.features.sweep.plan import asked, planned
-from abu_calc.features.sweep.two_races import (
-    TwoRaceBuilds,
-    TwoRaceVariants,
-    built_two_races,
+from abu_calc.features.sweep.samples import (
+    SpindleBuilds,
     capacity_ratio,
-    started,
+    start_on_spindle,
 )
-from abu_calc.features.two_races.choice import TwoRaceDesign
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import Machine, read_machine
-from abu_calc.inputs.two_races import TwoRaceFile
+from abu_calc.inputs.spindle import TwoRaceFile
 from abu_calc.inputs.variation import Variants
 
 RANGE = "machine.mass_kg=uniform(61.99, 62.01)"
@@ -28,13 +26,13 @@ RANGE = "machine.mass_kg=uniform(61.99, 62.01)"
 SAMPLES = 2000
 
 
-def study_of(machine: Machine, *vary: str, **options: Any) -> TwoRaceBuilds:
+def study_of(machine: Machine, *vary: str, **options: Any) -> SpindleBuilds:
     study = planned(machine, asked(machine, vary, **options), 0.05).study
-    assert isinstance(study, TwoRaceBuilds)
+    assert isinstance(study, SpindleBuilds)
     return study
 
 
-def needs_written_out(design: TwoRaceDesign, phase: float, centre: float) -> tuple[float, float]:
+def needs_written_out(design: SpindleDesign, phase: float, centre: float) -> tuple[float, float]:
     """Resultants of the pedestal grinder far above resonance: moments about the other race, races off by Δ alike."""
     case = design.case
     wheels = (2500e-6 + 0j, 1800e-6 * cmath.exp(1j * phase))
@@ -57,12 +55,12 @@ def test_the_share_told_for_the_worst_phase_holds_in_every_sample() -> None:
     lowest, phases = math.inf, []
     for member in range(SAMPLES):
         values = dict(zip(names, study.sample.values(member), strict=True))
-        start = started(design, values)
+        start = start_on_spindle(design, values)
         ratio = capacity_ratio(design, start)
         assert ratio >= told * (1 - 1e-9)
         if member % 97 == 0:
             own = needs_written_out(design, start.phases[0], start.eccentricity)
-            capacities = [race.design.autobalancer.capacity for race in design.races]
+            capacities = [race.autobalancer.capacity for race in design.races]
             assert ratio == pytest.approx(min(c / n for c, n in zip(capacities, own, strict=True)), rel=1e-6)
         lowest = min(lowest, ratio)
         phases.append(start.phases[0])
@@ -88,12 +86,12 @@ def test_tolerances_go_to_both_races_and_every_wheel() -> None:
     assert {"wheel.0.imbalance_g_mm", "wheel.1.imbalance_g_mm", "start.temperature_C"} <= keys
     assert "autobalancer.rolling_drag_per_s" not in keys
     table = study.variants.table({("autobalancer", "ball_diameter_mm"): 17.4})
-    made = built_two_races(study.design, table)
-    assert {round(race.design.autobalancer.ball_diameter, 9) for race in made.races} == {0.0174}
+    made = study.design.built(table)
+    assert {round(race.autobalancer.ball_diameter, 9) for race in made.races} == {0.0174}
     # The design stays: as many balls, the same races.
     for ours, theirs in zip(made.races, study.design.races, strict=True):
-        assert ours.design.autobalancer.ball_count == theirs.design.autobalancer.ball_count
-        assert ours.design.autobalancer.race_radius == theirs.design.autobalancer.race_radius
+        assert ours.autobalancer.ball_count == theirs.autobalancer.ball_count
+        assert ours.autobalancer.race_radius == theirs.autobalancer.race_radius
 
 
 @pytest.mark.slow
@@ -113,8 +111,14 @@ def test_one_of_two_known_phases_leaves_the_other() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "vary", ["start.phase_21_deg=uniform(0, 9)", "wheel.plane_mm=uniform(1, 2)", "autobalancer.nothing=uniform(1, 2)"]
-)
+    "vary",
+    [
+        "start.phase_21_deg=uniform(0, 9)",
+        "wheel.plane_mm=uniform(1, 2)",
+        "autobalancer.nothing=uniform(1, 2)",
+        "autobalancer=1,2",
+    ],
+)  # fmt: skip
 def test_what_the_file_does_not_bear_is_refused(vary: str) -> None:
     with pytest.raises(InputError):
         study_of(read_machine("pedestal-grinder"), vary)
@@ -122,7 +126,7 @@ def test_what_the_file_does_not_bear_is_refused(vary: str) -> None:
 
 def test_a_key_of_one_race_leaves_the_other() -> None:
     machine = read_machine("pedestal-grinder")
-    variants = TwoRaceVariants(Variants.of(machine, TwoRaceFile).content, TwoRaceFile)
+    variants = Variants.of(machine, TwoRaceFile)
     table = variants.table({("autobalancer", 1, "rolling_drag_per_s"): 30.0})
     assert [race.rolling_drag_per_s for race in table.autobalancer] == [15.0, 30.0]
     table = variants.table({("autobalancer", "rolling_drag_per_s"): 30.0})

@@ -9,21 +9,22 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from abu_calc.dynamics.scene import without
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.start_cases import (
+from abu_calc.features.spindle.case import SpindleDesign, size_races
+from abu_calc.features.spindle.start_cases import (
     FIRST_TOLERANCE,
     OF_BAND,
     OF_USUAL,
-    TwoRaceOutcome,
+    StartOutcome,
     ensemble_of,
+    imbalances_left,
     race_needs,
+    references,
     rest_time,
     revolution_times,
     scene_of,
     settling_time,
-    start,
     start_cases,
+    start_of,
     start_once,
 )
 from abu_calc.foundation import patience
@@ -49,10 +50,8 @@ SOFT = {"stiffness_N_per_m": 2.0, "damping_N_s_per_m": 0.01}
 
 
 @cache
-def design_of(*overrides: str) -> TwoRaceDesign:
-    tables = read_machine("pedestal-grinder", overrides).two_races
-    assert tables is not None
-    return choose_both(read_case(tables))
+def design_of(*overrides: str) -> SpindleDesign:
+    return size_races(read_machine("pedestal-grinder", overrides))
 
 
 @pytest.mark.slow
@@ -81,18 +80,18 @@ def test_a_varied_start_is_that_of_a_file_with_those_values_judged_by_the_first_
         *(f"autobalancer.{k}.race_eccentricity_mm=0.005" for k in (0, 1)),
     )  # fmt: skip
     assert design.case.eccentricity == pytest.approx(1e-5)
-    ours = scene_of(design, start(design, "spread", (1.0,), varied=varied))
+    ours = scene_of(design, start_of(design, "spread", (1.0,), varied=varied))
     same = replace(design, case=replace(lighter.case, rotor=design.case.rotor, races=design.case.races))
-    other = scene_of(same, start(same, "spread", (1.0,)))
+    other = scene_of(same, start_of(same, "spread", (1.0,)))
     assert (ours.imbalance, ours.couple) == pytest.approx((other.imbalance, other.couple), rel=1e-12)
     assert ours.effects == other.effects and ours.races == other.races
-    outcome = start_once(design, start(design, "spread", (1.0,), varied=varied), 0.05, TOLERANCE, WORK)
-    whole = start_once(design, start(design, "spread", (1.0,)), 0.05, TOLERANCE, WORK)
-    assert isinstance(outcome, TwoRaceOutcome) and isinstance(whole, TwoRaceOutcome)
+    outcome = start_once(design, start_of(design, "spread", (1.0,), varied=varied), 0.05, TOLERANCE, WORK)
+    whole = start_once(design, start_of(design, "spread", (1.0,)), 0.05, TOLERANCE, WORK)
+    assert isinstance(outcome, StartOutcome) and isinstance(whole, StartOutcome)
     assert {outcome.allowed, outcome.moved} <= {
         number
         for race in (0, 1)
-        for need in [abs(race_needs(design, start(design, "spread", (1.0,)))[race])]
+        for need in [abs(race_needs(design, start_of(design, "spread", (1.0,)))[race])]
         for number in (need, need / 2)
     }
 
@@ -100,7 +99,7 @@ def test_a_varied_start_is_that_of_a_file_with_those_values_judged_by_the_first_
 @pytest.mark.slow
 def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
     design = design_of()
-    member = start(design, "spread", (math.pi / 2,))
+    member = start_of(design, "spread", (math.pi / 2,))
     scene = scene_of(design, member)
     force = scene.imbalance * np.exp(1j * scene.imbalance_angle)
     moment = scene.couple * np.exp(1j * scene.couple_angle)
@@ -115,8 +114,8 @@ def test_what_the_scene_turns_is_what_the_wheels_have() -> None:
 def test_both_races_end_where_the_levers_say() -> None:
     """Without friction, eccentricity and gravity the balls' resultants are exactly opposite what the races carry."""
     design = design_of(*TRUE)
-    run = start_once(design, start(design, "spread", (math.radians(130),)), 0.05, 0.1 * TOLERANCE, WORK)
-    assert isinstance(run, TwoRaceOutcome)
+    run = start_once(design, start_of(design, "spread", (math.radians(130),)), 0.05, 0.1 * TOLERANCE, WORK)
+    assert isinstance(run, StartOutcome)
     assert run.balanced
     assert run.slip < 1e-3
     wheels = design.case.turned((0.0, math.radians(130)))
@@ -132,7 +131,7 @@ def test_settling_agrees_with_an_own_integration() -> None:
     sides. Races without eccentricity and friction end with no residual imbalance at all: the limit is a tenth of it.
     """
     design = design_of(*TRUE)
-    member = start(design, "spread", (math.radians(130),))
+    member = start_of(design, "spread", (math.radians(130),))
     ours = without(scene_of(design, member), ["ball_contact"])
     ours = replace(ours, support=replace(ours.support, axial_inertia=False))
     case, scene = design.case, scene_of(design, member)
@@ -190,9 +189,10 @@ def test_settling_agrees_with_an_own_integration() -> None:
         assert left[-1] < 0.03 * abs(need)
         settled = max(settled, until[np.flatnonzero(left > 0.1 * abs(need))[-1] + 1])
     needs = race_needs(design, member)
-    assert settling_time(ours, states, needs) == pytest.approx(settled, abs=1e-9)
+    left, small = imbalances_left(ours, states, needs), references(ours, needs)
+    assert settling_time(ours, left, small) == pytest.approx(settled, abs=1e-9)
     # Nothing is left, so that |U − U_end| is |U|: they rest when that has settled, between two samples.
-    assert rest_time(ours, states, needs) == pytest.approx(settled, abs=until[1])
+    assert rest_time(ours, left, small) == pytest.approx(settled, abs=until[1])
     # A turn of the velocity at each place, less its mean and the change since the turn before.
     until_quiet = 0
     for held in case.places:
@@ -215,23 +215,23 @@ def test_settling_agrees_with_an_own_integration() -> None:
 
 def test_names_of_start_cases() -> None:
     design = design_of()
-    assert start(design, "bunched", (math.pi,)).name == "bunched, phase 180°"
-    assert start(design, "run-up", (0.0,), speed=157.08).name == "run-up in 1 s (1500 rpm), phase 0°"
+    assert start_of(design, "bunched", (math.pi,)).name == "bunched, phase 180°"
+    assert start_of(design, "run-up", (0.0,), speed=157.08).name == "run-up in 1 s (1500 rpm), phase 0°"
 
 
 def test_a_start_that_no_two_runs_repeat_is_judged_by_the_worse_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
     """Chaotic starts: each run counts by its end, and the slowest of all is run once more."""
     design = design_of()
-    times, run = iter(range(1000)), TwoRaceOutcome(
-        start(design), 0.1, 0.1, 0.1, False, 1e-5, 90.0, 0.0, 1e-6, 1e-5, displacements=(1e-5, 1e-5)
+    times, run = iter(range(1000)), StartOutcome(
+        start_of(design), 0.1, 0.1, 0.1, False, 1e-5, 90.0, 0.0, 1e-6, 1e-5, displacements=(1e-5, 1e-5)
     )  # fmt: skip
     tolerances = []
 
-    def chaotic(_design: object, member: object, _accuracy: float, tolerance: float, *_: object) -> TwoRaceOutcome:
+    def chaotic(_design: object, member: object, _accuracy: float, tolerance: float, *_: object) -> StartOutcome:
         tolerances.append(tolerance)
         return replace(run, member=member, quiet_time=0.01 * (next(times) % 7 + 1))  # type: ignore[arg-type]
 
-    runner = ensemble_module.Runner(chaotic, lambda *_: "auto")
+    runner = ensemble_module.Runner(chaotic, lambda design, member, _: scene_of(design, member))
     starts = list(start_cases(design))
     found = ensemble_module.simulate_starts(design, starts, 0.05, TOLERANCE, silent, 1, runner)
     assert found.members == len(starts) and not found.lost
@@ -241,7 +241,7 @@ def test_a_start_that_no_two_runs_repeat_is_judged_by_the_worse_of_them(monkeypa
 
 def test_a_start_without_an_answer_says_why() -> None:
     design = design_of()
-    lost = start_once(design, start(design), 0.05, TOLERANCE, 10)
+    lost = start_once(design, start_of(design), 0.05, TOLERANCE, 10)
     assert isinstance(lost, Lost) and lost.short and lost.reason
 
 
@@ -266,7 +266,7 @@ def test_a_start_that_ends_early_is_judged_as_the_whole_one() -> None:
     ended = 0
     for member in list(start_cases(design))[::9]:
         short, whole = (start_once(design, member, 0.05, FIRST_TOLERANCE, early_end=early) for early in (True, False))
-        assert isinstance(short, TwoRaceOutcome) and isinstance(whole, TwoRaceOutcome)
+        assert isinstance(short, StartOutcome) and isinstance(whole, StartOutcome)
         assert (short.balanced, short.creeping, short.hanging) == (whole.balanced, whole.creeping, whole.hanging)
         assert short.quiet_time == whole.quiet_time
         assert short.rest_time == pytest.approx(whole.rest_time, rel=0.01)
@@ -280,11 +280,11 @@ def test_no_start_is_begun_after_the_work_of_all(monkeypatch: pytest.MonkeyPatch
     """Nor confirmed: what others have spent is told for each."""
     design, begun = design_of(), list[str]()
 
-    def dear(_: object, member: Member, *given: object) -> TwoRaceOutcome | Lost:
+    def dear(_: object, member: Member, *given: object) -> StartOutcome | Lost:
         begun.append(member.name)
         return Lost(member, "more work than allowed", MOST_MORE // 10)
 
-    runner = Runner(dear, lambda *_: "auto", MOST_MORE // 4)
+    runner = Runner(dear, lambda design, member, _: scene_of(design, member), MOST_MORE // 4)
     found = simulate_starts(design, list(start_cases(design)), 0.05, FIRST_TOLERANCE, silent, 1, runner)
     assert len(begun) == 2 and found.outcomes == ()
     reasons = {lost.reason for lost in found.lost}
@@ -302,6 +302,6 @@ def test_a_scene_of_few_turns_is_run_to_its_end() -> None:
     soft = *(f"suspension.bearing_{what}=[{value}, {value}]" for what, value in SOFT.items()), "machine.speed_rpm=30.0"
     design = design_of(*soft)
     short, whole = (
-        start_once(design, start(design), 0.05, FIRST_TOLERANCE, early_end=early) for early in (True, False)
+        start_once(design, start_of(design), 0.05, FIRST_TOLERANCE, early_end=early) for early in (True, False)
     )
-    assert isinstance(short, TwoRaceOutcome) and short == whole
+    assert isinstance(short, StartOutcome) and short == whole

@@ -5,7 +5,6 @@ Imbalances U_j [kg m, complex] lie at z_j, the races at z₁ and z₂. With Z = 
 whirl is q = Ω²·Z⁻¹·Σ (1, z)ᵀU. Bearings are alike along x and y.
 """
 
-import cmath
 import math
 from collections.abc import Iterable, Sequence
 from functools import cached_property
@@ -190,13 +189,15 @@ def _solved(matrix: Square, right: ComplexPair) -> ComplexPair:
     return (d * right[0] - b * right[1]) / determinant, (a * right[1] - c * right[0]) / determinant
 
 
-def _checked(races: Pair) -> Pair:
-    if abs(races[0] - races[1]) < ONE_PLANE:
+def _checked(races: Sequence[float]) -> tuple[float, float]:
+    """Places of two races, in two planes."""
+    first, second = races
+    if abs(first - second) < ONE_PLANE:
         raise InputError(
             "both races lie in one plane", place=Place(key="autobalancer.plane_mm"), found=f"{1e3 * races[0]:g} mm",
             allowed="two planes", remedy="Two races in one plane balance no couple: move one, or use one race.",
         )  # fmt: skip
-    return races
+    return first, second
 
 
 @formula(
@@ -207,7 +208,7 @@ def _checked(races: Pair) -> Pair:
     assumed="both races still",
     source="equilibrium of two parallel rotating forces; Rodrigues et al. 2008",
 )
-def lever_shares(races: Pair, place: float) -> Pair:
+def lever_shares(races: Sequence[float], place: float) -> tuple[float, ...]:
     """
     >>> [round(share, 5) for share in lever_shares((0.3, -0.3), 0.26)]
     [0.93333, 0.06667]
@@ -225,14 +226,13 @@ def lever_shares(races: Pair, place: float) -> Pair:
     assumed="races without eccentricity, a rigid rotor",
     source="derived; Rodrigues et al. 2008",
 )
-def balancing_resultants(races: Pair, imbalances: Sequence[PlacedImbalance]) -> ComplexPair:
+def balancing_resultants(races: Sequence[float], imbalances: Sequence[PlacedImbalance]) -> tuple[complex, ...]:
     """
     >>> [round(1e6 * abs(V)) for V in balancing_resultants((0.3, -0.3), [PlacedImbalance(0.3, 1e-3)])]
     [1000, 0]
     """
     shares = [(lever_shares(races, place), imbalance) for place, imbalance in imbalances]
-    first, second = (-sum((share[race] * U for share, U in shares), 0j) for race in (0, 1))
-    return first, second
+    return tuple(-sum((share[race] * U for share, U in shares), 0j) for race in (0, 1))
 
 
 @formula(
@@ -247,7 +247,9 @@ def balancing_resultants(races: Pair, imbalances: Sequence[PlacedImbalance]) -> 
     assumed="a rigid rotor on bearings alike along x and y",
     source="derived: each race whirls about its own centre",
 )
-def eccentricity_resultants(rotor: TiltingRotor, races: Pair, eccentricities: ComplexPair, speed: float) -> ComplexPair:
+def eccentricity_resultants(
+    rotor: TiltingRotor, races: Sequence[float], eccentricities: ComplexPair, speed: float
+) -> tuple[complex, ...]:
     """
     >>> rotor = TiltingRotor(62.0, 3.1, 0.09, ())
     >>> [round(1e6 * abs(V), 3) for V in eccentricity_resultants(rotor, (0.3, -0.3), (1e-6, 0j), 300.0)]
@@ -272,8 +274,9 @@ def eccentricity_resultants(rotor: TiltingRotor, races: Pair, eccentricities: Co
     source="triangle inequality",
 )
 def worst_resultants(
-    rotor: TiltingRotor, races: Pair, imbalances: Sequence[PlacedImbalance], eccentricities: Pair, speed: float
-) -> Pair:
+    rotor: TiltingRotor, races: Sequence[float], imbalances: Sequence[PlacedImbalance],
+    eccentricities: Sequence[float], speed: float,
+) -> tuple[float, ...]:  # fmt: skip
     """
     >>> wheels = [PlacedImbalance(0.26, 2500e-6), PlacedImbalance(-0.26, 1800e-6)]
     >>> found = worst_resultants(TiltingRotor(62.0, 3.1, 0.09, ()), (0.3, -0.3), wheels, (0.0, 0.0), 300.0)
@@ -285,11 +288,10 @@ def worst_resultants(
         eccentricity_resultants(rotor, races, (eccentricities[0], 0j), speed),
         eccentricity_resultants(rotor, races, (0j, eccentricities[1]), speed),
     )
-    first, second = (
+    return tuple(
         sum(abs(share[race]) * size for share, size in shares) + sum(abs(each[race]) for each in by_race)
         for race in (0, 1)
     )
-    return first, second
 
 
 @formula(
@@ -393,12 +395,3 @@ def mode_margin(
         mode, gap / speed / (3 * share / J) ** (1 / 3), zeta / damping if damping else math.inf,
         drag / least_drag if least_drag else math.inf,
     )  # fmt: skip
-
-
-def polar(size: float, degrees: float) -> complex:
-    """Vector of a size and an angle [°].
-
-    >>> round(polar(2.0, 90.0).imag, 9)
-    2.0
-    """
-    return cmath.rect(size, math.radians(degrees))

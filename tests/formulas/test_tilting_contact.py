@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from abu_calc.formulas.steady_contact import SteadyContact
-from abu_calc.formulas.two_race_contact import TiltingContact
-from abu_calc.formulas.two_races import Bearing, PlacedImbalance, TiltingRotor, balancing_resultants
+from abu_calc.formulas.tilting_contact import TiltingContact
+from abu_calc.formulas.tilting_rotor import Bearing, PlacedImbalance, TiltingRotor, balancing_resultants
 
 SPEED = 2850 * 2 * math.pi / 60
 ROTOR = TiltingRotor(62.0, 3.1, 0.09, (Bearing(0.2, 2.2e5, 300.0), Bearing(-0.2, 2.2e5, 300.0)))

@@ -1,12 +1,13 @@
 """Two races on one rotor against reference numbers of an own integration, and against matrices built here."""
 
+import cmath
 import math
 from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
-from abu_calc.formulas.two_races import (
+from abu_calc.formulas.tilting_rotor import (
     Bearing,
     PlacedImbalance,
     TiltingRotor,
@@ -16,7 +17,6 @@ from abu_calc.formulas.two_races import (
     mode_margin,
     one_race_limit,
     one_race_resultant,
-    polar,
     resultant_quantile,
     two_races_balance,
     worst_resultants,
@@ -24,6 +24,12 @@ from abu_calc.formulas.two_races import (
 from abu_calc.foundation.errors import InputError, RangeError
 
 RPM = 2 * math.pi / 60
+
+
+def polar(size: float, degrees: float) -> complex:
+    return cmath.rect(size, math.radians(degrees))
+
+
 PEDESTAL = TiltingRotor(62.0, 3.1, 0.09, (Bearing(0.2, 2.2e5, 300.0), Bearing(-0.2, 2.2e5, 300.0)))
 PEDESTAL_WHEELS = (PlacedImbalance(0.26, polar(2500e-6, 0.0)), PlacedImbalance(-0.26, polar(1800e-6, 130.0)))
 BETWEEN = TiltingRotor(40.0, 1.2, 0.06, (Bearing(0.25, 9e4, 120.0), Bearing(-0.25, 9e4, 120.0)))

@@ -9,18 +9,14 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.start_rules import checks_of_starts
-from abu_calc.features.two_races.advice import proposals
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.checks import level_checks
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.judgement import facts_of, judge
-from abu_calc.features.two_races.records import TwoRaceSizeResult
-from abu_calc.features.two_races.start_cases import (
-    TwoRaceOutcome,
+from abu_calc.features.spindle.case import SpindleDesign, size_races
+from abu_calc.features.spindle.judgement import facts_of, judge, level_checks, proposals
+from abu_calc.features.spindle.records import SpindleSizeResult
+from abu_calc.features.spindle.start_cases import (
     level_of,
     speed_ends,
-    start,
     start_cases,
+    start_of,
     start_once,
 )
 from abu_calc.foundation.checks import RANK, Check
@@ -31,22 +27,20 @@ from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 
 
 @cache
-def design_of(*overrides: str) -> TwoRaceDesign:
-    tables = read_machine("pedestal-grinder", overrides).two_races
-    assert tables is not None
-    return choose_both(read_case(tables))
+def design_of(*overrides: str) -> SpindleDesign:
+    return size_races(read_machine("pedestal-grinder", overrides))
 
 
-def sized(*overrides: str) -> TwoRaceSizeResult:
+def sized(*overrides: str) -> SpindleSizeResult:
     result = abu_calc.size(read_machine("pedestal-grinder", overrides))
-    assert isinstance(result, TwoRaceSizeResult)
+    assert isinstance(result, SpindleSizeResult)
     return result
 
 
 @pytest.mark.slow
 def test_changes_are_proposed_for_what_does_not_pass_alone() -> None:
     """Entries of both tables; a larger ball for start cases that are late, never a drag rate, which nobody can set."""
-    judgement = judge(design_of().bare.table, 0.05, silent, 1)
+    judgement = judge(read_machine("pedestal-grinder"), 0.05, silent, 1)
     assert list(proposals(judgement)) == []
     late = replace(judgement, checks=(Check("ABU702", "quiet time", "fail", "late"),))
     assert all("ball_diameter_mm" in entry for entry in next(proposals(late)))
@@ -78,10 +72,10 @@ def test_the_next_step_holds_when_followed(overrides: tuple[str, ...]) -> None:
     assert all(RANK.index(check.status) >= before[check.name] for check in followed.checks)
 
 
-def outcome(**values: object) -> TwoRaceOutcome:
+def outcome(**values: object) -> StartOutcome:
     """A start case that is quiet after 0.1 s and at rest after 0.4 s."""
-    member = start(design_of(), "bunched", (0.0,))
-    usual = TwoRaceOutcome(member, 9.0, 0.1, 0.4, False, 1e-5, 90.0, 0.0, 1e-6, 1e-5, displacements=(1e-5, 1e-5))
+    member = start_of(design_of(), "bunched", (0.0,))
+    usual = StartOutcome(member, 9.0, 0.1, 0.4, False, 1e-5, 90.0, 0.0, 1e-6, 1e-5, displacements=(1e-5, 1e-5))
     return replace(usual, **values)  # type: ignore[arg-type]
 
 
@@ -109,7 +103,7 @@ def test_levels_are_judged_at_the_speed_of_each_run() -> None:
         assert [check.status for check in level_checks(design, result, judged(outcomes, lost))] == expected
 
 
-def late_by(longest: float | None, *runs: TwoRaceOutcome) -> tuple[str, str, float | None]:
+def late_by(longest: float | None, *runs: StartOutcome) -> tuple[str, str, float | None]:
     """Status, message and value of the check of the quiet time under a limit of the rest time [s]."""
     design = design_of()
     limits = design.case.table.limits.model_copy(update={"rest_time_s": longest})
@@ -125,7 +119,7 @@ def test_rest_times_are_judged_where_the_file_limits_them() -> None:
     without that limit.
     """
     run, drag = outcome(), design_of().case.drag
-    hot = replace(run, member=start(design_of(), drag=drag / 3), rest_time=0.6)
+    hot = replace(run, member=start_of(design_of(), drag=drag / 3), rest_time=0.6)
     never = replace(run, rest_time=None)
     assert late_by(None, run, hot)[0] == late_by(None, never, hot)[0] == late_by(0.7, run, hot)[0] == "pass"
     status, message, value = late_by(0.5, run, hot)
@@ -154,9 +148,9 @@ def test_both_ends_of_a_speed_range_are_started() -> None:
 def test_a_run_at_an_end_is_that_of_a_machine_of_that_speed() -> None:
     design = design_of("machine.speed_range_rpm=[2850.0, 3600.0]")
     alone = replace(design, case=replace(design.case, speed=120 * math.pi))
-    ranged = start_once(design, start(design, "spread", speed=120 * math.pi), 0.05, TOLERANCE, WORK)
-    alone = start_once(alone, start(alone, "spread"), 0.05, TOLERANCE, WORK)
-    assert isinstance(ranged, TwoRaceOutcome) and isinstance(alone, TwoRaceOutcome)
+    ranged = start_once(design, start_of(design, "spread", speed=120 * math.pi), 0.05, TOLERANCE, WORK)
+    alone = start_once(alone, start_of(alone, "spread"), 0.05, TOLERANCE, WORK)
+    assert isinstance(ranged, StartOutcome) and isinstance(alone, StartOutcome)
     assert ranged.displacements == alone.displacements
     assert ranged.settling_time == alone.settling_time
     assert (ranged.quiet_time, ranged.rest_time) == (alone.quiet_time, alone.rest_time)

@@ -2,18 +2,16 @@
 
 import pytest
 
-from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs, read_case
-from abu_calc.features.two_races.choice import choose_both
-from abu_calc.features.two_races.places import arms, best_races
-from abu_calc.features.two_races.study import _search_notes
+from abu_calc.features.spindle.case import SpindleCase, arms, capacity_needs, choose_all, read_case
+from abu_calc.features.spindle.study import _search_notes
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
 
 TRUE = tuple(f"autobalancer.{k}.race_eccentricity_mm=0.0" for k in (0, 1))
 
 
-def case_of(*overrides: str) -> TwoRaceCase:
-    tables = read_machine("pedestal-grinder", overrides).two_races
+def case_of(*overrides: str) -> SpindleCase:
+    tables = read_machine("pedestal-grinder", overrides).spindle
     assert tables is not None
     return read_case(tables)
 
@@ -21,7 +19,7 @@ def case_of(*overrides: str) -> TwoRaceCase:
 @pytest.mark.slow
 def test_without_a_stretch_the_given_places_stand() -> None:
     assert case_of().races == (0.3, -0.3)
-    assert not list(_search_notes(choose_both(case_of())))
+    assert not list(_search_notes(choose_all(case_of())))
 
 
 def test_true_races_go_where_the_larger_capacity_is_least() -> None:
@@ -57,23 +55,14 @@ def test_races_go_outside_the_places_that_must_be_still() -> None:
     assert case.races[0] >= 0.4 - 1e-9
     assert arms((0.4,), case.races) == pytest.approx(1.0)
     assert arms((0.4,), (0.3, -0.3)) == pytest.approx(0.8 / 0.6)
-    notes = list(_search_notes(choose_both(case)))
+    notes = list(_search_notes(choose_all(case)))
     assert "race eccentricity at the loudest place: 13.3 µm as given, 10 µm as chosen" in notes[-1].lower()
 
 
-@pytest.mark.parametrize(("first", "second"), [(0.1, -0.2), (0.05, 0.3), (-0.3, 0.2)])
-def test_the_choice_is_the_best_of_the_grid(first: float, second: float) -> None:
-    def needs(races: tuple[float, float]) -> tuple[float, float]:
-        return abs(races[0] - first), abs(races[1] - second)
-
-    stretches = ((first - 0.1, first + 0.1), None)
-    races = best_races((first + 0.07, second), stretches, (), needs)
-    assert races == pytest.approx((first, second), abs=1e-9)
-
-
 def test_races_that_may_touch_stay_apart() -> None:
-    races = best_races((0.1, -0.1), ((-0.1, 0.1), (-0.1, 0.1)), (0.0,), lambda pair: (abs(pair[0] - pair[1]), 0.0))
-    assert abs(races[0] - races[1]) > 1e-3
+    stretch = ("autobalancer.{k}.plane_range_mm=[-100.0, 100.0]", "autobalancer.{k}.plane_mm={z}")
+    case = case_of(*(entry.format(k=k, z=z) for k, z in enumerate((100.0, -100.0)) for entry in stretch))
+    assert abs(case.races[0] - case.races[1]) > 1e-3
 
 
 @pytest.mark.parametrize("stretch", ["[310.0, 340.0]", "[340.0, 280.0]", "[300.0]", '["a", "b"]'])

@@ -9,7 +9,7 @@ the wheel's place would, and what is left is the backward whirl.
 from collections.abc import Sequence
 from dataclasses import replace
 
-from abu_calc.formulas.two_races import PlacedImbalance, TiltingRotor
+from abu_calc.formulas.tilting_rotor import PlacedImbalance, TiltingRotor
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 

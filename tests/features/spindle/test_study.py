@@ -11,15 +11,12 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.start_rules import checks_of_starts
-from abu_calc.features.two_races.case import capacity_needs, read_case
-from abu_calc.features.two_races.checks import capacity_checks, region_check
-from abu_calc.features.two_races.choice import choose_both
-from abu_calc.features.two_races.drawing import both_solids
-from abu_calc.features.two_races.figures import two_race_extras
-from abu_calc.features.two_races.judgement import facts_of
-from abu_calc.features.two_races.records import TwoRaceSizeResult
-from abu_calc.features.two_races.start_cases import start
-from abu_calc.formulas.two_races import resultant_quantile
+from abu_calc.features.spindle.case import capacity_needs, read_case, size_races
+from abu_calc.features.spindle.figures import both_solids, spindle_extras
+from abu_calc.features.spindle.judgement import capacity_checks, facts_of, region_check
+from abu_calc.features.spindle.records import SpindleSizeResult
+from abu_calc.features.spindle.start_cases import start_of
+from abu_calc.formulas.tilting_rotor import resultant_quantile
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
@@ -41,9 +38,9 @@ BETWEEN = (
 
 
 @cache
-def sized(*overrides: str) -> TwoRaceSizeResult:
+def sized(*overrides: str) -> SpindleSizeResult:
     result = recalled("size", read_machine("pedestal-grinder", overrides))
-    assert isinstance(result, TwoRaceSizeResult)
+    assert isinstance(result, SpindleSizeResult)
     return result
 
 
@@ -83,16 +80,14 @@ def test_the_advice_of_one_race_is_true(place: float, stable: bool) -> None:
 
 @pytest.mark.slow
 def test_a_disc_is_told_to_take_one_race() -> None:
-    tables = read_machine("pedestal-grinder", ["machine.rotor_polar_inertia_kg_m2=3.5"]).two_races
-    assert tables is not None
-    check = region_check(choose_both(read_case(tables)), None)
+    check = region_check(size_races(read_machine("pedestal-grinder", ["machine.rotor_polar_inertia_kg_m2=3.5"])), None)
     assert check.status == "fail"
     assert "takes one race" in str(check.remedy)
 
 
 def test_the_worst_phase_and_the_share_hold_in_ten_thousand_phases() -> None:
     """Resultants of random phases of wheels and eccentricities, by sums of moments about the other race."""
-    tables = read_machine("pedestal-grinder").two_races
+    tables = read_machine("pedestal-grinder").spindle
     assert tables is not None
     case = read_case(tables)
     random, count = np.random.default_rng(41), 10_000
@@ -138,7 +133,7 @@ def test_the_response_peaks_at_the_critical_speeds() -> None:
     peak = max(points, key=lambda point: point.without_um)
     assert any(abs(peak.speed_rpm - critical) < 30 for critical in sized().frequency.critical_speeds_rpm)
     assert all((point.balanced_um is None) == (point.speed_rpm < 804) for point in points)
-    assert [figure.name for figure in two_race_extras(sized()).figures] == ["section", "speeds", "run-up"]
+    assert [figure.name for figure in spindle_extras(sized()).figures] == ["section", "speeds", "run-up"]
 
 
 @pytest.mark.slow
@@ -156,10 +151,8 @@ def test_screen_page_and_json_tell_of_both_races(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_lost_start_cases_are_not_passed() -> None:
-    tables = read_machine("pedestal-grinder").two_races
-    assert tables is not None
-    design = choose_both(read_case(tables))
-    ensemble = Ensemble(design.case.drag, (), (Lost(start(design), "too much work"),))
+    design = size_races(read_machine("pedestal-grinder"))
+    ensemble = Ensemble(design.case.drag, (), (Lost(start_of(design), "too much work"),))
     checks = list(checks_of_starts(facts_of(design, ensemble)))
     assert [check.status for check in checks] == ["not-done"] * 3
     assert "too much work" in checks[0].message
@@ -182,9 +175,7 @@ def test_what_cannot_be_made_is_refused(overrides: tuple[str, ...], words: str) 
 
 @pytest.mark.slow
 def test_an_imbalance_that_no_ball_carries_fails() -> None:
-    tables = read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]).two_races
-    assert tables is not None
-    design = choose_both(read_case(tables))
+    design = size_races(read_machine("pedestal-grinder", [*BETWEEN, "wheel.0.imbalance_g_mm=1e7"]))
     assert "fail" in [check.status for check in capacity_checks(design)]
     assert region_check(design, None).status == "fail"
 

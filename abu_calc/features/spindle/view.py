@@ -12,7 +12,7 @@ from abu_calc.features.design.screen import (
     time_rows,
     verdict_paragraph,
 )
-from abu_calc.features.two_races.records import TwoRaceAutobalancer, TwoRaceSizeResult
+from abu_calc.features.spindle.records import PlacedAutobalancerRecord, SpindleSizeResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
 from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.parts import (
@@ -30,20 +30,20 @@ MEANT: Final = (
 )
 
 
-def two_race_sheets(result: TwoRaceSizeResult) -> tuple[Drawing, ...]:
+def spindle_sheets(result: SpindleSizeResult) -> tuple[Drawing, ...]:
     """The section of both autobalancers."""
-    from abu_calc.features.two_races.drawing import both_sections
+    from abu_calc.features.spindle.figures import both_sections
 
     return (both_sections(result),)
 
 
-def two_race_screen(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+def spindle_screen(result: SpindleSizeResult) -> tuple[Block, ...]:
     """The first screen: verdict, what to make, the deciding numbers, the next command, the verdict once more."""
     notes = len(result.warnings)
     return (*_first_lines(result), *last_lines(result, result.verdict, notes))
 
 
-def _first_lines(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+def _first_lines(result: SpindleSizeResult) -> tuple[Block, ...]:
     many_starts = result.ensemble
     covered = "over all imbalance phases; usual oil, friction, speed"
     runs = [] if many_starts is None else labelled("Runs", [f"{many(many_starts.runs, 'start case')} {covered}"])
@@ -53,7 +53,7 @@ def _first_lines(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     )  # fmt: skip
 
 
-def _table(result: TwoRaceSizeResult) -> Grid:
+def _table(result: SpindleSizeResult) -> Grid:
     """Levels of all places and times, with limits and grades; then checks that these do not show."""
     checks, vibration, many_starts = {check.code: check for check in result.checks}, result.vibration, result.ensemble
     level, rows = checks.get("ABU401"), list[Row]()
@@ -68,13 +68,13 @@ def _table(result: TwoRaceSizeResult) -> Grid:
     return number_table({"ABU401": rows, "ABU702": times}, result.checks)
 
 
-def two_race_blocks(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+def spindle_blocks(result: SpindleSizeResult) -> tuple[Block, ...]:
     """The whole report."""
     details = _details(result)
     return *_first_lines(result), *contents(details), *details
 
 
-def _details(result: TwoRaceSizeResult) -> tuple[Block, ...]:
+def _details(result: SpindleSizeResult) -> tuple[Block, ...]:
     """From the decision to the reasons."""
     return (
         Heading("Vibration and quiet time", "vibration"),
@@ -90,7 +90,7 @@ def _details(result: TwoRaceSizeResult) -> tuple[Block, ...]:
     )
 
 
-def _make(result: TwoRaceSizeResult) -> list[Block]:
+def _make(result: SpindleSizeResult) -> list[Block]:
     rows = (
         ("Balls", lambda race: f"{race.ball_count} × Ø{round(race.ball_diameter_mm, 3):g} mm"),
         ("Race R, groove R, mm", _radii),
@@ -106,12 +106,12 @@ def _make(result: TwoRaceSizeResult) -> list[Block]:
     return [Grid(("Make" if result.status == "pass" else "Best", *places), cells, frozenset({1, 2}))]
 
 
-def _radii(race: TwoRaceAutobalancer) -> str:
+def _radii(race: PlacedAutobalancerRecord) -> str:
     groove = "" if race.groove_radius_mm is None else f", {number(race.groove_radius_mm, 4)}"
     return f"{number(race.race_radius_mm, 4)}{groove}"
 
 
-def _numbers(result: TwoRaceSizeResult) -> list[Block]:
+def _numbers(result: SpindleSizeResult) -> list[Block]:
     ensemble = result.ensemble
     blocks: list[Block] = [Paragraph(MEANT)]
     if ensemble is not None:
@@ -133,7 +133,7 @@ def _or_dash(value: float | None, digits: int = 4) -> str:
     return "–" if value is None else number(value, digits)
 
 
-def _race(result: TwoRaceSizeResult, index: int) -> list[Block]:
+def _race(result: SpindleSizeResult, index: int) -> list[Block]:
     race, parts = result.autobalancers[index], result.eccentricities[index]
     return [
         Heading(f"Race {index + 1}", f"race-{index + 1}"),
@@ -143,7 +143,7 @@ def _race(result: TwoRaceSizeResult, index: int) -> list[Block]:
     ]
 
 
-def _single(result: TwoRaceSizeResult) -> list[Block]:
+def _single(result: SpindleSizeResult) -> list[Block]:
     if result.one_race is None:
         return [Heading("One race instead", "one-race"), Paragraph("A single race balances nowhere between the two.")]
     return [Heading("One race instead", "one-race"), facts(result.one_race, *result.one_race.entries())]

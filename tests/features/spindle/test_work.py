@@ -8,18 +8,23 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.two_races.case import capacity_needs, read_case, work_needs
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.contact import (
+from abu_calc.features.spindle.case import (
+    SpindleDesign,
+    capacity_needs,
+    pressed_wheels,
+    read_case,
+    size_races,
+    work_needs,
+)
+from abu_calc.features.spindle.start_cases import start_of
+from abu_calc.features.spindle.work_runs import (
+    agreement,
     ball_angles,
     capacities_at_work,
     contact_of,
     growth_rates,
-    pressed_wheels,
     resultants_at_work,
 )
-from abu_calc.features.two_races.start_cases import start
-from abu_calc.features.two_races.work_runs import agreement
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
 from tests.cli.runner import abu, again, once
@@ -32,10 +37,8 @@ SET = tuple(part for entry in WORK for part in ("--set", entry))
 
 
 @cache
-def design_of(*overrides: str) -> TwoRaceDesign:
-    tables = read_machine("pedestal-grinder", (*WORK, *overrides)).two_races
-    assert tables is not None
-    return choose_both(read_case(tables))
+def design_of(*overrides: str) -> SpindleDesign:
+    return size_races(read_machine("pedestal-grinder", (*WORK, *overrides)))
 
 
 def document(*arguments: str) -> dict[str, Any]:
@@ -84,7 +87,7 @@ def test_ball_angles_add_up_to_the_resultants() -> None:
     angles = ball_angles(design, resultants)
     assert angles is not None
     for race, own, resultant in zip(design.races, angles, resultants, strict=True):
-        abu_ = race.design.autobalancer
+        abu_ = race.autobalancer
         total = abu_.ball_mass * abu_.pitch_radius * sum(cmath.exp(1j * angle) for angle in own)
         assert abs(total - resultant) < 1e-6 * abs(resultant)
 
@@ -93,7 +96,7 @@ def test_ball_angles_add_up_to_the_resultants() -> None:
 def test_simulated_contact_of_the_whole_rotor_agrees_with_the_closed_form() -> None:
     """Force and both resultants after 3 s, ideal races: within half a per cent."""
     design = design_of()
-    off = agreement(design, pressed_wheels(design.case)[0], start(design, "spread", (0.7,)))
+    off = agreement(design, pressed_wheels(design.case)[0], start_of(design, "spread", (0.7,)))
     assert isinstance(off, float) and off < 0.005
 
 
@@ -114,7 +117,7 @@ def test_the_worst_phase_requires_most() -> None:
 def test_size_adds_what_work_requires() -> None:
     """|s|·|U_N| of the wheel at work at its worst angle; nothing of a face, and nothing without [grinding]."""
     case = design_of().bare
-    idle = read_machine("pedestal-grinder").two_races
+    idle = read_machine("pedestal-grinder").spindle
     assert idle is not None
     alone = read_case(idle)
     assert work_needs(alone, alone.speed) == (0.0, 0.0)
@@ -209,7 +212,7 @@ def test_the_screen_of_both_wheels_fits() -> None:
 
 
 def test_the_study_refuses_a_machine_with_one_race() -> None:
-    from abu_calc.features.two_races.work import grind_two_races
+    from abu_calc.features.spindle.work import grind_spindle
 
     with pytest.raises(InputError, match="one race"):
-        grind_two_races(abu_calc.read("avtovaz-707-222"), lambda _: None)
+        grind_spindle(abu_calc.read("avtovaz-707-222"), lambda _: None)

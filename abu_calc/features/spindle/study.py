@@ -5,28 +5,22 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc.features.design.judgement import TrialWatcher
-from abu_calc.features.design.next_step import Judge, actions, change_in_short, next_step, promise
+from abu_calc.features.design.next_step import Judge, actions, next_step, verdict_of
 from abu_calc.features.design.records import Eccentricity, Section
-from abu_calc.features.design.verdict import Verdict, benefit
-from abu_calc.features.two_races.advice import proposals
-from abu_calc.features.two_races.case import TwoRaceCase, capacity_needs
-from abu_calc.features.two_races.checks import SpeedStability
-from abu_calc.features.two_races.choice import TwoRaceDesign
-from abu_calc.features.two_races.judgement import TwoRaceJudgement, balances, judge
-from abu_calc.features.two_races.places import arms
-from abu_calc.features.two_races.records import (
+from abu_calc.features.design.verdict import benefit
+from abu_calc.features.spindle.case import SpindleCase, SpindleDesign, arms, capacity_needs
+from abu_calc.features.spindle.judgement import SpeedStability, SpindleJudgement, judge, proposals
+from abu_calc.features.spindle.records import (
     OneRace,
-    TwoRaceAutobalancer,
-    TwoRaceEnsemble,
-    TwoRaceFrequency,
-    TwoRaceResponse,
-    TwoRaceRunUp,
-    TwoRaceSizeResult,
+    PlacedAutobalancerRecord,
+    SpindleEnsemble,
+    SpindleFrequency,
+    SpindleResponse,
+    SpindleRunUp,
+    SpindleSizeResult,
 )
-from abu_calc.features.two_races.start_cases import ACCURACY, FIRST_TOLERANCE, scene_of, start, start_once
-from abu_calc.formulas.two_races import two_races_balance
+from abu_calc.features.spindle.start_cases import ACCURACY, FIRST_TOLERANCE, scene_of, start_of, start_once
 from abu_calc.foundation import patience
-from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si, to_si
@@ -44,51 +38,41 @@ RESPONSE_STEPS: Final = 200
 """Top of the speeds of the response over the highest working speed, and their number."""
 
 
-def size_two_races(
+def size_spindle(
     machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: int | None = None
-) -> TwoRaceSizeResult:
+) -> SpindleSizeResult:
     """Size both autobalancers, judge stability, and simulate start cases over the unknown phases.
 
     `accuracy` moves nothing: start cases run at tolerances of their own. `workers`: start cases side by side, None: one
     for each processor.
 
-    Raises InputError with file, line and key for what cannot be made, and if the file has one race.
+    Raises InputError with file, line and key for what cannot be made.
     """
-    table = machine.two_races
-    if table is None:
-        raise InputError("this file has one race", remedy="Use `abu size FILE`.")
     accuracy, threads = max(accuracy, ACCURACY), processors() if workers is None else workers
     with machine.located():
-        judged = judge(table, accuracy, progress, threads)
+        judged = judge(machine, accuracy, progress, threads)
         step = next_step(machine, judged, proposals(judged), _judge(accuracy, threads), progress)
     design, ensemble, one, vibration = judged.facts.design, judged.facts.ensemble, judged.one_race, judged.vibration
     checks = actions(judged, step)
-    many = None if ensemble is None else TwoRaceEnsemble.of(ensemble, design)
-    limit = table.limits.vibration_level_db
+    many = None if ensemble is None else SpindleEnsemble.of(ensemble, design)
     quiet = None if many is None else many.quiet_time_s.worst
-    told = benefit("loudest place", vibration.level_before_db, vibration.level_after_db, limit, quiet)
-    return TwoRaceSizeResult(
-        title=table.machine.name,
-        verdict=Verdict.of(
-            checks,
-            told,
-            Provenance.of(machine),
-            () if step.best is None else step.best.entries,
-            promise(judged, step),
-            incurable=step.futile and not patience.over(),
-            change=change_in_short(judged, step),
-        ),
+    levels = vibration.level_before_db, vibration.level_after_db
+    told = benefit("loudest place", *levels, design.case.level_limit, quiet)
+    races = tuple(PlacedAutobalancerRecord.of_race(design, index) for index in range(len(design.races)))
+    return SpindleSizeResult(
+        title=machine.title,
+        verdict=verdict_of(judged, checks, step, told, Provenance.of(machine)),
         checks=checks,
         warnings=tuple(dict.fromkeys((*machine.warnings, *_notes(design, one)))),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
         frequency=_frequency(design, judged.stability),
-        imbalances=tuple(abs(wheel.imbalance) for wheel in design.case.wheels),
+        imbalances=design.imbalances,
         required_capacity=design.races[0].need,
-        autobalancer=TwoRaceAutobalancer.of_race(design, 0),
-        autobalancers=tuple(TwoRaceAutobalancer.of_race(design, index) for index in (0, 1)),
-        eccentricities=tuple(Eccentricity.of(race.design.eccentricity) for race in design.races),
-        sections=tuple(Section.of(race.design) for race in design.races),
+        autobalancer=races[0],
+        autobalancers=races,
+        eccentricities=tuple(Eccentricity.of(race.eccentricity) for race in design.races),
+        sections=tuple(Section.of(race) for race in design.races),
         one_race=one,
         vibration=vibration,
         ensemble=many,
@@ -100,12 +84,11 @@ def size_two_races(
 def _judge(accuracy: float, workers: int) -> Judge:
     """How a change of a machine with two races is tried."""
 
-    def judged(machine: Machine, progress: Progress, trial: TrialWatcher) -> TwoRaceJudgement:
-        """As `size_two_races` judges it."""
-        assert machine.two_races is not None
-        return judge(machine.two_races, accuracy, progress, workers, trial)
+    def judged(machine: Machine, progress: Progress, trial: TrialWatcher) -> SpindleJudgement:
+        """As `size_spindle` judges it."""
+        return judge(machine, accuracy, progress, workers, trial)
 
-    def once(design: TwoRaceDesign, member: Member, *, closer: bool = False) -> StartOutcome | Lost:
+    def once(design: SpindleDesign, member: Member, *, closer: bool = False) -> StartOutcome | Lost:
         """One start case."""
         work = MORE * WORK if member.run_up else WORK
         tolerance = (TIGHTER if closer else 1.0) * FIRST_TOLERANCE
@@ -114,7 +97,7 @@ def _judge(accuracy: float, workers: int) -> Judge:
     return Judge(judged, once, slack=0.0)
 
 
-def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
+def _response(case: SpindleCase) -> Iterator[SpindleResponse]:
     """Displacements over the speeds of a run-up, by closed forms."""
     top = RESPONSE_TO * max(case.speed_range)
     for step in range(1, RESPONSE_STEPS + 1):
@@ -122,13 +105,13 @@ def _response(case: TwoRaceCase) -> Iterator[TwoRaceResponse]:
         without = max(
             sum(abs(case.rotor.whirl(held.place, [wheel], speed)) for wheel in case.wheels) for held in case.places
         )
-        still = two_races_balance(case.rotor, speed)
-        yield TwoRaceResponse(speed=speed, without=without, balanced=_off(case) if still else None)
+        still = case.balances_at(speed)
+        yield SpindleResponse(speed=speed, without=without, balanced=_off(case) if still else None)
 
 
 def run_up_amplitudes(
-    design: TwoRaceDesign, progress: Progress = silent, accuracy: float = RUN_UP_ACCURACY
-) -> tuple[TwoRaceRunUp, ...]:
+    design: SpindleDesign, progress: Progress = silent, accuracy: float = RUN_UP_ACCURACY
+) -> tuple[SpindleRunUp, ...]:
     """The run-up with the balls together, imbalances of unknown phase in phase; both machines run up alike.
 
     None if the time of --patience is over.
@@ -136,30 +119,30 @@ def run_up_amplitudes(
     if patience.over():
         return ()
     progress("run-up, with and without balls")
-    run_up = start(design, "run-up")
+    run_up = start_of(design, "run-up")
     scene = until_shortly_after(scene_of(design, run_up))
     bare = replace(without_balls(scene_of(replace(design, case=design.bare), run_up)), duration=scene.duration)
     planes = [held.place for held in design.case.places]
     with_balls, empty = course(scene, planes, accuracy), course(bare, planes, accuracy)
     return tuple(
-        TwoRaceRunUp(speed=speed, without=amplitude, with_=None if with_balls is None else with_balls[index][1])
+        SpindleRunUp(speed=speed, without=amplitude, with_=None if with_balls is None else with_balls[index][1])
         for index, (speed, amplitude) in enumerate(empty or ())
     )
 
 
-def _off(case: TwoRaceCase) -> float:
+def _off(case: SpindleCase) -> float:
     """Displacement [m] of the place that moves most while both races rotate about their eccentric centres."""
     return case.eccentricity * arms([held.place for held in case.places], case.races)
 
 
-def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> TwoRaceFrequency:
-    case, above = design.case, balances(design)
+def _frequency(design: SpindleDesign, judged: Sequence[SpeedStability]) -> SpindleFrequency:
+    case, above = design.case, design.case.balances
     critical = case.rotor.critical_speeds()
     below = [speed for speed in critical if speed < min(case.speed_range)]
     region = "supercritical" if above else "between" if below else "subcritical"
     growths = [each.growth for each in judged if each.growth is not None]
     states = [each.stable for each in judged]
-    return TwoRaceFrequency(
+    return SpindleFrequency(
         speed=case.speed,
         critical_speeds=critical,
         region=region,
@@ -169,13 +152,13 @@ def _frequency(design: TwoRaceDesign, judged: Sequence[SpeedStability]) -> TwoRa
     )
 
 
-def _search_notes(design: TwoRaceDesign) -> Iterator[str]:
+def _search_notes(design: SpindleDesign) -> Iterator[str]:
     """Places that were searched, with the displacement and capacities that they and the given ones ask for."""
     case = design.bare
-    given = first, second = [to_si(race.plane_mm, "mm") for race in case.table.autobalancer]
+    given = tuple(to_si(race.plane_mm, "mm") for race in case.table.autobalancer)
     if all(race.plane_range_mm is None for race in case.table.autobalancer):
         return
-    before = case.with_races((first, second))
+    before = case.with_races(given)
     needs, needs_before = capacity_needs(case), capacity_needs(before)
     for number, (race, place, old) in enumerate(zip(case.table.autobalancer, case.races, given, strict=True), 1):
         if race.plane_range_mm is not None:
@@ -192,7 +175,7 @@ def _search_notes(design: TwoRaceDesign) -> Iterator[str]:
     )
 
 
-def _notes(design: TwoRaceDesign, one: OneRace | None) -> Iterator[str]:
+def _notes(design: SpindleDesign, one: OneRace | None) -> Iterator[str]:
     yield from _search_notes(design)
     limit = design.case.table.limits.vibration_level_db
     if one is not None and one.enough:

@@ -7,17 +7,14 @@ from itertools import pairwise
 import pytest
 from scipy.integrate import solve_ivp
 
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.study import run_up_amplitudes
+from abu_calc.features.spindle.case import SpindleDesign, size_races
+from abu_calc.features.spindle.study import run_up_amplitudes
 from abu_calc.inputs.read_machine import read_machine
 
 
 @cache
-def design_of() -> TwoRaceDesign:
-    tables = read_machine("pedestal-grinder", ['machine.spindle_axis="vertical"']).two_races
-    assert tables is not None
-    return choose_both(read_case(tables))
+def design_of() -> SpindleDesign:
+    return size_races(read_machine("pedestal-grinder", ['machine.spindle_axis="vertical"']))
 
 
 @pytest.mark.slow

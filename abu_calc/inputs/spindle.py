@@ -175,6 +175,11 @@ class TwoRaceSuspension(Table):
         "springs": ("natural_frequencies_hz", "damping_ratios"),
     }
 
+    @property
+    def frequencies(self) -> tuple[float, float] | None:
+        """Natural frequencies of springs, of translation and tilt alike [Hz]."""
+        return None if self.natural_frequencies_hz is None else (self.natural_frequencies_hz,) * 2
+
     @model_validator(mode="after")
     def _numbers_of_its_model(self) -> Self:
         for model, keys in self.KEYS.items():
@@ -216,6 +221,10 @@ class TwoRaceFile(Table):
     limits: Limits = Field(default_factory=Limits)
     sweep: Sweep | None = None
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
+
+    oil: ClassVar[None] = None
+    identified: ClassVar[None] = None
+    """Tables of a machine with one race, which several races do not take."""
 
     @model_validator(mode="before")
     @classmethod

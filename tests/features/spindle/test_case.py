@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.features.two_races.case import (
-    TwoRaceCase,
+from abu_calc.features.spindle.case import (
+    SpindleCase,
     capacity_needs,
     felt_mass,
     one_race_machine,
@@ -19,8 +19,8 @@ from abu_calc.sizing import size, size_race
 TRUE = ("autobalancer.0.race_eccentricity_mm=0.0", "autobalancer.1.race_eccentricity_mm=0.0")
 
 
-def case_of(*overrides: str) -> TwoRaceCase:
-    tables = read_machine("pedestal-grinder", overrides).two_races
+def case_of(*overrides: str) -> SpindleCase:
+    tables = read_machine("pedestal-grinder", overrides).spindle
     assert tables is not None
     return read_case(tables)
 
@@ -76,7 +76,7 @@ def test_springs_are_two_bearings_that_do_not_couple(tmp_path: Path) -> None:
     springs = '[suspension]\nmodel = "springs"\nnatural_frequencies_hz = 5.0\ndamping_ratios = 0.1\n\n'
     file = tmp_path / "springs.toml"
     file.write_text(text[:start] + springs + text[end:], encoding="utf-8")
-    tables = read(file).two_races
+    tables = read(file).spindle
     assert tables is not None
     rotor = read_case(tables).rotor
     k, kz, kzz = rotor.stiffness

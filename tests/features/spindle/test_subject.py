@@ -10,11 +10,9 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.compare import study
 from abu_calc.features.compare.study import compare
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.choice import choose_both
-from abu_calc.features.two_races.repeats import repeated
-from abu_calc.features.two_races.start_cases import scene_of, start_cases
-from abu_calc.features.two_races.subject import two_race_subject
+from abu_calc.features.spindle.case import size_races
+from abu_calc.features.spindle.records import repeated
+from abu_calc.features.spindle.start_cases import scene_of, spindle_subject, start_cases
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import variant_of
 from abu_calc.simulation.ensemble_results import StartOutcome
@@ -76,15 +74,13 @@ def test_a_start_that_is_placed_has_an_angle_for_each_ball() -> None:
 def test_printed_options_make_the_scene_of_every_start_case(name: str) -> None:
     """Phases, sides, angles of balls, oil, speed, run-up and the variations of what is promised."""
     machine = abu_calc.read(name)
-    tables = machine.two_races
-    assert tables is not None
-    design = choose_both(read_case(tables))
+    design = size_races(machine)
     for member in start_cases(design):
         words = shlex.split(repeated(outcome_of(member), design))
         options = dict(zip(words[::2], words[1::2], strict=True))
         entries = [value for word, value in zip(words[::2], words[1::2], strict=True) if word == "--set"]
         side, start = float(options["--race-centre"]), options.get("--start")
-        made = two_race_subject(variant_of(machine, ",".join(entries)), None, start, side).scene
+        made = spindle_subject(variant_of(machine, ",".join(entries)), None, start, side).scene
         wanted = scene_of(design, member)
         assert [effect.name for effect in made.effects] == [effect.name for effect in wanted.effects]
         assert numbers(made) == pytest.approx(numbers(wanted), abs=2e-6, rel=1e-9)

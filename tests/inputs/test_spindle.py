@@ -12,7 +12,7 @@ PRESET = "pedestal-grinder"
 
 
 def test_planes_and_imbalances_are_read() -> None:
-    tables = read_machine(PRESET).two_races
+    tables = read_machine(PRESET).spindle
     assert tables is not None
     assert [wheel.plane_mm for wheel in tables.wheel] == [260.0, -260.0]
     assert [race.plane_mm for race in tables.autobalancer] == [300.0, -300.0]
@@ -20,7 +20,7 @@ def test_planes_and_imbalances_are_read() -> None:
 
 
 def test_a_machine_with_one_race_has_no_two() -> None:
-    assert read_machine("avtovaz-707-222").two_races is None
+    assert read_machine("avtovaz-707-222").spindle is None
 
 
 @pytest.mark.parametrize(

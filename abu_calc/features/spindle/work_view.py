@@ -1,7 +1,7 @@
 """The report of `abu grinding` for a machine with two races, and its figure."""
 
 from abu_calc.features.explain.steps import STEPS, step_blocks
-from abu_calc.features.two_races.work_records import TwoRaceGrindingResult, WheelAtWork
+from abu_calc.features.spindle.records import SpindleGrindingResult, WheelAtWork
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, db
 from abu_calc.reporting.charts.figure import Extras, Figure
@@ -9,13 +9,13 @@ from abu_calc.reporting.parts import check_blocks, facts, file_of, notices, prov
 from abu_calc.reporting.screen import one_screen, verdict_line
 
 
-def work_screen(result: TwoRaceGrindingResult) -> tuple[Block, ...]:
+def work_screen(result: SpindleGrindingResult) -> tuple[Block, ...]:
     """One screen: verdict, levels and capacities with each wheel at work."""
     more = (f"`abu size {file_of(result)}`, the design",)
     return one_screen(result, _head(result), _numbers(result), more=more)
 
 
-def work_blocks(result: TwoRaceGrindingResult) -> tuple[Block, ...]:
+def work_blocks(result: SpindleGrindingResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
         *_head(result),
@@ -28,11 +28,11 @@ def work_blocks(result: TwoRaceGrindingResult) -> tuple[Block, ...]:
     )
 
 
-def _head(result: TwoRaceGrindingResult) -> tuple[Block, ...]:
+def _head(result: SpindleGrindingResult) -> tuple[Block, ...]:
     return Heading(f"{result.title} at work"), verdict_line(result), Paragraph(""), Paragraph(result.verdict)
 
 
-def _numbers(result: TwoRaceGrindingResult) -> list[Block]:
+def _numbers(result: SpindleGrindingResult) -> list[Block]:
     wheels = result.wheels
     rows = [
         ("Level without autobalancers, dB", *(_or_dash(wheel.level_before_db) for wheel in wheels)),
@@ -87,7 +87,7 @@ def _wheel(wheel: WheelAtWork) -> list[Block]:
     return [*blocks, Grid(("Level at work, dB", "without", "with"), places, frozenset({1, 2}))]
 
 
-def work_extras(result: TwoRaceGrindingResult) -> Extras:
+def work_extras(result: SpindleGrindingResult) -> Extras:
     """Levels with each wheel at work, and the calculation note."""
     rows = [
         Bar(f"{wheel.wheel}, {name}", value, db(value), series)

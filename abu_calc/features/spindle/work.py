@@ -6,30 +6,30 @@ from typing import Final
 
 from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.study import refuse_idle
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
-from abu_calc.features.two_races.contact import (
+from abu_calc.features.spindle.case import PressedWheel, SpindleDesign, pressed_wheels, size_races
+from abu_calc.features.spindle.records import (
+    PlaceAtWork,
+    RaceAtWork,
+    SpindleGrindingModel,
+    SpindleGrindingResult,
+    SpindleReaction,
+    WearOfWheel,
+    WheelAtWork,
+)
+from abu_calc.features.spindle.start_cases import start_of
+from abu_calc.features.spindle.work_runs import (
     GROWS,
-    PressedWheel,
+    Pressed,
+    WorkRun,
+    agreement,
     ball_angles,
     capacities_at_work,
     contact_of,
     growth_rates,
-    pressed_wheels,
     resultants_at_work,
+    work_cases,
+    work_run,
 )
-from abu_calc.features.two_races.start_cases import start
-from abu_calc.features.two_races.work_records import (
-    PlaceAtWork,
-    RaceAtWork,
-    TwoRaceGrindingModel,
-    TwoRaceGrindingResult,
-    TwoRaceReaction,
-    WearOfWheel,
-    WheelAtWork,
-)
-from abu_calc.features.two_races.work_runs import Pressed, WorkRun, agreement, work_cases, work_run
-from abu_calc.formulas.two_races import Pair, two_races_balance
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
@@ -52,7 +52,7 @@ class WheelRuns:
 
     wheel: PressedWheel
     runs: tuple[WorkRun | Lost, ...]
-    needs: Pair
+    needs: tuple[float, ...]
     growths: tuple[float, ...] | None
     disagreement: float | str | None
 
@@ -96,19 +96,16 @@ class WheelRuns:
         return max((run.level for run in self.known(pressed)), default=None)
 
 
-def grind_two_races(
+def grind_spindle(
     machine: Machine, progress: Progress, number: int | None = None, workers: int | None = None
-) -> TwoRaceGrindingResult:
+) -> SpindleGrindingResult:
     """The machine with one wheel at a time at its workpiece; `number`: only this wheel, from 1.
 
     Raises InputError for a file without [grinding], for a wheel that it does not have, and below a critical speed.
     """
-    tables = machine.two_races
-    if tables is None:
-        raise InputError("this file has one race", remedy="Use `abu grinding FILE`.")
     with machine.located():
-        refuse_idle(tables)
-        design = choose_both(read_case(tables))
+        refuse_idle(getattr(machine.tables, "grinding", None))
+        design = size_races(machine)
         wheels = pressed_wheels(design.case)
         if number is not None and not 1 <= number <= len(wheels):
             raise InputError(
@@ -116,12 +113,12 @@ def grind_two_races(
                 allowed=f"1 … {len(wheels)}", remedy="Name one of the [[wheel]] of the file by its number.",
             )  # fmt: skip
     chosen = wheels if number is None else (wheels[number - 1],)
-    above = two_races_balance(design.case.rotor, design.case.speed)
+    above = design.case.balances_at(design.case.speed)
     threads = processors() if workers is None else workers
     each = tuple(_judged(design, wheel, progress, threads, above) for wheel in chosen)
     rows = tuple(_row(design, runs) for runs in each)
     worst = max(zip(rows, each, strict=True), key=lambda pair: _badness(pair[0]))[0]
-    return TwoRaceGrindingResult.read(
+    return SpindleGrindingResult.read(
         worst,
         worst.races[0],
         title=machine.title,
@@ -139,7 +136,7 @@ def grind_two_races(
     )  # fmt: skip
 
 
-def _judged(design: TwoRaceDesign, wheel: PressedWheel, progress: Progress, workers: int, above: bool) -> WheelRuns:
+def _judged(design: SpindleDesign, wheel: PressedWheel, progress: Progress, workers: int, above: bool) -> WheelRuns:
     """Closed forms and runs of one wheel; below a critical speed only the machine without autobalancers runs."""
     cases = [case for case in work_cases(design, wheel) if above or case.pressed == "without"]
     counting = counted(progress, f"{wheel.name} at work: {{}} of {{}} runs", len(cases))
@@ -149,7 +146,7 @@ def _judged(design: TwoRaceDesign, wheel: PressedWheel, progress: Progress, work
         runs,
         capacities_at_work(design, wheel),
         growth_rates(design, wheel) if above else None,
-        agreement(design, wheel, start(design, "spread")) if above else None,
+        agreement(design, wheel, start_of(design, "spread")) if above else None,
     )
 
 
@@ -159,7 +156,7 @@ def _badness(row: WheelAtWork) -> tuple[bool, float, float]:
     return row.helps is not True, change, row.level_after_db or 0.0
 
 
-def _row(design: TwoRaceDesign, runs: WheelRuns) -> WheelAtWork:
+def _row(design: SpindleDesign, runs: WheelRuns) -> WheelAtWork:
     wheel = runs.wheel
     contact, bare = contact_of(design, wheel), contact_of(design, wheel, bare=True)
     own = design.case.turned(())
@@ -199,8 +196,8 @@ def _row(design: TwoRaceDesign, runs: WheelRuns) -> WheelAtWork:
     )
 
 
-def _reaction(wheel: PressedWheel, force: complex) -> TwoRaceReaction:
-    return TwoRaceReaction(
+def _reaction(wheel: PressedWheel, force: complex) -> SpindleReaction:
+    return SpindleReaction(
         mean=wheel.table.press_force_N,
         amplitude=abs(force),
         angle_deg=wrapped_deg(cmath.phase(force)) if force else None,
@@ -208,7 +205,7 @@ def _reaction(wheel: PressedWheel, force: complex) -> TwoRaceReaction:
     )
 
 
-def _races(design: TwoRaceDesign, runs: WheelRuns) -> Iterator[RaceAtWork]:
+def _races(design: SpindleDesign, runs: WheelRuns) -> Iterator[RaceAtWork]:
     resultants = resultants_at_work(design, runs.wheel)
     angles = ball_angles(design, resultants)
     for index, (resultant, need) in enumerate(zip(resultants, runs.needs, strict=True)):
@@ -217,7 +214,7 @@ def _races(design: TwoRaceDesign, runs: WheelRuns) -> Iterator[RaceAtWork]:
             ball_resultant_angle_deg=wrapped_deg(cmath.phase(resultant)) if resultant else None,
             ball_angles_deg=None if angles is None else tuple(map(wrapped_deg, angles[index])),
             required=need,
-            capacity=design.races[index].design.autobalancer.capacity,
+            capacity=design.races[index].autobalancer.capacity,
         )
 
 
@@ -229,10 +226,10 @@ def _wear(wheel: PressedWheel, runout: complex, force: complex) -> WearOfWheel:
     return WearOfWheel(centres=pressure > 0, pressure_on_high_spot=pressure)
 
 
-def _model(design: TwoRaceDesign) -> TwoRaceGrindingModel:
+def _model(design: SpindleDesign) -> SpindleGrindingModel:
     case, table = design.case, design.case.table.grinding
     assert table is not None
-    return TwoRaceGrindingModel.read(
+    return SpindleGrindingModel.read(
         design,
         table,
         speed_rad_per_s=case.speed,
@@ -243,7 +240,7 @@ def _model(design: TwoRaceDesign) -> TwoRaceGrindingModel:
     )
 
 
-def _checks(design: TwoRaceDesign, runs: WheelRuns, above: bool) -> Iterator[Check]:
+def _checks(design: SpindleDesign, runs: WheelRuns, above: bool) -> Iterator[Check]:
     """ABU421 … ABU425 of one wheel."""
     name = runs.wheel.name
     if not above:
@@ -307,10 +304,10 @@ def _lowered(runs: WheelRuns) -> Check:
     return coded("ABU421", verdict(True, not doubts), text, after, before, "dB", LOUDER if doubts else None, of=name)
 
 
-def _carried(design: TwoRaceDesign, runs: WheelRuns) -> Iterator[Check]:
+def _carried(design: SpindleDesign, runs: WheelRuns) -> Iterator[Check]:
     """ABU422 for each race."""
     for number, (need, race) in enumerate(zip(runs.needs, design.races, strict=True), 1):
-        capacity = race.design.autobalancer.capacity
+        capacity = race.autobalancer.capacity
         enough = capacity >= need
         yield coded(
             "ABU422", verdict(enough), "The balls must carry what imbalances, contact and eccentricity require",
@@ -366,7 +363,7 @@ def _verdict(rows: Sequence[WheelAtWork], above: bool) -> str:
     return " ".join(texts)
 
 
-def _notes(design: TwoRaceDesign, each: Sequence[WheelRuns]) -> Iterator[str]:
+def _notes(design: SpindleDesign, each: Sequence[WheelRuns]) -> Iterator[str]:
     table = design.case.table.grinding
     assert table is not None
     if table.contact == "compliant" and "contact_stiffness_N_per_m" not in table.model_fields_set:
