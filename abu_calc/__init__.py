@@ -38,11 +38,10 @@ if TYPE_CHECKING:
     from abu_calc.features.optimise.study import optimise
     from abu_calc.features.seats.study import CheckFitResult, check_fit
     from abu_calc.features.simulate.study import SimulateResult, simulate
+    from abu_calc.features.spindle.records import TwoRaceGrindingResult, TwoRaceSizeResult
     from abu_calc.features.stability.study import StabilityResult, stability
     from abu_calc.features.sweep.result import SweepResult
     from abu_calc.features.sweep.study import sweep
-    from abu_calc.features.two_races.records import TwoRaceSizeResult
-    from abu_calc.features.two_races.work_records import TwoRaceGrindingResult
     from abu_calc.features.verify.study import VerifyResult, verify
     from abu_calc.foundation.checks import Check
     from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
@@ -74,11 +73,10 @@ _ROOMS: Final = {
     "features.optimise.study": "optimise",
     "features.seats.study": "CheckFitResult check_fit",
     "features.simulate.study": "SimulateResult simulate",
+    "features.spindle.records": "TwoRaceGrindingResult TwoRaceSizeResult",
     "features.stability.study": "StabilityResult stability",
     "features.sweep.result": "SweepResult",
     "features.sweep.study": "sweep",
-    "features.two_races.records": "TwoRaceSizeResult",
-    "features.two_races.work_records": "TwoRaceGrindingResult",
     "features.verify.study": "VerifyResult verify",
     "foundation.checks": "Check",
     "foundation.errors": "AbuError InputError NotTrustworthyError OutputError RangeError",

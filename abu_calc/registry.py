@@ -5,8 +5,7 @@ Modules are named here and imported when they are needed, so that a command load
 
 import importlib
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from abu_calc.foundation.errors import InputError, OutputError, Place
@@ -34,30 +33,36 @@ class Known(NamedTuple):
         return re.fullmatch(pattern, name) is not None
 
 
+class Views(NamedTuple):
+    """One type of result, and the functions that show it; all paths "module:name" are below `abu_calc.features`.
+
+    `view`: beginning of the names of two functions, …_blocks for the whole report, and …_screen for one screen, which
+    `screen` names if it stands elsewhere; `extras`: its `Extras`, figures and the calculation note of a page; `note`:
+    the formulas with their numbers, for --explain; `drawings`: sheets of a drawing; `solids`: the parts.
+    """
+
+    result: str
+    view: str
+    extras: str = ""
+    screen: str = ""
+    note: str = ""
+    drawings: str = ""
+    solids: str = ""
+
+
 class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
-    `name`: of the command; `command`: module whose `register` adds it; `results`: types of its results as
-    "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `computes`: whether it
-    loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in `FIGURES`.
+    `name`: of the command; `about`: its line of `abu --help`; `command`: its declaration, as "module:name";
+    `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`. Its figures stand in
+    `FIGURES`, the views of its results in `VIEWS`.
     """
 
     name: str
+    about: str
     command: str
-    results: tuple[str, ...] = ()
-    makes_figures: str = ""
     computes: bool = True
     group: str = "Design"
-
-    @property
-    def figures(self) -> tuple[Known, ...]:
-        """Figures of its results."""
-        return FIGURES.get(self.name, ())
-
-
-def group_of(command: str) -> str | None:
-    """Section of `abu --help` that lists a command; None for a command without an entry."""
-    return BY_NAME[command].group if command in BY_NAME else None
 
 
 def imported(path: str) -> Any:
@@ -152,89 +157,182 @@ FIGURES: Final[Mapping[str, tuple[Known, ...]]] = {
 }
 """Figures of each command; one without a condition stands in every result of its command."""
 
+VIEWS: Final[Mapping[str, Views]] = {
+    views.result: views
+    for views in (
+        Views(
+            "design.study:SizeResult",
+            "design.view:size",
+            "design.figures:size_extras",
+            screen="design.screen:size_screen",
+            note="design.step_numbers:explanation_blocks",
+            drawings="design.sheet:size_sheets",
+            solids="design.solids:size_solids",
+        ),
+        Views(
+            "spindle.records:SpindleSizeResult",
+            "spindle.view:spindle",
+            "spindle.figures:spindle_extras",
+            drawings="spindle.view:spindle_sheets",
+            solids="spindle.figures:both_solids",
+        ),
+        Views(
+            "seats.study:CheckFitResult",
+            "seats.view:check_fit",
+            "seats.figures:check_fit_extras",
+            note="seats.figures:seat_note",
+            drawings="seats.figures:seat_sheets",
+        ),
+        Views("simulate.study:SimulateResult", "simulate.view:simulate", "simulate.view:simulate_extras"),
+        Views("stability.study:StabilityResult", "stability.view:stability", "stability.view:stability_extras"),
+        Views("grinding.study:GrindingResult", "grinding.view:grinding", "grinding.figures:grinding_extras"),
+        Views(
+            "spindle.records:SpindleGrindingResult",
+            "spindle.work_view:work",
+            "spindle.work_view:work_extras",
+        ),
+        Views(
+            "balancing.study:BalanceResult",
+            "balancing.view:balance",
+            "balancing.figures:balance_extras",
+            note="balancing.figures:balance_note",
+        ),
+        Views("effects.study:EffectsResult", "effects.view:effects"),
+        Views("effects.study:KnownEffectsResult", "effects.view:known", screen="effects.view:known_blocks"),
+        Views("accuracy.study:AccuracyResult", "accuracy.view:accuracy", "accuracy.view:accuracy_extras"),
+        Views("sweep.result:SweepResult", "sweep.view:sweep", "sweep.figures:sweep_extras"),
+        Views("optimise.result:OptimiseResult", "optimise.view:optimise", "optimise.view:optimise_extras"),
+        Views("levels.study:LevelsResult", "levels.view:levels"),
+        Views(
+            "identification.results:IdentifyResult",
+            "identification.view:identify",
+            "identification.view:identify_extras",
+        ),
+        Views("identification.plan:MeasurePlanResult", "identification.view:plan"),
+        Views("declare.study:DeclareResult", "declare.view:declare", "declare.view:declare_extras"),
+        Views(
+            "declare.measured:MeasuredDeclareResult",
+            "declare.measured_view:measured",
+            "declare.measured_view:measured_extras",
+        ),
+        Views("factory.study:FactoryResult", "factory.view:factory"),
+        Views(
+            "compare.study:CompareResult",
+            "compare.view:compare",
+            "compare.view:compare_extras",
+            screen="compare.screen:compare_screen",
+        ),
+        Views(
+            "compare.measured:MeasuredCompareResult",
+            "compare.measured_view:measured",
+            "compare.measured_view:measured_extras",
+            screen="compare.measured_view:measured_blocks",
+        ),
+        Views("verify.study:VerifyResult", "verify.view:verify"),
+    )
+}
+"""Views of each type of result."""
+
 FEATURES: Final[tuple[Feature, ...]] = (
+    Feature("size", "Size the autobalancer of a machine and simulate it.", "design.command:COMMAND"),
     Feature(
-        "size",
-        "design.command",
-        ("design.study:SizeResult", "two_races.records:TwoRaceSizeResult"),
-        "design.figures:size_extras",
-    ),
-    Feature(
-        "check-fit", "seats.command", ("seats.study:CheckFitResult",), "seats.figures:check_fit_extras", computes=False
+        "check-fit",
+        "Check bearing seats, or recommend their tolerance classes.",
+        "seats.command:COMMAND",
+        computes=False,
     ),
     Feature(
         "simulate",
-        "simulate.command",
-        ("simulate.study:SimulateResult",),
-        "simulate.view:simulate_extras",
+        "Simulate one scene: amplitude, level, quiet and rest time, ball angles.",
+        "simulate.command:COMMAND",
         group="Simulate",
     ),
     Feature(
         "stability",
-        "stability.command",
-        ("stability.study:StabilityResult",),
-        "stability.view:stability_extras",
+        "Find whether the balanced state is stable, and at which speeds.",
+        "stability.command:COMMAND",
         group="Simulate",
     ),
     Feature(
         "grinding",
-        "grinding.command",
-        ("grinding.study:GrindingResult", "two_races.work_records:TwoRaceGrindingResult"),
-        "grinding.figures:grinding_extras",
+        "Calculate vibration, contact force and wheel wear while grinding.",
+        "grinding.command:COMMAND",
         group="Simulate",
     ),
     Feature(
         "balance",
-        "balancing.command",
-        ("balancing.study:BalanceResult",),
-        "balancing.figures:balance_extras",
+        "Balance a rotor in one plane or two from runs on a rig or in the field.",
+        "balancing.command:COMMAND",
         group="Measure",
     ),
     Feature(
         "effects",
-        "effects.command",
-        ("effects.study:EffectsResult", "effects.study:KnownEffectsResult"),
+        "List the effects; for a file, show which are simulated and why.",
+        "effects.command:COMMAND",
         group="Simulate",
     ),
     Feature(
         "accuracy",
-        "accuracy.command",
-        ("accuracy.study:AccuracyResult",),
-        "accuracy.view:accuracy_extras",
+        "Compare methods of simulation by error and computing time.",
+        "accuracy.command:COMMAND",
         group="Simulate",
     ),
-    Feature("sweep", "sweep.command", ("sweep.result:SweepResult",), "sweep.figures:sweep_extras"),
-    Feature("optimise", "optimise.command", ("optimise.result:OptimiseResult",), "optimise.view:optimise_extras"),
-    Feature("levels", "levels.command", ("levels.study:LevelsResult",), group="Measure"),
+    Feature("sweep", "Vary values over many samples: share that passes, deciding values.", "sweep.command:COMMAND"),
+    Feature(
+        "optimise", "Find the cheapest design of which a wanted share meets the limits.", "optimise.command:COMMAND"
+    ),
+    Feature(
+        "levels",
+        "Calculate octave-band levels, weighted acceleration, daily exposure.",
+        "levels.command:COMMAND",
+        group="Measure",
+    ),
     Feature(
         "identify",
-        "identification.command",
-        ("identification.results:IdentifyResult",),
-        "identification.view:identify_extras",
+        "Identify viscous drag rate, rolling friction and race eccentricity.",
+        "identification.command:COMMAND",
         group="Measure",
     ),
-    Feature("measure-plan", "identification.plan_command", ("identification.plan:MeasurePlanResult",), group="Measure"),
     Feature(
-        "declare",
-        "declare.command",
-        ("declare.study:DeclareResult", "declare.measured:MeasuredDeclareResult"),
-        "declare.view:declare_extras",
+        "measure-plan",
+        "Plan the recordings for `abu identify`.",
+        "identification.command:MEASURE_PLAN",
         group="Measure",
     ),
-    Feature("factory", "factory.command", ("factory.study:FactoryResult",), group="Measure"),
+    Feature("declare", "Give the declared vibration value of a type test.", "declare.command:COMMAND", group="Measure"),
+    Feature("factory", "Compare predicted levels with measured ones.", "factory.command:COMMAND", group="Measure"),
+    Feature("compare", "Compare machines or variants of one machine side by side.", "compare.command:COMMAND"),
     Feature(
-        "compare",
-        "compare.command",
-        ("compare.study:CompareResult", "compare.measured:MeasuredCompareResult"),
-        "compare.measured_view:any_extras",
+        "verify", "Recompute files and compare with their [expected] values.", "verify.command:COMMAND", group="Files"
     ),
-    Feature("verify", "verify.command", ("verify.study:VerifyResult",), group="Files"),
-    Feature("validate", "files.validate", computes=False, group="Files"),
-    Feature("migrate", "files.migrate", computes=False, group="Files"),
-    Feature("init", "files.init", computes=False, group="Files"),
-    Feature("presets", "files.presets", computes=False, group="Files"),
-    Feature("schema", "files.schema", computes=False, group="Files"),
-    Feature("explain", "explain.command", computes=False),
+    Feature(
+        "validate",
+        "Check files without simulating: keys, types, ranges, rules.",
+        "files.command:VALIDATE",
+        computes=False,
+        group="Files",
+    ),
+    Feature(
+        "init",
+        "Write the short file of a new machine from a few answers.",
+        "files.command:INIT",
+        computes=False,
+        group="Files",
+    ),
+    Feature("presets", "List the preset files, or print one.", "files.command:PRESETS", computes=False, group="Files"),
+    Feature(
+        "schema",
+        "Print the JSON Schema of a kind of files or of results.",
+        "files.command:SCHEMA",
+        computes=False,
+        group="Files",
+    ),
+    Feature(
+        "explain",
+        "Explain a sizing step, a check, an effect or a key of a machine file.",
+        "explain.command:COMMAND",
+        computes=False,
+    ),
 )
 """Features in the order of the help."""
 
@@ -243,16 +341,12 @@ BY_NAME: Final = {feature.name: feature for feature in FEATURES}
 
 def names_of(command: str) -> str:
     """All figure names of a command, as help texts list them."""
-    return ", ".join(entry.name for entry in BY_NAME[command].figures)
-
-
-def _figures(command: str) -> tuple[Known, ...]:
-    return BY_NAME[command].figures if command in BY_NAME else ()
+    return ", ".join(entry.name for entry in FIGURES.get(command, ()))
 
 
 def known(command: str, name: str) -> Known:
     """Figure that a name stands for; raises InputError for one that no result of the command has."""
-    entry = next((candidate for candidate in _figures(command) if candidate.fits(name)), None)
+    entry = next((candidate for candidate in FIGURES.get(command, ()) if candidate.fits(name)), None)
     if entry is None:
         raise InputError("no such figure", place=Place(key="--figure"), found=name, allowed=names_of(command))
     return entry
@@ -260,24 +354,47 @@ def known(command: str, name: str) -> Known:
 
 def absent(command: str, name: str, there: Iterable[str]) -> InputError:
     """The error about a name that this result does not have, with the reason."""
-    when = next((entry.when for entry in _figures(command) if entry.fits(name)), "")
+    when = next((entry.when for entry in FIGURES.get(command, ()) if entry.fits(name)), "")
     reason = f"; one is there where {when}" if when else ""
     return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")
+
+
+def _views(result: "Result") -> Views | None:
+    kind = type(result)
+    return VIEWS.get(f"{kind.__module__.removeprefix('abu_calc.features.')}:{kind.__qualname__}")
 
 
 def extras_of(result: "Result") -> "Extras":
     """Figures of a result and the calculation note of its page; none if its feature makes none."""
     from abu_calc.reporting.charts.figure import Extras
 
-    maker = BY_NAME[result.command].makes_figures if result.command in BY_NAME else ""
-    extras: Extras = imported(maker)(result) if maker else Extras()
+    views = _views(result)
+    extras: Extras = imported(views.extras)(result) if views and views.extras else Extras()
     return extras
 
 
-def outcome_of(result: "Result") -> "Outcome":
-    """A result as its command shows and writes it, figures of a page included."""
-    outcome: Outcome = imported(f"{BY_NAME[result.command].command}:outcome_of")(result)
-    return replace(outcome, settings=(("command", result.command),), extras=lambda: extras_of(result))
+def outcome_of(result: "Result", *, explain: bool = False) -> "Outcome":
+    """A result as its command shows and writes it, figures of a page included; `explain`: with every formula."""
+    from abu_calc.reporting.outcome import Outcome
+
+    views = _views(result)
+    if views is None:
+        raise TypeError(f"{type(result).__name__} stands not in VIEWS")
+
+    def made(path: str) -> "Callable[[], Any] | None":
+        return (lambda: imported(path)(result)) if path else None
+
+    noted = explain and views.note
+    return Outcome(
+        result.command,
+        result,
+        lambda: (*imported(f"{views.view}_blocks")(result), *(imported(views.note)(result) if noted else ())),
+        short=None if noted else made(views.screen or f"{views.view}_screen"),
+        drawings=made(views.drawings),
+        solids=made(views.solids),
+        settings=(("command", result.command),),
+        extras=lambda: extras_of(result),
+    )
 
 
 def save(result: "Result", path: "Path", *, force: bool) -> None:

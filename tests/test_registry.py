@@ -1,26 +1,31 @@
 """Entries of features: each names modules, results and figures that are there."""
 
-import importlib
-
 import pytest
 
+from abu_calc.cli.command import Command
 from abu_calc.foundation.errors import InputError
-from abu_calc.registry import BY_NAME, FEATURES, Feature, Known, absent, imported, known, named
+from abu_calc.registry import BY_NAME, FEATURES, FIGURES, VIEWS, Feature, Known, Views, absent, imported, known, named
 from tests.rows import for_each
 
 
 @for_each(FEATURES)
-def test_all_that_an_entry_names_is_there(feature: Feature) -> None:
-    assert callable(importlib.import_module(f"abu_calc.features.{feature.command}").register)
-    assert all(isinstance(imported(path), type) for path in feature.results)
-    assert bool(feature.figures) == bool(feature.makes_figures)
-    assert not feature.makes_figures or callable(imported(feature.makes_figures))
+def test_a_feature_declares_its_command(feature: Feature) -> None:
+    assert isinstance(imported(feature.command), Command)
+
+
+@for_each(VIEWS.values())
+def test_all_that_shows_a_result_is_there(views: Views) -> None:
+    result, screen = imported(views.result), views.screen or f"{views.view}_screen"
+    assert isinstance(result, type) and bool(views.extras) == (result.command in FIGURES)
+    makers = (f"{views.view}_blocks", screen, views.extras, views.note, views.drawings, views.solids)
+    assert all(callable(imported(path)) for path in makers if path)
 
 
 def test_names_of_features_and_of_their_figures_differ() -> None:
     assert len(BY_NAME) == len(FEATURES)
-    for feature in FEATURES:
-        assert len({entry.name for entry in feature.figures}) == len(feature.figures)
+    assert BY_NAME.keys() >= FIGURES.keys()
+    for figures in FIGURES.values():
+        assert len({entry.name for entry in figures}) == len(figures)
 
 
 @pytest.mark.parametrize(("pattern", "name", "fits"), [

@@ -8,10 +8,9 @@ from typing import Final
 import typer
 
 from abu_calc.cli.help import SectionedGroup
-from abu_calc.cli.output import fail
 from abu_calc.cli.streams import make_safe
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place
-from abu_calc.foundation.escaping import escaped, shortened
+from abu_calc.foundation.escaping import escaped, escaped_lines, shortened
 from abu_calc.foundation.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
 from abu_calc.registry import BY_NAME, FEATURES, imported
 from abu_calc.version import __version__
@@ -32,6 +31,9 @@ COMPLETION: Final = "_ABU_COMPLETE"
 LONGEST_MESSAGE: Final = 400
 """Characters of what the parser of command lines says, which repeats what it was given."""
 
+BUG: Final = 3
+"""Exit status of an error that no part of the program foresees."""
+
 MEANINGS: Final = {
     0: "no check failed",
     1: "a check failed or could not be done",
@@ -49,8 +51,11 @@ NEEDED_MB: Final = 760
 """Address space that these libraries reserve, most of which they never use: 700 MB on two processors."""
 
 
-def build(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
-    """The application with these commands: who calls one need not load the others."""
+def build(names: tuple[str, ...] = COMMANDS, *, listed: bool = False) -> typer.Typer:
+    """The application with these commands; one alone is the application, so that no other part of it is loaded.
+
+    `listed`: the commands are named, and none is loaded; that is all that the help of the application asks for.
+    """
     app = typer.Typer(
         name="abu",
         cls=SectionedGroup,
@@ -58,14 +63,26 @@ def build(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
         epilog="List the presets: `abu presets`. Size one: `abu size avtovaz-707-222`. Describe a machine of your own: "
         "`abu init my-grinder.toml`.",
         no_args_is_help=True,
+        add_completion=len(names) > 1,
         rich_markup_mode=None,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     )
+    if not listed:
+        from abu_calc.cli.command import add_command
     for name in names:
-        imported(f"{BY_NAME[name].command}:register")(app)
-    app.callback()(_main)
+        feature = BY_NAME[name]
+        if listed:
+            app.command(name, short_help=feature.about, rich_help_panel=feature.group)(_listed)
+        else:
+            add_command(app, name, imported(feature.command))
+    if len(names) > 1:
+        app.callback()(_main)
     return app
+
+
+def _listed() -> None:
+    """A command that is named, not loaded."""
 
 
 def _print_version(asked: bool) -> None:
@@ -114,8 +131,12 @@ def run(arguments: list[str]) -> int:
         return fail(command, short, as_json)
     try:
         try:
-            names = (command,) if command in COMMANDS else COMMANDS
-            status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
+            alone = command in COMMANDS and command == arguments[0]
+            # Options of the application end it: a command that is not the first word follows "--".
+            listed = not alone and "--" not in arguments and COMPLETION not in os.environ
+            app = build((command,) if alone else COMMANDS, listed=listed)
+            given, name = (arguments[1:], f"abu {command}") if alone else (arguments, "abu")
+            status = typer.main.get_command(app).main(given, prog_name=name, standalone_mode=False)
         except Exception:
             raise_pending()
             raise
@@ -163,3 +184,21 @@ def _memory() -> NotTrustworthyError | None:
     return NotTrustworthyError(
         f"the process may have {most >> 20} MB of address space and needs {NEEDED_MB} MB: raise `ulimit -v`"
     )
+
+
+def fail(command: str, error: BaseException, as_json: bool) -> int:
+    """Tell an error: a line or two on standard error, the envelope on standard output if JSON was asked for."""
+    if as_json:
+        from abu_calc.reporting.outcome import error_document, to_json
+
+        print(to_json(error_document(command, error)))
+    head = " ".join(part for part in ("abu", shortened(escaped(command))) if part)
+    if isinstance(error, AbuError):
+        print(f"{head}: {escaped_lines(str(error))}", file=sys.stderr)
+        return error.exit_status
+    print(
+        f"{head}: this is a bug in abu-calc: {type(error).__name__}: {shortened(escaped(str(error)))}\n"
+        "  Set ABU_DEBUG=1 to see where, and report it with your file.",
+        file=sys.stderr,
+    )
+    return BUG

@@ -1,163 +1,216 @@
-"""Registration of commands: functions that return an Outcome, with the options that all share.
+"""Commands as features declare them: a study, and the options that give its arguments.
 
-A parameter of a command is called like the argument of the study it asks, so that an error about an argument names the
-option.
-
-    option             one option, as its help shows it
-    SCENES, File, …    types of options that several commands about scenes share
+    Option             one option or argument, as its help shows it
+    MACHINE, FILE, …   options that several commands share
+    Command            a study with its options
     settings           the command and its options, which give a result again
-    write_files        the files that a command was asked for, written when all is computed
-    add_command        a function made a command
+    add_command        a command that Typer runs
+
+An option is called like the argument of the study that it gives, so that an error about an argument names the option.
+What is not given is left to the study. Studies are named by their paths, so that help loads none of them.
 """
 
 import inspect
+import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from dataclasses import replace
-from functools import cache
+from functools import partial
 from inspect import Parameter
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple, TypeAlias
 
 import typer
 
 from abu_calc.cli.help import OUTPUT, HelpAll, SectionedCommand
-from abu_calc.cli.output import Delivery, asked_figures, deliver, figure_option
+from abu_calc.cli.output import Delivery, asked_figures, deliver, write_files
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.call_files import one_call
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.patience import limited
-from abu_calc.foundation.progress import Progress, Stage
-from abu_calc.registry import extras_of, group_of
-from abu_calc.reporting.outcome import Outcome
+from abu_calc.foundation.progress import silent
+from abu_calc.registry import BY_NAME, imported, names_of, outcome_of
 
 if TYPE_CHECKING:
-    from abu_calc.reporting.charts.figure import Figure, MakesExtras
+    from abu_calc.inputs.reading.document import FileReading
+    from abu_calc.reporting.outcome import Outcome
+    from abu_calc.simulation.result import Result
+
+REQUIRED: Final = Parameter.empty
+Answer: TypeAlias = "Result | Outcome"
+Study: TypeAlias = "Callable[..., Result]"
+
+
+class FurtherFile(NamedTuple):
+    """A file that an option asks for: its suffix, and its text of the result and the options that were given."""
+
+    suffix: str
+    text: Callable[[Any, Mapping[str, Any]], "str | Iterable[str] | None"]
+
+
+class Option(NamedTuple):
+    """One option of a command, or one of its arguments by place.
+
+    `key`: the argument of the study; `usage`: the names with their dashes and what stands for the value, of an argument
+    by place this alone; `default`: a value that help shows, `REQUIRED`, or None for one that only the study knows;
+    `converts`: function from the text that is given to the argument; `reads`: function from the name of a file, and the
+    entries that --set replaces, to what the study takes first; `writes`: the file that the value names.
+    """
+
+    key: str
+    type: Any
+    usage: str
+    text: str
+    panel: str | None = None
+    default: Any = None
+    converts: Callable[[Any], Any] | None = None
+    reads: Callable[[Any, Sequence[str]], Any] | None = None
+    writes: FurtherFile | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the option, with its dashes; of an argument by place the key.
+
+        >>> Option("outputs", str, "-o --output FILE", "File to write.").name
+        '--output'
+        """
+        return next((word for word in self.usage.split() if word.startswith("--")), self.key)
+
+    @property
+    def usual(self) -> Any:
+        """The value that stands for an option which is not given: None, of flags False."""
+        return False if self.type is bool else self.default
+
+    @property
+    def parameter(self) -> Parameter:
+        """The option as Typer reads it from the signature of a function."""
+        how: dict[str, Any] = {"help": self.text, "rich_help_panel": self.panel}
+        if self.usage.startswith("-"):
+            names, _, value = re.sub(" (?!-)", "\n", self.usage, count=1).partition("\n")
+            shown = typer.Option(*names.split(), metavar=value or None, **how)
+        else:
+            shown = typer.Argument(metavar=self.usage, **how)
+        kind = self.type | None if self.usual is None else self.type
+        return Parameter(self.key, Parameter.KEYWORD_ONLY, default=self.usual, annotation=Annotated[kind, shown])
+
+
+class Command(NamedTuple):
+    """A study with the options that give its arguments.
+
+    `study`: its path "module:name" below `abu_calc.features`; `options` in the order of help; `text`: what help says
+    below the command's line; `around`: function that is given the study and calls it; `drawn`: suffixes of its
+    drawing's files; `formats`: those of --output, for commands whose result is a text of its own; `simulates`: whether
+    the command has the option --patience; `seldom`: panels and options that `--help` lists by name and `--help-all`
+    explains.
+    """
+
+    study: str
+    options: tuple[Option, ...]
+    text: str = ""
+    around: Callable[..., Answer] | None = None
+    drawn: tuple[str, ...] = ()
+    formats: tuple[str, ...] = ()
+    simulates: bool = False
+    seldom: tuple[str, ...] = ()
+
+    def files(self, given: Mapping[str, Any]) -> Iterator[tuple[Option, FurtherFile]]:
+        """Options that ask for a file, each with the file."""
+        return ((each, each.writes) for each in self.options if each.writes and given[each.key] is not None)
+
+    def ask(self, given: Mapping[str, Any], how: Delivery) -> Answer:
+        """Read the files that are named, and run the study with the arguments that are given.
+
+        A study that takes them is also told `how` the outcome is delivered, how many `workers` there may be, and a
+        function to tell its `progress`.
+        """
+        study = imported(self.study)
+        run = partial(self.around, study) if self.around else study
+        takes = inspect.signature(study).parameters | inspect.signature(self.around or study).parameters
+        own = {option.key: option for option in self.options}
+        arguments = {
+            key: option.converts(given[key]) if option.converts else given[key]
+            for key, option in own.items()
+            if given[key] not in (None, option.usual) and (key in takes or not option.writes)
+        }
+        arguments.pop("explain", None)
+        read = [(each.key, each.reads) for each in self.options if each.reads and each.key in arguments]
+        overrides = arguments.pop("set_", ()) if read else ()
+        with progress(quiet=how.quiet) if "progress" in takes else nullcontext(silent) as tell:
+            sources = [reads(arguments.pop(key), overrides) for key, reads in read]
+            offered = {"how": how, "progress": tell, "workers": os.cpu_count() or 1}
+            arguments |= {key: value for key, value in offered.items() if key in takes and key not in own}
+            return run(*sources, **arguments)
+
+
+def _machine(file: str, overrides: Sequence[str]) -> "FileReading":
+    from abu_calc.inputs.read_machine import read_machine
+
+    return read_machine(file, overrides)
+
+
+def _any(file: str, overrides: Sequence[str]) -> "FileReading":
+    from abu_calc.simulation.scene_file import read_any
+
+    return read_any(file, overrides)
+
 
 SCENES: Final = ("idle", "grinding", "run-up", "swing-arm-idle", "swing-arm-cutting")
 """Scenes of a machine; written out here so that `--help` loads no numerics."""
 
-
-def option(usage: str, text: str, panel: str | None = None) -> Any:
-    """An option as its help shows it: its names, each with its dashes, then what stands for its value.
-
-    >>> option("--output -o FILE", "File to write.").metavar
-    'FILE'
-    """
-    names, _, value = re.sub(" (?!-)", "\n", usage, count=1).partition("\n")
-    return typer.Option(*names.split(), metavar=value or None, help=text, rich_help_panel=panel)
-
-
-File = Annotated[str, typer.Argument(metavar="MACHINE|SCENE", help="Machine file, scene file or name of a preset.")]
-WhichScene = Annotated[str | None, option("--scene NAME", f"Scene of a machine: {', '.join(SCENES)}.")]
-WhichStart = Annotated[
-    str | None,
-    option(
-        "--start NAME",
-        "Balls at the start: bunched (together, the default), behind, spread (evenly), standstill or settled.",
-    ),
-]
-Accuracy = Annotated[float, option("--accuracy RATIO", "Relative error allowed in the results.")]
-Duration = Annotated[float | None, option("--duration S", "Simulate this many seconds.")]
-With = Annotated[list[str] | None, option("--with EFFECT", "Add an effect; repeatable.")]
-Without = Annotated[list[str] | None, option("--without EFFECT", "Remove an effect; repeatable.")]
+MACHINE: Final = Option(
+    "machine", str, "MACHINE", "Machine file or name of a preset.", default=REQUIRED, reads=_machine
+)
+FILE: Final = Option(
+    "file", str, "MACHINE|SCENE", "Machine file, scene file or name of a preset.", default=REQUIRED, reads=_any
+)
+SET: Final = Option("set_", list[str], "--set TABLE.KEY=VALUE", "Replace one entry by a TOML value; repeatable.")
+SCENE: Final = Option("scene", str, "--scene NAME", f"Scene of a machine: {', '.join(SCENES)}.")
+START: Final = Option(
+    "start",
+    str,
+    "--start NAME",
+    "Balls at the start: bunched (together, the default), behind, spread (evenly), standstill or settled.",
+)
+ACCURACY: Final = Option("accuracy", float, "--accuracy RATIO", "Relative error allowed in the results.", default=0.01)
+IN_SIMULATIONS: Final = ACCURACY._replace(text="Relative error allowed in simulations.")
+DURATION: Final = Option("duration_s", float, "--duration S", "Simulate this many seconds.")
+WITH: Final = Option("with_effects", list[str], "--with EFFECT", "Add an effect; repeatable.")
+WITHOUT: Final = Option("without_effects", list[str], "--without EFFECT", "Remove an effect; repeatable.")
+EXPLAIN: Final = Option("explain", bool, "--explain", "Print the whole report and every formula with its numbers.")
+PATIENCE: Final = Option("patience", float, "--patience S", "Longest simulation; open checks are NOT EVALUATED.")
 
 
-def settings(name: str, parameters: Mapping[str, Parameter], given: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+def settings(name: str, options: Iterable[Option], given: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
     """The command with its arguments, and those options that are not as they are anyway, each with its value."""
-    values = [row for key, parameter in parameters.items() if key != "how" for row in _set(parameter, given[key])]
-    return (("command", name), *values)
+    return (("command", name), *(row for option in options for row in _set(option, given[option.key])))
 
 
-def _set(parameter: Parameter, value: Any) -> Iterator[tuple[str, str]]:
-    """Name and value of one parameter, once for each of several values; none if its default is in force."""
-    if value is None or value == parameter.default:
+def _set(option: Option, value: Any) -> Iterator[tuple[str, str]]:
+    """Name and value of one option, once for each of several values; none if its default is in force."""
+    if value is None or value == option.usual:
         return
-    label = (_option(parameter) or parameter.name).strip("-_").replace("-", " ").replace("_", " ")
+    label = option.name.strip("-_").replace("-", " ").replace("_", " ")
     for each in value if isinstance(value, (list, tuple)) else [value]:
         yield label, {True: "yes", False: "no"}[each] if isinstance(each, bool) else str(each)
 
 
-def _option(parameter: Parameter) -> str | None:
-    """Name of a parameter's option; None for an argument."""
-    for extra in get_args(parameter.annotation)[1:]:
-        # What is declared first stands where typer puts a default, as long as it has not looked at it.
-        declared = (getattr(extra, "default", None), *(getattr(extra, "param_decls", None) or ()))
-        flags = [each for each in declared if isinstance(each, str) and each.startswith("--")]
-        if flags:
-            return flags[0]
-    return None
-
-
-def write_files(outcome: Outcome, how: Delivery) -> bool:
-    """Write all that can be written; False: there are none. For a file that cannot, the computed result is told."""
-    if not how.outputs and not outcome.further and not how.figures:
-        return False
-    from abu_calc.reporting.files import as_file, further_sheets
-    from abu_calc.reporting.write import Target, write
-
-    sheets = [sheet for path in how.outputs for sheet in further_sheets(outcome, path)]
-    figures = cache(lambda: outcome.extras().figures if outcome.extras else ())
-    files = (
-        *outcome.further,
-        *(Target(path, _made(as_file, outcome, path.suffix.lower())) for path in how.outputs),
-        *(Target(path, _made(_sheet, path, text, how.force)) for path, text in sheets),
-        *(Target(path, _made(_drawn, outcome.command, figures, name, path)) for name, path in how.figures),
-    )
-    try:
-        with progress(how) as tell:
-            write((Target(path, _told(text, f"writing {path}", tell)) for path, text in files), force=how.force)
-    except InputError as error:
-        computed = (
-            f"The computed result is {outcome.status}; without the file, the exit status is {outcome.exit_status}."
-        )
-        error.remedy = " ".join(part for part in (error.remedy, computed) if part)
-        raise
-    return True
-
-
-def _made(make: "Callable[..., str | bytes]", *arguments: Any) -> Iterator[str | bytes]:
-    """The text of a file, made when it is written."""
-    yield make(*arguments)
-
-
-def _sheet(path: Path, text: str, force: bool) -> str:
-    """The text of a further sheet, whose file was not asked for by name."""
-    from abu_calc.reporting.write import check_target
-
-    check_target(path, force=force)
-    return text
-
-
-def _drawn(command: str, figures: "Callable[[], tuple[Figure, ...]]", name: str, path: Path) -> bytes | str:
-    """File of a figure; raises InputError for one that the result does not have."""
-    from abu_calc.registry import named
-    from abu_calc.reporting.charts.matplotlib_draw import figure_file
-
-    return figure_file(named(command, figures(), name), path.suffix.lower())
-
-
-def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:
-    """The pieces of a text, each told before it is written."""
-    pieces = [text] if isinstance(text, (str, bytes)) else text
-    total = len(pieces) if isinstance(pieces, Sized) else 0
-    for done, piece in enumerate(pieces):
-        tell(Stage(what, done / total) if total else what)
-        yield piece
-
-
-Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")]
-Overrides = Annotated[
-    list[str] | None, option("--set TABLE.KEY=VALUE", "Replace one entry by a TOML value; repeatable.")
-]
-
-
-def _output_option(formats: Iterable[str]) -> Any:
-    """The option --output with the formats that one command writes."""
-    *others, last = formats
-    text = f"Also write as {', '.join(others)}{' or ' if others else ''}{last}; repeatable."
-    return Annotated[list[Path] | None, option("--output -o FILE", text, OUTPUT)]
+def _shared(name: str, command: Command) -> Iterator[Option]:
+    """Options behind those of a command: --output lists its formats, --figure its figures."""
+    if command.simulates:
+        yield PATIENCE
+    figures = names_of(name)
+    *others, last = command.formats or _formats(command.drawn, bool(figures))
+    formats = f"Also write as {', '.join(others)}{' or ' if others else ''}{last}; repeatable."
+    yield Option("json", bool, "--json", "Print one JSON document on standard output.", OUTPUT)
+    yield Option("output", list[Path], "--output -o FILE", formats, OUTPUT)
+    if figures:
+        text = f"Also write one figure (.svg, .png or .pdf); repeatable. NAME: {figures}."
+        yield Option("figure", list[str], "--figure NAME=FILE", text, OUTPUT)
+    yield Option("force", bool, "--force", "Overwrite existing files.", OUTPUT)
+    yield Option("quiet", bool, "--quiet -q", "Print no report; use the exit status.", OUTPUT)
+    yield Option("no_color", bool, "--no-color", "Print without colours, as NO_COLOR does.", OUTPUT)
+    yield Option("full", bool, "--full", "Print the whole report.", OUTPUT)
 
 
 def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
@@ -165,107 +218,53 @@ def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
     yield from (f"{suffix} ({'solids' if suffix in ('.step', '.stp') else 'drawing'})" for suffix in drawn)
 
 
-def _shared(
-    *,
-    json: Annotated[bool, option("--json", "Print one JSON document on standard output.", OUTPUT)] = False,
-    output: list[Path] | None = None,
-    figure: list[str] | None = None,
-    force: Annotated[bool, option("--force", "Overwrite existing files.", OUTPUT)] = False,
-    quiet: Annotated[bool, option("--quiet -q", "Print no report; use the exit status.", OUTPUT)] = False,
-    no_color: Annotated[bool, option("--no-color", "Print without colours, as NO_COLOR does.", OUTPUT)] = False,
-    full: Annotated[bool, option("--full", "Print the whole report.", OUTPUT)] = False,
-) -> Delivery:
-    return Delivery(json, tuple(output or ()), force, quiet, not no_color, full, asked_figures(figure or ()))
-
-
-def _walled(
-    *,
-    patience: Annotated[
-        float | None, option("--patience S", "Longest simulation; open checks are NOT EVALUATED.")
-    ] = None,
-) -> None:
-    """The option of all commands that simulate."""
-
-
-def add_command(
-    app: typer.Typer,
-    name: str,
-    function: Callable[..., Outcome],
-    more: Iterable[inspect.Parameter] = (),
-    drawn: tuple[str, ...] = (),
-    *,
-    formats: tuple[str, ...] = (),
-    simulates: bool = False,
-    seldom: Iterable[str] = (),
-) -> None:
-    """Register a command whose function returns an Outcome, with the shared options behind its own.
-
-    `more`: options from a table, which the function takes as `**` keywords; `drawn`: suffixes of its drawing's files;
-    `formats`: those of --output, for commands whose result is a text of its own; `simulates`: whether the command has
-    the option --patience; `seldom`: panels and options that `--help` lists by name and `--help-all` explains.
-    """
-    named = inspect.signature(function, eval_str=True).parameters.values()
-    own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
-    listed = frozenset(seldom)
-    helped = [Parameter("help_all", Parameter.KEYWORD_ONLY, default=False, annotation=HelpAll)] if listed else []
-    walled = dict(inspect.signature(_walled, eval_str=True).parameters) if simulates else {}
-    shared = _shared_by(name, drawn, formats)
-    options = {key: option for key, each in (own | walled).items() if (option := _option(each))}
+def add_command(app: typer.Typer, name: str, command: Command) -> None:
+    """Register a command, with the options that all share behind its own."""
+    options = (*command.options, *_shared(name, command))
 
     def run(**given: Any) -> None:
-        how = _shared(**{key: given[key] for key in shared})
-        wanted = {"how": how} if "how" in own else {}
+        from abu_calc.reporting.outcome import Outcome
+        from abu_calc.reporting.write import Target, check_target
+
+        how = Delivery(
+            given["json"], tuple(given["output"] or ()), given["force"], given["quiet"], not given["no_color"],
+            given["full"], asked_figures(given.get("figure") or ()),
+        )  # fmt: skip
         with one_call():
-            how.check(name, drawn)
+            how.check(name, command.drawn)
+            for option, file in command.files(given):
+                check_target(given[option.key], force=how.force, suffixes=(file.suffix,), option=option.name)
             with _naming_options(options), limited(given.get("patience")):
-                outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
-            outcome = replace(outcome, settings=settings(name, own, given), extras=_extras(outcome))
+                answer = command.ask(given, how)
+                texts = [(given[option.key], file.text(answer, given)) for option, file in command.files(given)]
+            outcome = answer if isinstance(answer, Outcome) else outcome_of(answer, explain=given.get("explain", False))
+            further = (*outcome.further, *(Target(path, text) for path, text in texts if text is not None))
+            outcome = replace(outcome, further=further, settings=settings(name, command.options, given))
             status = deliver(outcome, how, wrote=write_files(outcome, how))
         if status:
             raise typer.Exit(status)
 
-    parameters = [
-        parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-        for parameter in (*own.values(), *walled.values(), *shared.values(), *helped)
-        if parameter.name != "how"
-    ]
-    run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-    run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
-    run.__doc__ = function.__doc__
+    helped = [Parameter("help_all", Parameter.KEYWORD_ONLY, default=False, annotation=HelpAll)] * bool(command.seldom)
+    run.__signature__ = inspect.Signature([*(option.parameter for option in options), *helped])  # type: ignore[attr-defined]
+    run.__annotations__ = {each.name: each.annotation for each in run.__signature__.parameters.values()}  # type: ignore[attr-defined]
+    feature = BY_NAME[name]
     app.command(
         name,
-        cls=type("Command", (SectionedCommand,), {"seldom": listed}),
-        short_help=inspect.cleandoc(run.__doc__ or "").partition("\n")[0],
-        rich_help_panel=group_of(name),
+        cls=type("Command", (SectionedCommand,), {"seldom": frozenset(command.seldom)}),
+        help=f"{feature.about}\n\n{command.text}",
+        short_help=feature.about,
+        rich_help_panel=feature.group,
     )(run)
 
 
-def _extras(outcome: Outcome) -> "MakesExtras | None":
-    """Function that makes the figures and the note of a page, as the registry names it; None without a study."""
-    result = outcome.content
-    return None if isinstance(result, dict) else lambda: extras_of(result)
-
-
-def _shared_by(command: str, drawn: tuple[str, ...], formats: tuple[str, ...]) -> dict[str, inspect.Parameter]:
-    """The shared options; --output lists the command's own formats, --figure its own figures."""
-    shared = dict(inspect.signature(_shared, eval_str=True).parameters)
-    figure = figure_option(command)
-    shared["output"] = shared["output"].replace(
-        annotation=_output_option(formats or _formats(drawn, figure is not None))
-    )
-    if figure is None:
-        del shared["figure"]
-        return shared
-    return {**shared, "figure": figure}
-
-
 @contextmanager
-def _naming_options(options: Mapping[str, str]) -> Iterator[None]:
-    """Errors about an argument name its option; those about entries of a file stay as they are."""
+def _naming_options(options: Iterable[Option]) -> Iterator[None]:
+    """Errors about an argument, or a key within it, name its option; those about entries of a file stay as they are."""
     try:
         yield
     except InputError as error:
-        option = options.get(error.place.key or "")
-        if option is None or error.place.file is not None:
+        names = {option.key: option.name for option in options if option.usage.startswith("-")}
+        argument, *within = (error.place.key or "").split(" ", 1)
+        if error.place.file is not None or argument not in names:
             raise
-        raise error.at(Place(key=option)) from None
+        raise error.at(Place(key=" ".join((names[argument], *within)))) from None

@@ -1,38 +1,29 @@
-"""Delivery of a command's outcome, or of its error, to people and programs.
+"""Delivery of a command's outcome to people and programs.
 
 `--figure NAME=FILE` asks for figures as files of their own. Names and places that cannot work are refused before
 anything is computed.
 """
 
-import inspect
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sized
+from functools import cache
 from pathlib import Path
-from typing import Annotated, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-import typer
-
-from abu_calc.cli.help import OUTPUT as PANEL
-from abu_calc.foundation.errors import AbuError, InputError, Place
-from abu_calc.foundation.escaping import escaped, escaped_lines, shortened
+from abu_calc.cli.progress import progress
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.escaping import escaped
 from abu_calc.foundation.interruption import EndedBySignal, status_of
-from abu_calc.registry import BY_NAME, known, names_of
-from abu_calc.reporting.outcome import Outcome, document, error_document, to_json
+from abu_calc.foundation.progress import Progress, Stage
+from abu_calc.registry import known, named
+
+if TYPE_CHECKING:
+    from abu_calc.reporting.charts.figure import Figure
+    from abu_calc.reporting.outcome import Outcome
 
 OPTION: Final = "--figure"
 PLACE: Final = Place(key=OPTION)
-
-
-def figure_option(command: str) -> inspect.Parameter | None:
-    """The option, with the names that a command knows; None for commands without figures."""
-    if command not in BY_NAME or not BY_NAME[command].figures:
-        return None
-    help_ = f"Also write one figure (.svg, .png or .pdf); repeatable. NAME: {names_of(command)}."
-    option = typer.Option(OPTION, metavar="NAME=FILE", help=help_, rich_help_panel=PANEL)
-    return inspect.Parameter(
-        "figure", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[list[str] | None, option]
-    )
 
 
 def asked_figures(given: Iterable[str]) -> tuple[tuple[str, Path], ...]:
@@ -61,9 +52,6 @@ def check_figures(command: str, figures: Iterable[tuple[str, Path]], *, force: b
             check_matplotlib(f"{path.suffix.lower()} files of {name}")
 
 
-BUG = 3
-
-
 class Delivery(NamedTuple):
     """Requested delivery of an outcome: the options that all commands share."""
 
@@ -89,7 +77,63 @@ class Delivery(NamedTuple):
             check_extra(path.suffix.lower())
 
 
-def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
+def write_files(outcome: "Outcome", how: Delivery) -> bool:
+    """Write all that can be written; False: there are none. For a file that cannot, the computed result is told."""
+    if not how.outputs and not outcome.further and not how.figures:
+        return False
+    from abu_calc.reporting.files import as_file, further_sheets
+    from abu_calc.reporting.write import Target, write
+
+    sheets = [sheet for path in how.outputs for sheet in further_sheets(outcome, path)]
+    figures = cache(lambda: outcome.extras().figures if outcome.extras else ())
+    files = (
+        *outcome.further,
+        *(Target(path, _made(as_file, outcome, path.suffix.lower())) for path in how.outputs),
+        *(Target(path, _made(_sheet, path, text, how.force)) for path, text in sheets),
+        *(Target(path, _made(_drawn, outcome.command, figures, name, path)) for name, path in how.figures),
+    )
+    try:
+        with progress(quiet=how.quiet) as tell:
+            write((Target(path, _told(text, f"writing {path}", tell)) for path, text in files), force=how.force)
+    except InputError as error:
+        computed = (
+            f"The computed result is {outcome.status}; without the file, the exit status is {outcome.exit_status}."
+        )
+        error.remedy = " ".join(part for part in (error.remedy, computed) if part)
+        raise
+    return True
+
+
+def _made(make: Callable[..., str | bytes], *arguments: Any) -> Iterator[str | bytes]:
+    """The text of a file, made when it is written."""
+    yield make(*arguments)
+
+
+def _sheet(path: Path, text: str, force: bool) -> str:
+    """The text of a further sheet, whose file was not asked for by name."""
+    from abu_calc.reporting.write import check_target
+
+    check_target(path, force=force)
+    return text
+
+
+def _drawn(command: str, figures: "Callable[[], tuple[Figure, ...]]", name: str, path: Path) -> bytes | str:
+    """File of a figure; raises InputError for one that the result does not have."""
+    from abu_calc.reporting.charts.matplotlib_draw import figure_file
+
+    return figure_file(named(command, figures(), name), path.suffix.lower())
+
+
+def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:
+    """The pieces of a text, each told before it is written."""
+    pieces = [text] if isinstance(text, (str, bytes)) else text
+    total = len(pieces) if isinstance(pieces, Sized) else 0
+    for done, piece in enumerate(pieces):
+        tell(Stage(what, done / total) if total else what)
+        yield piece
+
+
+def deliver(outcome: "Outcome", how: Delivery, *, wrote: bool = False) -> int:
     """Print the result, return the exit status; `wrote`: files were written, as who interrupts is told."""
     try:
         _print(outcome, how)
@@ -101,9 +145,11 @@ def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
     return outcome.exit_status
 
 
-def _print(outcome: Outcome, how: Delivery) -> None:
+def _print(outcome: "Outcome", how: Delivery) -> None:
     """Print an outcome on standard output; if that is for programs, warnings go to standard error."""
     if how.json:
+        from abu_calc.reporting.outcome import document, to_json
+
         print(to_json(document(outcome)))
         for warning in () if how.quiet else outcome.warnings:
             print(f"warning: {escaped(warning)}", file=sys.stderr)
@@ -116,19 +162,3 @@ def _print(outcome: Outcome, how: Delivery) -> None:
 
         shown = outcome.blocks if how.full else outcome.screen
         show(shown, color=how.color and not os.environ.get("NO_COLOR"))
-
-
-def fail(command: str, error: BaseException, as_json: bool) -> int:
-    """Tell an error: a line or two on standard error, the envelope on standard output if JSON was asked for."""
-    if as_json:
-        print(to_json(error_document(command, error)))
-    head = " ".join(part for part in ("abu", shortened(escaped(command))) if part)
-    if isinstance(error, AbuError):
-        print(f"{head}: {escaped_lines(str(error))}", file=sys.stderr)
-        return error.exit_status
-    print(
-        f"{head}: this is a bug in abu-calc: {type(error).__name__}: {shortened(escaped(str(error)))}\n"
-        "  Set ABU_DEBUG=1 to see where, and report it with your file.",
-        file=sys.stderr,
-    )
-    return BUG

@@ -13,7 +13,6 @@ from itertools import cycle
 from time import monotonic
 from typing import Final, TextIO
 
-from abu_calc.cli.output import Delivery
 from abu_calc.foundation.escaping import escaped, shortened
 from abu_calc.foundation.progress import Progress, Stage, silent
 
@@ -31,9 +30,9 @@ SIGNS: Final = "-\\|/"
 
 
 @contextmanager
-def progress(how: Delivery) -> Iterator[Progress]:
+def progress(*, quiet: bool) -> Iterator[Progress]:
     """Takes texts and shows the last one with the time since the start; the line goes at the end."""
-    if how.quiet or not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
+    if quiet or not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
         yield silent
         return
     line = _Line(sys.stderr)

@@ -1,8 +1,9 @@
 """A scene: everything that one simulation needs, in SI, nothing optional."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
+from typing import Self
 
 import numpy as np
 
@@ -90,6 +91,15 @@ class Scene(Circumstances):
         for static_moment, angle in zip(self.static_moments, angles, strict=True):
             total += static_moment * np.exp(1j * angle)
         return total
+
+    def started(self, angles: Sequence[float], speeds: Sequence[float] | None = None) -> Self:
+        """The scene with all balls started at these angles [rad]; speeds against the race [rad/s], None: at rest."""
+        rates = self.by_race([0.0] * len(angles) if speeds is None else [*map(float, speeds)])
+        races = (
+            replace(race, start_angles=tuple(own), start_speeds=tuple(next(rates)[1]))
+            for race, own in self.by_race([*map(float, angles)])
+        )
+        return replace(self, races=tuple(races))
 
     def effect(self, name: str) -> Effect | None:
         """The effect of this name, if the scene has it."""

@@ -6,13 +6,17 @@ rotor from its zero mark, which lies on +x at t = 0, in the sense of rotation (f
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from functools import cached_property
+from typing import Any, TypeVar, cast
 
 from abu_calc.dynamics.race import LARGEST, NON_NEGATIVE, Balls, Race, balls_of, finite, same_length
 from abu_calc.dynamics.rotor import Rotation
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import Range
+
+Values = TypeVar("Values")
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,13 @@ class Circumstances(ABC):
         for name, values in (("start position", self.start_position), ("start velocity", self.start_velocity)):
             same_length(name, values, len(self.support.names), "support coordinate")
             finite(name, values)
+
+    def by_race(self, values: Values) -> Iterator[tuple[Race, Values]]:
+        """Each race with its own of values that all balls have."""
+        every, first = cast("Any", values), 0
+        for race in self.races:
+            yield race, every[first : first + len(race.ball_masses)]
+            first += len(race.ball_masses)
 
     @property
     def revolution(self) -> float:

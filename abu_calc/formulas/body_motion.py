@@ -193,11 +193,6 @@ class BodyMotion:
             raise NotTrustworthyError("balls at a node of the body feel no imbalance: choose another race plane")
         return -(self.forward(race, wheel) * imbalance + 2 * eccentricity) / here
 
-    def capacity_required(self, imbalance: float, wheel: Vector, race: Vector, eccentricity: float = 0.0) -> float:
-        """|g_rw/g_rr|·U + m_F·Δ [kg m]: race eccentricity at its least favourable angle."""
-        ratio = abs(self.ball_resultant(1.0, wheel, race))
-        return ratio * imbalance + self.effective_mass(race) * abs(eccentricity)
-
     def settled_balls(
         self,
         imbalance: complex,

@@ -24,8 +24,9 @@ from abu_calc.inputs.reading.kinds import kind_of, refuse_others
 from abu_calc.inputs.reading.overrides import Override
 
 if TYPE_CHECKING:
+    from abu_calc.inputs.autobalancer import Autobalancer
     from abu_calc.inputs.machine import MachineFile
-    from abu_calc.inputs.two_races import TwoRaceFile
+    from abu_calc.inputs.spindle import TwoRaceFile
 
 
 OTHERS: Final = "`abu size`, `abu simulate`, `abu stability`, `abu sweep`, `abu compare` and `abu grinding` take it."
@@ -62,9 +63,15 @@ class Machine(FileReading):
         return self.tables.machine.name
 
     @property
-    def two_races(self) -> "TwoRaceFile | None":
-        """The tables of a machine with two races; None for any other file."""
-        return self.tables if getattr(self.tables, "autobalancer", None).__class__ is tuple else None  # type: ignore[return-value]
+    def autobalancers(self) -> "tuple[Autobalancer, ...]":
+        """All races of the machine; one race is a list of one, a file of bearings alone has none."""
+        races = getattr(self.tables, "autobalancer", None)
+        return races if isinstance(races, tuple) else () if races is None else (races,)
+
+    @property
+    def spindle(self) -> "TwoRaceFile | None":
+        """The tables of a machine with several races along its spindle; None for any other file."""
+        return self.tables if len(self.autobalancers) > 1 else None  # type: ignore[return-value]
 
     def to_toml(self) -> str:
         """The machine as TOML text: the file as it was read, or, with entries replaced, all entries that are in force.
@@ -84,7 +91,7 @@ class Machine(FileReading):
 
     def whole(self, command: str | None = None) -> "MachineFile":
         """The tables of a machine with one race; raises InputError, naming the command, for any other file."""
-        if self.two_races is not None:
+        if self.spindle is not None:
             raise InputError(
                 "this file has two races, and this command knows one", place=Place(self.file, key="autobalancer"),
                 remedy=OTHERS,
@@ -139,7 +146,7 @@ def _model(content: Mapping[str, object]) -> "type[MachineFile] | type[BearingFi
     if _bearings_alone(content):
         return BearingFile
     if _has_lists(content):
-        from abu_calc.inputs.two_races import TwoRaceFile
+        from abu_calc.inputs.spindle import TwoRaceFile
 
         return TwoRaceFile
     return _whole()

@@ -7,7 +7,7 @@ values into a file again and again: the file is read once, its tables are checke
 import copy
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Annotated, Any, Final, Generic, Literal
@@ -307,6 +307,10 @@ NOT_OF_THE_MACHINE: Final = ("sweep", "optimise", "costs", "expected")
 """Tables that say nothing of the machine itself."""
 
 
+RACES: Final = "autobalancer"
+"""Table of a race, or list of several."""
+
+
 @dataclass(frozen=True)
 class Variants(Generic[Model]):
     """A file with its overrides put in, as data that processes can hand on; `model`: its tables."""
@@ -330,7 +334,7 @@ class Variants(Generic[Model]):
 
     def table(self, values: Mapping[tuple[Part, ...], object]) -> Model:
         """The tables with these values. Raises InputError that names the key."""
-        overrides = tuple(Override(path, value, VARIED) for path, value in values.items())
+        overrides = self._put_in(values.items())
         content = copy.deepcopy(self.content)
         apply(content, overrides, self.model)
         try:
@@ -341,8 +345,19 @@ class Variants(Generic[Model]):
 
     def notes(self, paths: "tuple[tuple[Part, ...], ...]", values: tuple[object, ...]) -> list[str]:
         """Entries of the file whose place the values take, in words."""
-        overrides = [Override(path, value, VARIED) for path, value in zip(paths, values, strict=True)]
-        return apply(copy.deepcopy(self.content), overrides, self.model)
+        return apply(copy.deepcopy(self.content), self._put_in(zip(paths, values, strict=True)), self.model)
+
+    def _put_in(self, values: Iterable[tuple[tuple[Part, ...], object]]) -> list[Override]:
+        races = self.content.get(RACES)
+        return [Override(own, value, VARIED) for path, value in values for own in in_all_races(path, races)]
+
+
+def in_all_races(path: tuple[Part, ...], races: object) -> list[tuple[Part, ...]]:
+    """The paths of a key in each of several [[autobalancer]], unless it names one of them; else the path itself."""
+    whole = path[0] != RACES or len(path) < 2 or isinstance(path[1], int)
+    if whole or not isinstance(races, (list, tuple)) or len(races) < 2:
+        return [path]
+    return [(RACES, number, *path[1:]) for number in range(len(races))]
 
 
 def path_of(key: str) -> tuple[Part, ...]:

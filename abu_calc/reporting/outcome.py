@@ -50,21 +50,6 @@ class Outcome:
     further: tuple["Target", ...] = ()
     """Files that were asked for beside the result's own."""
 
-    @classmethod
-    def of(
-        cls,
-        result: "Result",
-        view: Callable[[], tuple[Block, ...]],
-        short: Callable[[], tuple[Block, ...]] | None = None,
-        drawings: "Callable[[], tuple[Drawing, ...]] | None" = None,
-        solids: "Callable[[], SolidAssembly] | None" = None,
-    ) -> "Outcome":
-        """Outcome of a study.
-
-        `view` makes all its blocks, `short` those of one screen, `drawings` its drawings, `solids` its parts.
-        """
-        return cls(result.command, result, view, short=short, drawings=drawings, solids=solids)
-
     @cached_property
     def result(self) -> Any:
         """The result as the JSON document has it."""

@@ -5,7 +5,7 @@ Levels stand as instruments show them, and measured ones beside predicted ones.
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.foundation.checks import RANK, Check, Grade
 from abu_calc.foundation.escaping import shell_word
@@ -25,8 +25,10 @@ from abu_calc.reporting.blocks import (
     with_unit,
 )
 from abu_calc.simulation.result import Provenance, Result
-from abu_calc.simulation.vibration_records import MeasuredAfterRecord
-from abu_calc.sizing.instruments import InstrumentReadings
+
+if TYPE_CHECKING:  # the seats of bearings are reported without a design
+    from abu_calc.simulation.vibration_records import MeasuredAfterRecord
+    from abu_calc.sizing.instruments import InstrumentReadings
 
 NOISE: Final = 1e-9
 """Values below which no digits are printed beside a limit of zero."""
@@ -302,7 +304,7 @@ def limit_in_file(check: Check | None) -> str:
     )
 
 
-def readings_grid(rows: Sequence[tuple[str, InstrumentReadings]]) -> Grid:
+def readings_grid(rows: Sequence[tuple[str, "InstrumentReadings"]]) -> Grid:
     """Places and states against what instruments show of them."""
     header = ("", "mm/s", "µm", "m/s²", "a_h W_h", "a_hv W_h")
     cells = tuple(
@@ -313,7 +315,7 @@ def readings_grid(rows: Sequence[tuple[str, InstrumentReadings]]) -> Grid:
     return Grid(header, cells, frozenset(range(1, 6)))
 
 
-def measured_after_line(comparison: MeasuredAfterRecord) -> str:
+def measured_after_line(comparison: "MeasuredAfterRecord") -> str:
     """Measured, predicted, the difference in words."""
     measured = f"Measured with the autobalancer, idle, {comparison.place}: {comparison.measured}"
     if comparison.unit != "dB":
@@ -333,11 +335,11 @@ def measured_after_line(comparison: MeasuredAfterRecord) -> str:
     return " ".join([f"{measured}. Predicted, median of the start cases: {predicted}. {distance}", *others])
 
 
-def measured_after_blocks(comparison: MeasuredAfterRecord | None) -> list[Block]:
+def measured_after_blocks(comparison: "MeasuredAfterRecord | None") -> list[Block]:
     """A line, where something was measured."""
     return [] if comparison is None else [Paragraph(measured_after_line(comparison))]
 
 
-def shown_blocks(rows: Sequence[tuple[str, InstrumentReadings]]) -> list[Block]:
+def shown_blocks(rows: Sequence[tuple[str, "InstrumentReadings"]]) -> list[Block]:
     """The table with its heading, where there is a level."""
     return [Heading("As instruments show it, rms"), readings_grid(rows)] if rows else []

@@ -35,7 +35,7 @@ from abu_calc.simulation.residual_criteria import (
     slip,
 )
 from abu_calc.simulation.response import Response, needed_times
-from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
+from abu_calc.simulation.scene_of_design import guided, idle_scene
 from abu_calc.simulation.start_cases import Member, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.places import level_at_loudest
@@ -44,7 +44,7 @@ from abu_calc.sizing.places import level_at_loudest
 def hanging_bounds(design: Design) -> HangingBounds:
     """Drags [1/s] above which no balls of a design hang at any speed of its range; `doubt(drag)` asks of one."""
     horizontal = design.case.table.machine.spindle_axis == "horizontal"
-    return bounds_of(idle_scene(design), contact_half_angle(design), design.case.speed_range, horizontal=horizontal)
+    return bounds_of(idle_scene(design), design.autobalancer.half_angle, design.case.speed_range, horizontal=horizontal)
 
 
 TOLERANCE, TIGHTER = 2e-4, 0.1
@@ -83,12 +83,12 @@ Watch = Callable[[Any, "StartOutcome | Lost"], None]
 
 
 class Runner(NamedTuple):
-    """How one start of a machine is run, as `start_once` does it, which integrator all its starts ask for, the work
-    after which no further start is begun, and what looks at each outcome in turn and may end all by raising.
+    """How one start of a machine is run, as `start_once` does it, its scene, the work after which no further start is
+    begun, and what looks at each outcome in turn and may end all by raising.
     """
 
     once: Once
-    integrator: Callable[[Any, Member, float, float], str]
+    scene: Callable[[Any, Member, float], Scene]
     most: int = MOST_MORE
     watch: "Watch | None" = None
 
@@ -115,7 +115,7 @@ def simulate_members(
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
     starts, oil = list(members(design, doubtful, shares)), design.case.oil
-    runner = Runner(start_once, integrator_for, watch=watch)
+    runner = Runner(start_once, called_for, watch=watch)
     ensemble = simulate_starts(design, starts, accuracy, first_tolerance(design), progress, workers, runner)
     return ensemble if oil is None else replace(ensemble, temperatures=oil.temperatures)
 
@@ -128,7 +128,7 @@ def simulate_starts(
 
     `design`: of whatever machine `runner` runs; None: one with a single race.
     """
-    runner = runner or Runner(start_once, integrator_for)
+    runner = runner or Runner(start_once, called_for)
     if patience.given():
         runner = runner._replace(most=patience.UNBOUNDED)
     results = _found(design, starts, accuracy, tolerance, progress, workers, runner)
@@ -202,13 +202,17 @@ def _would_do(design: Design, member: Member, error: TooMuchWorkError) -> str:
     return f"; {patience.would_do(evaluations, scene.state_count)} would do, in seconds"
 
 
-def integrator_for(design: Design, member: Member, accuracy: float, tolerance: float) -> str:
-    """Integrator to request from `choose` for all start cases of a design, found from one of them.
+def called_for(design: Design, member: Member, accuracy: float) -> Scene:
+    """The scene of a start with the effects that it calls for."""
+    return with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)[0]
+
+
+def integrator_for(scene: Scene, tolerance: float) -> str:
+    """Integrator to request from `choose` for all start cases of a design, found from the scene of one of them.
 
     The cases differ only in where the balls are. Finding the decay rate of each would take as long as many
     runs.
     """
-    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     name = choose(assemble(scene), "auto", tolerance).name
     return "compiled" if name.startswith("compiled") else "auto"
 
@@ -229,7 +233,7 @@ def run_of_start(
     A scene ends by the rates of small motions. Balls that linger in an unstable equilibrium, or creep by friction, take
     longer: their run is done again, as long as settling may matter.
     """
-    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    scene = called_for(design, member, accuracy)
     to_rest = to_rest or design.case.table.limits.rest_time_s is not None
     run, longest = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted, to_rest)
     soon = not to_rest and _surely(design, run.outcome)
@@ -385,8 +389,8 @@ def every_start(
 
     `run_up_work`: work that a run-up may take; None: as much as any start.
     """
-    once, integrator, _, watch = runner or Runner(start_once, integrator_for)
-    wanted = integrator(design, starts[0][0], accuracy, tolerance) if starts else "auto"
+    once, scene, _, watch = runner or Runner(start_once, called_for)
+    wanted = integrator_for(scene(design, starts[0][0], accuracy), tolerance) if starts else "auto"
     long = work if run_up_work is None else run_up_work
     tasks = [
         (design, start, accuracy, tolerance, long if start.run_up else work, early_end, wanted)

@@ -21,7 +21,8 @@ class StartOutcome:
 
     `quiet_time`, `rest_time` and `settling_time` [s] from full speed on, None: never; `creeping`: balls still drift at
     the end; `residual`: axis amplitude [m]; `level` [dB] at the loudest place; `slip`: the largest mean speed of a ball
-    against its race over the rotor's.
+    against its race over the rotor's. Of several races the largest displacement counts, and `imbalance`, `allowed` and
+    `moved` are those of the race that is farthest from balancing.
     """
 
     member: Member
@@ -46,6 +47,8 @@ class StartOutcome:
     """Rms velocity [m/s] of the axis at the end, at the race."""
     moved: float = math.inf
     """Imbalance [kg m] at the race without balls."""
+    displacements: tuple[float, ...] = ()
+    """Displacement 0–peak [m] of each place on a spindle with several races."""
 
     @property
     def hanging(self) -> bool:

@@ -51,10 +51,8 @@ def allowed_of_scene(scene: Scene, ball_angles: tuple[float, ...]) -> float:
     if rolling is None:
         return tenth
     arm, radius = getattr(rolling, "lever_arm", 0.0), getattr(rolling, "ball_radius", 1.0)
-    first, held = 0, 0.0
-    for race in scene.races:
-        angles = ball_angles[first : first + len(race.ball_masses)]
-        held, first = max(held, friction_band(arm, race.pitch_radius, radius, angles)), first + len(angles)
+    bands = (friction_band(arm, race.pitch_radius, radius, own) for race, own in scene.by_race(ball_angles))
+    held = max(bands, default=0.0)
     return max(tenth, min(tenth + mass * held, HALF * scene.imbalance))
 
 

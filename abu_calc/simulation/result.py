@@ -120,7 +120,7 @@ class Result(Record):
         return overall(self.checks)
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {verdict_words(self.status, self.checks)}; {self.title}>"
+        return f"<{self.title_in_schema()} {verdict_words(self.status, self.checks)}; {self.title}>"
 
     def _repr_html_(self) -> str:
         html: str = importlib.import_module(FIGURES).html(self)

@@ -22,7 +22,6 @@ from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.planar import in_hands, planar
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport, cutting_arm, idle_arm
-from abu_calc.formulas.balls import half_angle
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate
 from abu_calc.formulas.suspension import Hands, Springs, resonance_factor
 from abu_calc.formulas.swing_arm import pressed_angle
@@ -44,7 +43,7 @@ if TYPE_CHECKING:
 def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArmSupport:
     """The swing arm with the machine and the autobalancer, without balls."""
     case, autobalancer = design.case, design.autobalancer
-    arm = table.arm(case.wheel_radius, autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass)
+    arm = table.arm(case.wheel_radius, autobalancer.mass - autobalancer.balls_mass)
     if not cutting:
         return idle_arm(arm)
     angle = pressed_angle(arm)
@@ -62,7 +61,7 @@ def ball_rate_on_arm(design: Design, arm: SwingArmSupport, drag: float) -> float
     There the rotor moves along one axis alone, so that half the stiffness of the slow motion is left.
     """
     case, candidate = design.case, design.autobalancer
-    mass = arm.felt_mass + candidate.ball_count * candidate.ball_mass
+    mass = arm.felt_mass + candidate.balls_mass
     natural = math.sqrt(max(arm.stiffness, 0.0) / mass)
     kappa = ball_stiffness(candidate.ball_mass, mass, case.speed, (natural, natural)) / 2
     return decay_rate((kappa,) * candidate.ball_count, candidate.budget.resting_angles, drag, case.inertia_factor)
@@ -213,7 +212,7 @@ def _refuse_what_is_missing(design: Design, which: str) -> None:
 def _held(design: Design) -> Support:
     """The machine on its springs or in hands, as a point mass: that which is felt in the race plane, without balls."""
     case, autobalancer = design.case, design.autobalancer
-    balls = autobalancer.ball_count * autobalancer.ball_mass
+    balls = autobalancer.balls_mass
     felt = case.body.effective_mass(autobalancer.mass, case.race_place)
     Range("effective mass in the race plane", balls, unit="kg", open_low=True, key="autobalancer.ball_count",
           remedy="Fewer or smaller balls.").check(felt)  # fmt: skip
@@ -254,19 +253,13 @@ def _race(design: Design, start: Start, *, turning: bool) -> Race:
     )
 
 
-def contact_half_angle(design: Design) -> float:
-    """Half the angle between touching balls [rad]."""
-    autobalancer = design.autobalancer
-    return half_angle(autobalancer.ball_diameter / 2, autobalancer.pitch_radius)
-
-
 def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
     count = design.autobalancer.ball_count
     if start == "spread":
         return tuple(AHEAD + k * 2 * math.pi / count for k in range(count))
     if start == "settled":
         return tuple(math.pi + angle for angle in design.autobalancer.budget.resting_angles)
-    beta = contact_half_angle(design)
+    beta = design.autobalancer.half_angle
     if start == "placed":
         return parted_angles(_angles_of_file(design), 2 * beta)
     middle = -AHEAD if start == "behind" else AHEAD

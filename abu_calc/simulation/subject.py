@@ -22,7 +22,7 @@ from abu_calc.simulation.durations import lasting
 from abu_calc.simulation.effect_selection import Ledger, chosen
 from abu_calc.simulation.result import Provenance
 from abu_calc.simulation.scene_file import SceneDescription
-from abu_calc.simulation.scene_of_design import SCENES, STARTS, WORST, contact_half_angle, scene_of_design
+from abu_calc.simulation.scene_of_design import SCENES, STARTS, WORST, scene_of_design
 from abu_calc.simulation.scene_of_file import scene_from
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
@@ -112,7 +112,7 @@ def _of_machine(machine: Machine, scene: str, start: str | None, race_centre: fl
         reading=machine,
         scene=full,
         start=STARTS[chosen_start] + (off if design.case.race_eccentricity else ""),
-        half_angle=contact_half_angle(design),
+        half_angle=design.autobalancer.half_angle,
         warnings=(*machine.warnings, *design.warnings),
         design=design,
     )

@@ -204,6 +204,21 @@ class Candidate:
         return self.race_radius - self.ball_diameter / 2
 
     @property
+    def half_angle(self) -> float:
+        """Half the angle between touching balls [rad]."""
+        return half_angle(self.ball_diameter / 2, self.pitch_radius)
+
+    @property
+    def balls_mass(self) -> float:
+        """Mass of all balls [kg]."""
+        return self.ball_count * self.ball_mass
+
+    @property
+    def ball_moment(self) -> float:
+        """m·R_p [kg m] of one ball."""
+        return self.ball_mass * self.pitch_radius
+
+    @property
     def static_moment(self) -> float:
         """Σ m·R_p [kg m]: what all balls in one place would cause."""
         return self.ball_count * self.ball_mass * self.pitch_radius

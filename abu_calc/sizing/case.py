@@ -5,7 +5,7 @@ Elsewhere sizing asks the tables only which of several ways people have chosen.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from abu_calc.formulas.balls import INERTIA_FACTORS
 from abu_calc.formulas.body_estimate import KEYS, BodyEstimate, PlacedBody, estimated_body
@@ -97,6 +97,10 @@ class HandlePlace:
 class Case:
     """Machine data that sizing needs [SI]; masses without the autobalancer."""
 
+    race_keys: ClassVar = ("autobalancer",)
+    wheel_keys: ClassVar = ("wheel",)
+    """Keys of the tables of all races and wheels: one is a list of one."""
+
     table: MachineFile
     autobalancer: Autobalancer
     machine_mass: float
@@ -122,6 +126,11 @@ class Case:
     """Speed [rad/s] at which the motor's torque equals what the settled machine takes; None: no motor is given."""
     oil: "OilDrag | None" = None
     """Drag by the oil in the race; None: the file has no [oil], or no race is chosen yet."""
+
+    @property
+    def drags(self) -> tuple[float, ...]:
+        """Viscous drag rate of each race [1/s]."""
+        return (self.drag,)
 
     @property
     def drag_shares(self) -> tuple[float, float, float]:

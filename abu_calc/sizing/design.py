@@ -4,7 +4,7 @@ A built machine has its own balls, race, wheel and hands, and keeps the choices 
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.foundation.frozen import dataclass
@@ -63,6 +63,16 @@ class Design:
         return self.choice.best
 
     @property
+    def autobalancers(self) -> tuple[Candidate, ...]:
+        """One race is a list of one."""
+        return (self.autobalancer,)
+
+    @property
+    def imbalances(self) -> tuple[float, ...]:
+        """Imbalance of each wheel [kg m]."""
+        return (self.imbalance.value,)
+
+    @property
     def checks(self) -> tuple[Check, ...]:
         """Checks of sizing alone."""
         if self.level is None:
@@ -88,7 +98,10 @@ class RaceDesign:
     checks: tuple[Check, ...]
 
 
-def built_race(design: RaceDesign, machine: MachineFile) -> RaceDesign:
+Race = TypeVar("Race", bound=RaceDesign)
+
+
+def built_race(design: Race, machine: MachineFile) -> Race:
     """The race as it came out in one machine, whose file may pin the balls and the race that were made."""
     case, chosen = read_case(machine), design.autobalancer
     made = _made(case, find_imbalance(case).value, chosen)

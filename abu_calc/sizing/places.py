@@ -163,7 +163,7 @@ def in_space(case: Case, imbalance: float, candidate: Candidate, residual: float
     race. What their whirl leaves at a handle and what the residual whirl of the race causes there are added as squares,
     axis by axis.
     """
-    balls = candidate.ball_count * candidate.ball_mass
+    balls = candidate.balls_mass
     bare = BodyMotion(case.body.body, case.speed, body_suspension(case))
     carried = replace(case.body.body, mass=case.body.mass + candidate.mass - balls)
     fitted = BodyMotion(carried, case.speed, body_suspension(case, carrying=True))

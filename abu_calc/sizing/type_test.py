@@ -80,7 +80,7 @@ def _motion_in_space(case: Case, candidate: Candidate | None) -> Answers:
     """Six degrees of freedom on their suspension; the balls' own mass is left out, which moves a value by 1 %."""
     body = case.body.body
     if candidate is not None:
-        body = replace(body, mass=body.mass + candidate.mass - candidate.ball_count * candidate.ball_mass)
+        body = replace(body, mass=body.mass + candidate.mass - candidate.balls_mass)
     motion = BodyMotion(body, case.speed, body_suspension(case, carrying=candidate is not None))
 
     def answer(at: Vector, force_at: Vector) -> Motion:

@@ -100,18 +100,6 @@ def catalogue_bearing(designation: str) -> CatalogueBearing | None:
     return None if like is None else like._replace(designation=designation)
 
 
-def load_ratings(designation: str) -> Ratings | None:
-    """Ratings of a bearing by its ISO designation; None where they are not known.
-
-    Source: the makers' catalogues in the head of the data file. Other makers' differ by some per cent.
-
-    >>> load_ratings("6203")[:2]
-    (9950.0, 4750.0)
-    """
-    row = catalogue_bearing(designation)
-    return row.ratings if row else None
-
-
 _SECTION: Final = Range("section height of a bearing", 0.0005, 0.5, "m")
 _WIDTH: Final = Range("width of a bearing", 0.0005, 0.5, "m")
 # Coefficient, and exponents of the section height, the mean diameter and the width, of C and of C0 [kN, mm].

@@ -92,10 +92,7 @@ def commands() -> Iterator[str]:
     """Each command with its line of help."""
     from abu_calc.registry import FEATURES
 
-    for feature in FEATURES:
-        text = run(f"{feature.name} --help").stdout
-        line = next((row.strip() for row in text.splitlines()[1:] if row.strip() and not row.startswith("Usage")), "")
-        yield f"- `abu {feature.name}`: {line}"
+    yield from (f"- `abu {feature.name}`: {feature.about}" for feature in FEATURES)
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -18,10 +18,13 @@ PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "
 """Machines among the presets."""
 CHECK = (sys.executable, "-m", "abu_calc", "check-fit", "mmg-3200k-knife-shaft")
 HELP = (sys.executable, "-m", "abu_calc", "--help")
+SIZE_HELP = (sys.executable, "-m", "abu_calc", "size", "--help")
 
 NUMERICS = (sys.executable, "-c", "import numpy, scipy.integrate, pydantic, typer, rich")
 LAZY = (sys.executable, "-c", "import pydantic, typer, rich")
 """The names alone: all three load their parts only when these are used."""
+SHOWING = (sys.executable, "-c", "import typer, rich")
+"""The names of the two that show help: Typer loads itself, rich its parts when these are used."""
 PARTS = (
     sys.executable,
     "-c",
@@ -100,4 +103,5 @@ if __name__ == "__main__":
     compare("check-fit", CHECK, "least program with the three", LEAST)
     compare("check-fit", CHECK, "import of the parts it asks for", PARTS)
     compare("check-fit", CHECK, "import of the three names", LAZY)
-    compare("--help", HELP, "import of the three names", LAZY)
+    compare("--help", HELP, "import of typer and rich", SHOWING)
+    compare("size --help", SIZE_HELP, "import of typer and rich", SHOWING)

@@ -1,6 +1,7 @@
 """The commands as their users see them."""
 
 import csv
+import inspect
 import io
 import json
 import tomllib
@@ -9,10 +10,14 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 
+from abu_calc.cli.command import REQUIRED, Command
+from abu_calc.features.sweep.command import computed
 from abu_calc.foundation.interruption import INTERRUPTED
+from abu_calc.registry import FEATURES, Feature, imported
 from abu_calc.simulation import design_scenes as machine
 from abu_calc.simulation import ensemble
 from tests.cli.runner import abu, again, once
+from tests.rows import for_each
 from tests.sizing.machines import BASE
 from tests.sizing.test_case import machines
 
@@ -159,6 +164,23 @@ def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
             assert abu_["capacity_g_mm"] >= document["result"]["required_capacity_g_mm"]
     else:
         assert document["error"]["message"]
+
+
+@for_each(FEATURES)
+def test_options_are_arguments_of_their_study(feature: Feature) -> None:
+    """Each by its name; and a default that help shows is that of the study, to which it is left."""
+    command: Command = imported(feature.command)
+    study = imported(command.study)
+    takes = inspect.signature(study).parameters | inspect.signature(command.around or study).parameters
+    if "store" in takes:
+        takes |= inspect.signature(computed).parameters
+    flexible = "answers" in takes or "bearing" in takes  # keys of tables of their own
+    for option in command.options:
+        if option.reads or option.writes or option.key in ("set_", "explain"):
+            continue
+        assert option.key in takes or flexible, option.key
+        if option.usual not in (None, False, REQUIRED):
+            assert takes[option.key].default == option.usual, option.key
 
 
 def test_a_crash_is_a_bug_with_status_3(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -33,7 +33,7 @@ WRITTEN = (
 READ = (
     *((command, MACHINE, "-o", MACHINE) for command in ("size", "check-fit", "simulate", "stability", "grinding",
       "effects", "accuracy", "balance", "levels", "declare", "measure-plan", "factory", "sweep", "optimise", "compare",
-      "validate", "verify", "migrate")),
+      "validate", "verify")),
     ("levels", TABLE, "-o", TABLE),
     ("verify", "--update", MACHINE, "-o", MACHINE),
     ("compare", "msh-230", MACHINE, "-o", MACHINE),

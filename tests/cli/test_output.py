@@ -1,12 +1,14 @@
 """Delivery of outcomes and errors: streams, exit statuses, and figures refused before anything is computed."""
 
 import json
+import re
 from pathlib import Path
 from typing import Annotated, ClassVar
 
 import pytest
 
-from abu_calc.cli.output import BUG, Delivery, asked_figures, deliver, fail, figure_option
+from abu_calc.cli.app import BUG, fail
+from abu_calc.cli.output import Delivery, asked_figures, deliver
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import Quantity, record
@@ -25,13 +27,14 @@ class Sample(Result):
     a: Annotated[float, Quantity("a")] = 1.0
 
 
-OUTCOME = Outcome.of(
+OUTCOME = Outcome(
+    Sample.command,
     Sample(
         title="sample", checks=(Check("ABU201", "capacity", "fail", "too little"),), warnings=("careful",),
         provenance=Provenance.today(),
     ),
     lambda: (Paragraph("whole"),),
-    lambda: (Paragraph("short"),),
+    short=lambda: (Paragraph("short"),),
 )  # fmt: skip
 
 
@@ -97,9 +100,8 @@ def test_a_figure_is_a_name_and_a_file() -> None:
 
 
 def test_commands_without_figures_have_no_option_for_them() -> None:
-    assert figure_option("presets") is None and figure_option("no such command") is None
-    option = figure_option("size")
-    assert option is not None and "levels" in str(option.annotation.__metadata__[0].help)
+    assert "--figure" not in abu("presets", "--help").out
+    assert re.search(r"(?s)--figure NAME=FILE .*\blevels,.*--force", abu("size", "--help").out)
 
 
 def test_several_outputs_are_all_written_and_none_twice(tmp_path: Path) -> None:

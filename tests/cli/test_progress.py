@@ -10,7 +10,6 @@ import pytest
 
 from abu_calc.cli import progress as module
 from abu_calc.cli.app import run
-from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.progress import Stage, share_of, silent, within
 from tests.cli.runner import abu
@@ -52,7 +51,7 @@ def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_who_watches_sees_the_last_text_until_the_work_ends() -> None:
     terminal = Terminal("idle")
-    with contextlib.redirect_stderr(terminal), progress(Delivery()) as tell:
+    with contextlib.redirect_stderr(terminal), progress(quiet=False) as tell:
         tell("idle: scipy-dop853, tolerance 2e-05 [mm]\x1b[2J")
         assert terminal.written.wait(10)
     assert "idle: scipy-dop853, tolerance 2e-05 [mm]\\x1b[2J, 0 s" in terminal.getvalue()
@@ -63,7 +62,7 @@ def test_how_far_it_is_and_how_long_it_still_takes(monkeypatch: pytest.MonkeyPat
     now = [100.0]
     monkeypatch.setattr(module, "monotonic", lambda: now[0])
     terminal = Terminal("30 s left")
-    with contextlib.redirect_stderr(terminal), progress(Delivery()) as tell:
+    with contextlib.redirect_stderr(terminal), progress(quiet=False) as tell:
         tell(Stage("idle: 0 of 20 starts", 0.0))
         now[0] = 110.0
         tell(Stage("idle: 5 of 20 starts", 0.25))
@@ -79,7 +78,7 @@ def test_how_far_it_is_and_how_long_it_still_takes(monkeypatch: pytest.MonkeyPat
 def test_a_narrow_terminal_keeps_the_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "30")
     terminal = Terminal("50 %")
-    with contextlib.redirect_stderr(terminal), progress(Delivery()) as tell:
+    with contextlib.redirect_stderr(terminal), progress(quiet=False) as tell:
         tell(Stage("a machine of a very long name: idle", 0.5))
         assert terminal.written.wait(10)
     assert re.search(r"\r. a machine of a …, 50 %, 0 s", terminal.getvalue())
@@ -87,23 +86,23 @@ def test_a_narrow_terminal_keeps_the_numbers(monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.mark.parametrize(
-    ("how", "soon", "term"),
-    [(Delivery(), 60.0, "xterm"), (Delivery(quiet=True), 0.0, "xterm"), (Delivery(), 0.0, "dumb")],
+    ("quiet", "soon", "term"),
+    [(False, 60.0, "xterm"), (True, 0.0, "xterm"), (False, 0.0, "dumb")],
 )
 def test_what_is_done_soon_or_quiet_shows_nothing(
-    how: Delivery, soon: float, term: str, monkeypatch: pytest.MonkeyPatch
+    quiet: bool, soon: float, term: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module, "SOON", soon)
     monkeypatch.setenv("TERM", term)
     terminal = Terminal()
-    with contextlib.redirect_stderr(terminal), progress(how) as tell:
+    with contextlib.redirect_stderr(terminal), progress(quiet=quiet) as tell:
         tell("idle")
         assert not terminal.written.wait(0.1)
 
 
 def test_an_interrupt_ends_it_too() -> None:
     terminal = Terminal("idle")
-    with contextlib.redirect_stderr(terminal), pytest.raises(KeyboardInterrupt), progress(Delivery()) as tell:
+    with contextlib.redirect_stderr(terminal), pytest.raises(KeyboardInterrupt), progress(quiet=False) as tell:
         tell("idle")
         assert terminal.written.wait(10)
         raise KeyboardInterrupt
@@ -112,7 +111,7 @@ def test_an_interrupt_ends_it_too() -> None:
 
 def test_a_terminal_that_goes_away_ends_the_line_alone() -> None:
     terminal = Terminal("idle")
-    with contextlib.redirect_stderr(terminal), progress(Delivery()) as tell:
+    with contextlib.redirect_stderr(terminal), progress(quiet=False) as tell:
         tell("idle")
         assert terminal.written.wait(10)
         terminal.close()

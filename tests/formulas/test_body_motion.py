@@ -3,7 +3,6 @@
 The numbers of the cases have five to six digits; closed forms meet them within the last one.
 """
 
-import cmath
 import math
 from dataclasses import replace
 from typing import Any
@@ -142,14 +141,6 @@ def test_reference_machine_of_the_type_test() -> None:
         x = motion.displacement((0, 0, place), [imbalance_at(wheel, 65e-6)])
         a_h = [weighted_acceleration(v, speed) for v in velocity_rms(x, speed)]
         assert vector_total(a_h) == pytest.approx(without, rel=four_digits)
-
-
-def test_capacity_adds_the_eccentricity_at_its_worst_angle() -> None:
-    motion, angles = moving(G230), [2 * math.pi * k / 64 for k in range(64)]
-    exact = max(
-        abs(motion.ball_resultant(G230.imbalance, G230.wheel, G230.race, cmath.rect(1e-5, angle))) for angle in angles
-    )
-    assert motion.capacity_required(G230.imbalance, G230.wheel, G230.race, 1e-5) == pytest.approx(exact, rel=1e-4)
 
 
 def test_springs_of_one_frequency_are_a_factor_on_the_free_body() -> None:

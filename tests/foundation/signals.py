@@ -138,7 +138,7 @@ def clean_up_for_long() -> object:
 def error_afterwards() -> object:
     """A library without half of its modules fails at whatever it does next."""
 
-    def build(_: object) -> None:
+    def build(*_: object, **__: object) -> None:
         try:
             signal.raise_signal(signal.SIGTERM)
             waiting()

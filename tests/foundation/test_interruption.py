@@ -58,7 +58,7 @@ def test_a_time_limit_waits_for_the_end_of_an_import() -> None:
 
 @pytest.mark.parametrize("error", [ImportError("libscipy.so: failed to map segment"), MemoryError()])
 def test_a_process_without_memory_says_so_in_one_line(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
-    def build(_: object) -> None:
+    def build(*_: object, **__: object) -> None:
         raise error
 
     monkeypatch.setattr(app, "build", build)

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from abu_calc.cli.app import COMMANDS
+
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "abu_calc"
 
@@ -33,7 +35,28 @@ def _loaded_modules(*commands: tuple[str, ...]) -> list[set[str]]:
     )
     told = [line.split() for line in done.stdout.splitlines() if line.startswith("STATUS ")]
     assert [one[1] in ("0", "1") for one in told] == [True] * len(commands), done.stderr
-    return [{name.split(".")[0] for name in one[3:]} for one in told]
+    return [set(one[3:]) for one in told]
+
+
+def _libraries(modules: set[str]) -> set[str]:
+    return {name.partition(".")[0] for name in modules}
+
+
+def test_help_loads_no_more_than_it_shows() -> None:
+    """The list of all commands loads no command; the help of a command loads that one, and no library of results.
+
+    Seats are judged without the modules that size a machine.
+    """
+    helps = [(name, "--help") for name in COMMANDS]
+    whole, single, *_, after = _loaded_modules(("--help",), ("stability", "--help"), *helps)
+    assert not {name for name in whole if name.startswith("abu_calc.features")}
+    loaded = {name for name in single if name.startswith("abu_calc.features.")}
+    assert loaded == {"abu_calc.features.stability", "abu_calc.features.stability.command"}
+    assert not _libraries(after) & {"pydantic", "rich", "numpy"}
+    assert len({name for name in whole if name.startswith("abu_calc")}) <= 15
+    assert len({name for name in single if name.startswith("abu_calc")}) <= 25
+    (seats,) = _loaded_modules(("check-fit", "--designation", "6203"))
+    assert not {name for name in seats if name.startswith(("abu_calc.sizing", "abu_calc.dynamics"))}
 
 
 LIGHT = [
@@ -50,7 +73,7 @@ LIGHT = [
 def test_commands_load_only_what_they_need() -> None:
     """One after the other in one process, sizing last: modules stay loaded."""
     heavy = {"scipy", "numpy", "matplotlib", "jsonschema", "tomlkit", "llvmlite"}
-    *light, modules = _loaded_modules(*LIGHT, ("size", "msh-230", "--json"))
+    *light, modules = map(_libraries, _loaded_modules(*LIGHT, ("size", "msh-230", "--json")))
     assert [(command, loaded & heavy) for command, loaded in zip(LIGHT, light, strict=True) if loaded & heavy] == []
     assert {"llvmlite", "numpy"} <= modules
     assert not modules & {"scipy", "matplotlib", "jsonschema", "tomlkit", "pandas", "multiprocessing"}

@@ -12,6 +12,7 @@ import pytest
 import abu_calc
 from abu_calc import registry
 from abu_calc.cli import app
+from abu_calc.cli.command import REQUIRED, Command, Option
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.reporting import files
@@ -70,18 +71,15 @@ def test_a_command_is_a_module_and_a_line(monkeypatch: pytest.MonkeyPatch) -> No
     module = types.ModuleType("abu_calc.features.greet")
 
     def greet(name: str) -> Outcome:
-        """Greet."""
         return Outcome("greet", {"greeted": name}, ())
 
-    def register(to: object) -> None:
-        from abu_calc.cli.command import add_command
-
-        add_command(to, "greet", greet)  # type: ignore[arg-type]
-
-    module.__dict__["register"] = register
+    module.__dict__["greet"] = greet
+    module.__dict__["COMMAND"] = Command(
+        "greet:greet", (Option("name", str, "NAME", "Who is greeted.", default=REQUIRED),)
+    )
     monkeypatch.setitem(sys.modules, "abu_calc.features.greet", module)
     monkeypatch.setattr(app, "COMMANDS", (*app.COMMANDS, "greet"))
-    monkeypatch.setitem(registry.BY_NAME, "greet", registry.Feature("greet", "greet"))
+    monkeypatch.setitem(registry.BY_NAME, "greet", registry.Feature("greet", "Greet.", "greet:COMMAND"))
     seen = abu("greet", "Ada", "--json")
     assert seen.status == 0 and seen.document["result"] == {"greeted": "Ada"}
 

@@ -29,7 +29,7 @@ FEATURES = (
     "stability",
     "grinding",
     "design",
-    "two_races",
+    "spindle",
     "effects",
     "simulate",
     "levels",

@@ -213,6 +213,50 @@ def test_options_that_make_no_sense_are_refused(tmp_path: Path, asked: dict[str,
         read(tmp_path, text_of("phone, unnamed resultant"), **asked)
 
 
+@pytest.mark.parametrize("line", [
+    "# Bandwidth: 1000 Hz", "# filter = 488 Hz", "# Sensor resonance 25 kHz", "# Speed: 4800 rpm (80 Hz)",
+    "# baud rate 115200", "# Sample rate: 12800 Hz, decimation 4", "# Samples: 2400",
+])  # fmt: skip
+def test_a_frequency_is_no_rate_unless_the_line_says_so(tmp_path: Path, line: str) -> None:
+    text = f"{line}\nx_g,y_g,z_g\n" + "\n".join(map(cells(*axes(MOTION, GRAVITY)), range(COUNT)))
+    with pytest.raises(InputError, match="--rate HZ"):
+        read(tmp_path, text)
+
+
+@pytest.mark.parametrize("line", [
+    "# Sample rate: 1,000 Hz", "# data_rate = 1000.0 Hz, filter = 488 Hz", "Abtastrate [Hz];1000",
+    "SampleRate, 1000,Hz", "# sample period 1 ms", "# 1 kSa/s", "Частота дискретизации, Гц;1000",
+    "// Update Rate: 1000.0Hz", "# 采样率: 1000 Hz",
+])  # fmt: skip
+def test_a_rate_in_so_many_words_is_used(tmp_path: Path, line: str) -> None:
+    text = f"{line}\nx_g,y_g,z_g\n" + "\n".join(map(cells(*axes(MOTION, GRAVITY)), range(COUNT)))
+    assert right(read(tmp_path, text))
+
+
+@pytest.mark.parametrize(("head", "unit"), [
+    ("# units: g\nt_s,x,y,z\n", GRAVITY), ("# Columns: t, ax, ay, az\n# Units: s, g, g, g\nt,ax,ay,az\n", GRAVITY),
+    ("t_s,acc_g_x,acc_g_y,acc_g_z\n", GRAVITY), ("t_s,X (Gal),Y (Gal),Z (Gal)\n", 0.01),
+    ("# t_s,x,y,z\n# s,g,g,g\n", GRAVITY), ("t_s,x [m/s?],y [m/s?],z [m/s?]\n", 1.0),
+    ('"t\n[s]",ax [g],ay [g],az [g]\n', GRAVITY), ("t_s,X [g],Y [g],Z [g],Comment\n", GRAVITY),
+])  # fmt: skip
+def test_units_that_stand_elsewhere_are_used(tmp_path: Path, head: str, unit: float) -> None:
+    recording = read(tmp_path, head + "\n".join(map(cells(T, *axes(MOTION, unit)), range(COUNT))))
+    assert right(recording) and not recording.assumed, recording.remarks
+
+
+@pytest.mark.parametrize("unit", ["gRMS", "counts", "LSB", "in/s", "dB", "m/s² peak"])
+def test_units_that_are_not_read_are_refused(tmp_path: Path, unit: str) -> None:
+    text = f"t_s,x ({unit}),y ({unit}),z ({unit})\n" + "\n".join(map(cells(T, *axes(MOTION)), range(COUNT)))
+    with pytest.raises(InputError, match="unit that is not known"):
+        read(tmp_path, text)
+
+
+def test_channels_named_like_units_of_time_are_channels(tmp_path: Path) -> None:
+    """North and south of a seismometer: NS is no time in nanoseconds."""
+    rows = "\n".join(map(cells(T, *axes(MOTION)), range(COUNT)))
+    assert right(read(tmp_path, f"t_s,NS,EW,UD\n{rows}", channels=["NS", "EW", "UD"]))
+
+
 def test_a_resultant_alone_has_no_sign(tmp_path: Path) -> None:
     text = "Time (s),Absolute acceleration (m/s^2)\n" + "\n".join(map(cells(T, LENGTH), range(COUNT)))
     with pytest.raises(InputError, match="no sign"):

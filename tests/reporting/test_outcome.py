@@ -45,7 +45,7 @@ class Sample(Result):
 
 def sample(*checks: Check) -> Outcome:
     result = Sample(title="sample", checks=checks, warnings=("careful",), provenance=Provenance.today())
-    return Outcome.of(result, lambda: WHOLE)
+    return Outcome(result.command, result, lambda: WHOLE)
 
 
 def check(status: Grade) -> Check:

@@ -253,7 +253,7 @@ def test_second_runs_end_where_the_first_have_spent_the_work(monkeypatch: pytest
     found, start = design("msh-230"), Member("spread", 10.0)
     lost, tried = Lost(start, "more work than allowed", WORK, short=True), list[int]()
     monkeypatch.setattr(ensemble, "start_once", lambda *given: tried.append(given[4]) or lost)
-    runner = ensemble.Runner(ensemble.start_once, ensemble.integrator_for)
+    runner = ensemble.Runner(ensemble.start_once, ensemble.called_for)
     assert ensemble._with_more(found, [lost], [(start, True)], 0.01, 1e-4, silent, 1, spent, runner) == [lost]
     assert tried == ([] if spent else [10 * WORK])
 

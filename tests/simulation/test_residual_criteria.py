@@ -47,7 +47,7 @@ def test_a_tenth_and_what_no_ball_removes_is_allowed(design: Design, felt: float
     plain = replace(design, worst=())
     autobalancer, mass = design.autobalancer, felt or design.autobalancer.requirement.effective_mass
     left = mass * (autobalancer.budget.race_eccentricity + autobalancer.budget.rolling_friction)
-    moments = autobalancer.ball_count * autobalancer.ball_mass * autobalancer.pitch_radius
+    moments = autobalancer.balls_mass * autobalancer.pitch_radius
     for imbalance in (0.0, 0.004 * moments, 0.5 * moments):
         assert allowed_imbalance(plain, imbalance, felt) == pytest.approx(
             0.1 * max(imbalance, 0.01 * moments) + left, rel=1e-9

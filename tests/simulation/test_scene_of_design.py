@@ -21,7 +21,7 @@ from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading import sources as presets
 from abu_calc.simulation.scene_file import read_any
-from abu_calc.simulation.scene_of_design import SCENES, STARTS, contact_half_angle, idle_scene, scene_of_design
+from abu_calc.simulation.scene_of_design import SCENES, STARTS, idle_scene, scene_of_design
 from abu_calc.sizing import Design, size
 from tests.sizing.machines import machine
 
@@ -118,7 +118,7 @@ def test_starts_of_the_balls(designs, start):
     race = scene_of_design(design, "idle", start).races[0]
     gaps = np.diff(race.start_angles)
     spread = 2 * math.pi / len(race.ball_masses)
-    assert gaps == pytest.approx([spread if start == "spread" else 2 * contact_half_angle(design)] * len(gaps))
+    assert gaps == pytest.approx([spread if start == "spread" else 2 * design.autobalancer.half_angle] * len(gaps))
     if start == "spread":
         assert race.start_angles[0] == pytest.approx(math.radians(20))
     else:

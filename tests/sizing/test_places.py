@@ -71,7 +71,7 @@ def test_eccentricity_moves_all_places_as_an_imbalance_of_m_f_times_e(design: De
     autobalancer, body = design.autobalancer, design.case.body
     budget, speed = autobalancer.budget, design.case.speed
     w = math.hypot(budget.race_eccentricity, budget.rolling_friction, budget.race_ovality)
-    added = autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass
+    added = autobalancer.mass - autobalancer.balls_mass
     for place in design.idle.places:
         assert place.place is not None
         motion = body.axes(place.place, added)
@@ -248,7 +248,7 @@ def straight_grinder(body: dict[str, Any], offset: float) -> Design:
 def integrated(design: Design, *, balls: bool) -> dict[str, Any]:
     """Six degrees of freedom and balls, integrated: velocity rms along x, y, z at both handles [m/s]."""
     autobalancer, case = design.autobalancer, design.case
-    added = autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass if balls else 0.0
+    added = autobalancer.mass - autobalancer.balls_mass if balls else 0.0
     count = autobalancer.ball_count
     whole = SpaceCase(
         RigidBody(case.body.mass + added, Inertia(0.1, 0.1, 0.01)), 5800, (0, 0, 0.2), (0, 0, case.race_place[2]),

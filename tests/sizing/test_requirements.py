@@ -6,8 +6,7 @@ import pytest
 
 import abu_calc
 import abu_calc.sizing
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
+from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.verify.study import compare, recompute
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read, read_machine
@@ -102,10 +101,8 @@ def test_requirements_that_are_missed_are_named(entries: dict[str, object], name
     assert name in missed(size(with_entries(table, {**chosen, **entries})))
 
 
-def both(preset: str) -> TwoRaceDesign:
-    tables = read_machine(preset).two_races
-    assert tables is not None
-    return choose_both(read_case(tables))
+def both(preset: str) -> SpindleDesign:
+    return size_races(read_machine(preset))
 
 
 @pytest.mark.slow

@@ -31,10 +31,10 @@ from abu_calc.features.design.next_step import (
     next_step,
     proposals,
 )
-from abu_calc.features.two_races import advice
-from abu_calc.features.two_races import study as two_studies
-from abu_calc.features.two_races.judgement import TwoRaceJudgement
-from abu_calc.features.two_races.judgement import judge as judge_two
+from abu_calc.features.spindle import judgement as advice
+from abu_calc.features.spindle import study as two_studies
+from abu_calc.features.spindle.judgement import SpindleJudgement
+from abu_calc.features.spindle.judgement import judge as judge_two
 from abu_calc.foundation.checks import RANK, worst
 from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import Machine, variant_of
@@ -92,13 +92,17 @@ TRUER: Final = frozenset({"ABU202", "ABU401", "ABU402", "ABU404"})
 """Checks for which truer races are proposed, a kind of their own."""
 
 
-def pool_of_two(before: TwoRaceJudgement) -> Pool:
+def pool_of_two(before: SpindleJudgement) -> Pool:
     """Every change for a machine with two races, alike for both of them."""
     design = before.facts.design
     pool = Pool()
-    made = [*advice._sturdier(design), *advice._truer(design), *advice._quicker(design)]
+    made = [
+        *advice._sturdier(design),
+        *advice._truer(design),
+        *({"ball_diameter_mm": larger} for larger in advice._larger(design)),
+    ]
     for entries in made:
-        pool.setdefault("+".join(sorted(entries)), []).append(advice._of_both(entries))
+        pool.setdefault("+".join(sorted(entries)), []).append(advice._of_all(design, entries))
     return {kind: list(dict.fromkeys(changes)) for kind, changes in pool.items()}
 
 
@@ -164,8 +168,8 @@ def searched(seed: int, folder: Path) -> dict[str, Any]:
     file.write_text(tomli_w.dumps(tables), encoding="utf-8")
     machine = abu_calc.read(str(file))
     begun = time.process_time()
-    if machine.two_races is not None:
-        before: Any = judge_two(machine.two_races, two_studies.ACCURACY, silent, 1)
+    if machine.spindle is not None:
+        before: Any = judge_two(machine, two_studies.ACCURACY, silent, 1)
         pool, judged_by, own = (
             pool_of_two(before),
             two_studies._judge(two_studies.ACCURACY, 1),

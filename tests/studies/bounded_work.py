@@ -83,7 +83,7 @@ def commands(seed: int) -> Iterator[tuple[str, Callable[[], object]]]:
     file = working_machine(seed)
     machine = abu_calc.read(file)
     scenes = ("swing-arm-idle", "swing-arm-cutting") if "swing_arm" in file else ("grinding",)
-    for scene in ("idle",) if machine.two_races is not None else scenes:
+    for scene in ("idle",) if machine.spindle is not None else scenes:
         yield f"simulate {scene}", lambda scene=scene: abu_calc.simulate(machine, scene)
     if seed % 5 in (0, 4):
         yield "size", lambda: abu_calc.size(machine)

@@ -138,17 +138,14 @@ class BallContactEffect(Effect):
         turns: list[float] = []
         spans: list[float] = []
         rings: list[tuple[int, ...]] = []
-        first = 0
-        for race in scene.races:
-            order, more = _order(race), _turns(race)
-            if len(order) > 1:
-                span = self._span(race)
-                behind += [first + k for k in order]
-                ahead += [first + k for k in (*order[1:], order[0])]
-                turns += more
-                spans += [span] * len(order)
-                rings.append(tuple(first + k for k in order))
-            first += len(race.ball_masses)
+        for race, own in scene.by_race(range(len(scene.ball_masses))):
+            ring = tuple(own[k] for k in _order(race))
+            if len(ring) > 1:
+                behind += ring
+                ahead += (*ring[1:], ring[0])
+                turns += _turns(race)
+                spans += [self._span(race)] * len(ring)
+                rings.append(ring)
         if not behind:
             return None
         least, theta = np.array(spans), np.array(scene.start_angles)

@@ -49,7 +49,7 @@ def rests(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = "wor
         return (_from_start(scene, fan, half_angle),)
     if fan.motion:
         return (fan,)
-    choices = [_choices(race, own, needed_gap(scene, race, half_angle)) for race, own in by_race(scene, fan.angles)]
+    choices = [_choices(race, own, needed_gap(scene, race, half_angle)) for race, own in scene.by_race(fan.angles)]
     count = max((len(choice) for choice in choices), default=1)
     states = [
         Rest(tuple(angle for choice in choices for angle in choice[min(k, len(choice) - 1)])) for k in range(count)
@@ -148,7 +148,7 @@ def _from_start(scene: Scene, fan: Rest, half_angle: float) -> Rest:
     if fan.motion:
         raise NotKnownError("the axis keeps moving: only the even fan is known there, --arrangement fan judges it")
     all_angles: list[float] = []
-    for race, own in by_race(scene, fan.angles):
+    for race, own in scene.by_race(fan.angles):
         masses, start = np.array(race.ball_masses), np.array(race.start_angles)
         angles = _downhill(masses / max(masses.sum(), 1e-300), start, np.array(own)) if len(own) else start
         if angles is None or narrowest_gap(tuple(angles)) < needed_gap(scene, race, half_angle) - TOUCHING:
@@ -175,12 +175,3 @@ def _downhill(shares: Array, start: Array, fan: Array) -> Array | None:
         else:
             angles = angles - PACE * (1j * units * left.conjugate()).real
     return None
-
-
-def by_race(scene: Scene, angles: tuple[float, ...]) -> Iterator[tuple[Race, tuple[float, ...]]]:
-    """Each race of a scene with the angles of its own balls."""
-    first = 0
-    for race in scene.races:
-        count = len(race.ball_masses)
-        yield race, angles[first : first + count]
-        first += count

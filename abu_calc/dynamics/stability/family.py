@@ -120,17 +120,20 @@ Race = tuple[Array, complex, float]
 """Masses [kg], Σ m e^{iθ} [kg] and the least gap [rad] of the balls of a race."""
 
 
+def parts(races: Sequence[Race], angles: Array) -> list[Array]:
+    """Angles of all balls, race by race."""
+    return np.split(angles, np.cumsum([len(masses) for masses, *_ in races])[:-1])
+
+
 def neighbours(races: Sequence[Race], angles: Array, step: float) -> Iterator[Array]:
     """Arrangements a `step` [rad] away from one, both ways along each free direction of the balls of all races.
 
     Those in which balls overlap are left out.
     """
-    first, free = 0, []
-    for masses, _, _ in races:
-        own = angles[first : first + len(masses)]
+    free = []
+    for (masses, _, _), own in zip(races, parts(races, angles), strict=True):
         rows = np.array([-masses * np.sin(own), masses * np.cos(own)])
         free.append(np.linalg.svd(rows)[2][2:].T)
-        first += len(masses)
     for direction in diagonal(*free).T:
         for way in (step, -step):
             neighbour = closed(races, angles + way * direction)
@@ -140,14 +143,13 @@ def neighbours(races: Sequence[Race], angles: Array, step: float) -> Iterator[Ar
 
 def closed(races: Sequence[Race], angles: Array) -> Array | None:
     """The angles [rad] moved so that the balls of each race balance; None if they cannot, or overlap."""
-    parts, first = [], 0
-    for masses, resultant, gap in races:
-        own = moved_to(masses, angles[first : first + len(masses)], resultant)
+    moved = []
+    for (masses, resultant, gap), before in zip(races, parts(races, angles), strict=True):
+        own = moved_to(masses, before, resultant)
         if own is None or narrowest_gap(tuple(own)) < gap - TOUCHING:
             return None
-        parts.append(own)
-        first += len(masses)
-    return np.concatenate(parts)
+        moved.append(own)
+    return np.concatenate(moved)
 
 
 GOLDEN: Final = (math.sqrt(5) - 1) / 2

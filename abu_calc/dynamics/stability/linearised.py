@@ -91,11 +91,9 @@ class BalancedMotion:
     @property
     def in_one_place(self) -> bool:
         """True if the balls of a race with several balls carry all they can."""
-        first = 0
-        for race in self.scene.races:
-            theta, masses = np.array(self.angles[first : first + len(race.ball_masses)]), np.array(race.ball_masses)
-            first += len(masses)
-            if len(masses) > 1 and abs(masses @ np.exp(1j * theta)) > (1 - WIDE_SPAN**2) * masses.sum():
+        for race, own in self.scene.by_race(self.angles):
+            masses = np.array(race.ball_masses)
+            if len(masses) > 1 and abs(masses @ np.exp(1j * np.array(own))) > (1 - WIDE_SPAN**2) * masses.sum():
                 return True
         return False
 
@@ -107,13 +105,11 @@ class BalancedMotion:
         0 and −h₀/J. If the axis moves, no motion counts as free: balls then also move along the spindle, each
         from its own place.
         """
-        bases, first = [], 0
-        for race in self.scene.races:
-            masses = np.array(race.ball_masses)
-            theta = np.array(self.angles[first : first + len(masses)])
+        bases = []
+        for race, own in self.scene.by_race(self.angles):
+            masses, theta = np.array(race.ball_masses), np.array(own)
             rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self.on_arm else [])]
             bases.append(np.eye(len(masses)) if self.motion else span_of(np.array(rows), self.span))
-            first += len(masses)
         return tuple(bases)
 
     @cached_property

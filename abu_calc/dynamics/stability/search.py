@@ -13,7 +13,7 @@ from typing import Final, Protocol, Self, TypeVar
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import by_race, likeness
+from abu_calc.dynamics.stability.arrangements import likeness
 from abu_calc.dynamics.stability.family import Array, Family, Race, largest, neighbours
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.resting import needed_gap
@@ -162,7 +162,7 @@ class Search:
         scene, angles = self.listed[0].scene, self.listed[0].angles
         return [
             (masses, complex(masses @ np.exp(1j * np.array(own))), needed_gap(scene, race, self.half_angle))
-            for race, own in by_race(scene, angles)
+            for race, own in scene.by_race(angles)
             for masses in [np.array(race.ball_masses)]
         ]
 

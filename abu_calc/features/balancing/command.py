@@ -1,49 +1,24 @@
 """`abu balance READINGS`: balancing of a rotor in one plane or two from runs on a rig or in the field."""
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Any
 
-import typer
-
-from abu_calc.cli.command import Overrides, add_command, option
-from abu_calc.cli.output import Delivery
+from abu_calc.cli.command import EXPLAIN, REQUIRED, SET, Command, FurtherFile, Option
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.features.balancing.read import Readings
     from abu_calc.features.balancing.study import BalanceResult
 
 
-def balance(
-    how: Delivery,
-    readings: Annotated[str, typer.Argument(metavar="READINGS", help="File of readings or name of a preset.")],
-    coefficients: Annotated[
-        str | None, option("--coefficients FILE", "Use influence coefficients that were saved in this file.")
-    ] = None,
-    save_coefficients: Annotated[
-        Path | None, option("--save-coefficients FILE", "Save the influence coefficients of the trial runs.")
-    ] = None,
-    set_: Overrides = None,
-    explain: Annotated[bool, option("--explain", "Print the whole report and every formula with its numbers.")] = False,
-) -> Outcome:
-    """Balance a rotor in one plane or two from runs on a rig or in the field.
-
-    The report gives correction masses, their angles, their uncertainty and the verification run.
-    """
+def _readings(file: str, overrides: Sequence[str]) -> "Readings":
     from abu_calc.features.balancing.read import read_readings
-    from abu_calc.features.balancing.study import balance as study
-    from abu_calc.reporting.write import Target, check_target
 
-    if save_coefficients is not None:
-        check_target(save_coefficients, force=how.force, suffixes=(".toml",), option="--save-coefficients")
-    result = study(read_readings(readings, set_ or ()), coefficients)
-    outcome = outcome_of(result, explain=explain)
-    return replace(outcome, further=(Target(save_coefficients, _stored(result)),)) if save_coefficients else outcome
+    return read_readings(file, overrides)
 
 
-def _stored(result: "BalanceResult") -> Iterator[str]:
+def _stored(result: "BalanceResult", _: Mapping[str, Any]) -> Iterator[str]:
     """Text of the influence coefficients; raises InputError for an answer without them."""
     if result.coefficients_text is None:
         raise InputError(
@@ -53,16 +28,19 @@ def _stored(result: "BalanceResult") -> Iterator[str]:
     yield result.coefficients_text
 
 
-def outcome_of(result: "BalanceResult", *, explain: bool = False) -> Outcome:
-    """Outcome of a result: how it is shown and written; `explain`: with every formula."""
-    from abu_calc.features.balancing.figures import balance_note
-    from abu_calc.features.balancing.view import balance_blocks, balance_screen
-
-    if explain:
-        return Outcome.of(result, lambda: balance_blocks(result) + balance_note(result))
-    return Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "balance", balance)
+COMMAND = Command(
+    "balancing.study:balance",
+    (
+        Option("readings", str, "READINGS", "File of readings or name of a preset.", default=REQUIRED, reads=_readings),
+        Option("coefficients", str, "--coefficients FILE", "Use influence coefficients that were saved in this file."),
+        Option(
+            "save_coefficients",
+            Path,
+            "--save-coefficients FILE",
+            "Save the influence coefficients of the trial runs.",
+            writes=FurtherFile(".toml", _stored),
+        ),
+        *(SET, EXPLAIN),
+    ),
+    "The report gives correction masses, their angles, their uncertainty and the verification run.",
+)

@@ -1,7 +1,6 @@
 """The report of recorded starts beside predicted ones."""
 
 from abu_calc.features.compare.measured import CourseNumbers, MeasuredCompareResult
-from abu_calc.features.compare.study import CompareResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, Plot
 from abu_calc.reporting.charts.figure import Extras, Figure
@@ -59,12 +58,3 @@ def measured_extras(result: MeasuredCompareResult) -> Extras:
     summary = f"Distance of the axis from its end in {len(result.measured)} recorded starts, and as predicted"
     plot = Plot("Measured and predicted starts", summary, across, up, curves)
     return Extras((Figure("courses", "measured", plot, CAPTION),))
-
-
-def any_extras(result: CompareResult | MeasuredCompareResult) -> Extras:
-    """Figures of a page of `abu compare`, of designs or of recorded starts."""
-    if isinstance(result, MeasuredCompareResult):
-        return measured_extras(result)
-    from abu_calc.features.compare.view import compare_extras
-
-    return compare_extras(result)

@@ -133,7 +133,7 @@ def declare(machine: Machine, starts: int = STARTS, progress: Progress = silent)
     """
     NUMBER.check(starts)
     with machine.located():
-        if machine.two_races is not None:
+        if machine.spindle is not None:
             raise InputError(
                 "the declared value is that of a hand-held machine, which has one wheel",
                 place=Place(key="autobalancer"),

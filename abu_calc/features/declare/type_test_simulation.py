@@ -64,7 +64,7 @@ class Spindle:
         """The type test of a design at its rated speed; `upright`: with the spindle vertical in any case."""
         body = type_test_body(case, candidate)
         balls = SlowBalls(
-            candidate.ball_count, candidate.ball_mass * candidate.pitch_radius, candidate.pitch_radius, case.drag,
+            candidate.ball_count, candidate.ball_moment, candidate.pitch_radius, case.drag,
             case.inertia_factor, (upright_band if upright else band)(case, candidate), body.race_by_race, case.speed,
         )  # fmt: skip
         plan, usual = case.table.type_test, usual_orientations()

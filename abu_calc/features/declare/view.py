@@ -3,8 +3,6 @@
 from collections.abc import Iterator
 from typing import Final
 
-from abu_calc.features.declare.measured import MeasuredDeclareResult
-from abu_calc.features.declare.measured_view import measured_extras
 from abu_calc.features.declare.study import DeclareResult
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
@@ -165,10 +163,8 @@ def _conventions(result: DeclareResult) -> list[Block]:
     ]
 
 
-def declare_extras(result: DeclareResult | MeasuredDeclareResult) -> Extras:
-    """Figures and formulas of a page, simulated or measured."""
-    if isinstance(result, MeasuredDeclareResult):
-        return measured_extras(result)
+def declare_extras(result: DeclareResult) -> Extras:
+    """Figures and formulas of a page."""
     note = step_blocks(STEPS["declare"])
     return Extras((*_bars(result), *_distribution(result), *_over_eccentricity(result)), tuple(note))
 

@@ -80,8 +80,9 @@ def measured(design: Design) -> bool:
 def identified(design: Design, name: str, usual: Factors) -> Factors:
     """Interval of a value of [autobalancer] that was identified, as factors on it; else the usual ones."""
     table = design.case.table
-    known = {} if table.identified is None else table.identified.in_force(table.autobalancer)
-    value = getattr(table.autobalancer, name)
+    if table.identified is None:
+        return usual
+    known, value = table.identified.in_force(table.autobalancer), getattr(table.autobalancer, name)
     return (known[name][0] / value, known[name][1] / value) if name in known and value else usual
 
 
@@ -90,36 +91,40 @@ def friction_factors(design: Design) -> Factors:
     return identified(design, "rolling_friction_mm", FRICTION)
 
 
-def band(design: Design) -> tuple[BandRow, ...]:
-    """All values that vary, promised ones first."""
-    case, table = design.case, design.case.table
-    abu, imbalance, speed = case.autobalancer, from_si(design.imbalance.value, "g_mm"), table.machine.speed_rpm
-    drag = [share * case.drag for share in case.drag_shares]
-    promised = {
-        "autobalancer.race_eccentricity_mm": (0.0, abu.race_eccentricity_mm),
-        "wheel.imbalance_g_mm": (NEW_WHEEL * imbalance, imbalance),
-    }
-    usual = {
-        "autobalancer.rolling_drag_per_s": (min(drag), max(drag)),
-        "autobalancer.rolling_friction_mm": _times(friction_factors(design), abu.rolling_friction_mm),
-    }
+def band(design: Any) -> tuple[BandRow, ...]:
+    """All values that vary, promised ones first. `design`: of any number of races."""
+    case, abu, usual = design.case, design.case.autobalancer, dict[str, Factors]()
+    promised = {f"{race}.race_eccentricity_mm": (0.0, abu.race_eccentricity_mm) for race in case.race_keys}
+    for wheel, imbalance in zip(case.wheel_keys, design.imbalances, strict=True):
+        promised[f"{wheel}.imbalance_g_mm"] = _times((NEW_WHEEL, 1.0), from_si(imbalance, "g_mm"))
+    for race, drag in zip(case.race_keys, case.drags, strict=True):
+        oils = [share * drag for share in case.drag_shares]
+        usual[f"{race}.rolling_drag_per_s"] = min(oils), max(oils)
+        usual[f"{race}.rolling_friction_mm"] = _times(friction_factors(design), abu.rolling_friction_mm)
+    usual |= _usual_of_one(design) if len(case.drags) == 1 else {SPEED_KEY: _times(SPEED, from_si(case.speed, "rpm"))}
+    rows = [(key, ends, True) for key, ends in promised.items()] + [(key, ends, False) for key, ends in usual.items()]
+    return tuple(BandRow(key=key, low=low, high=high, promised=kept) for key, (low, high), kept in rows)
+
+
+SPEED_KEY: Final = "machine.speed_rpm"
+
+
+def _usual_of_one(design: Design) -> dict[str, Factors]:
+    """What start cases of one race vary further."""
+    usual, table, abu = dict[str, Factors](), design.case.table, design.case.autobalancer
     if not usual_run_up(design).by_motor:  # a motor runs up in its own time, to its own speed
-        usual |= {
-            "machine.speed_rpm": _times(SPEED, speed),
-            "run_up.time_s": RUN_UPS,
-            "start.speeds_rpm": (-speed, 0.0),
-        }
+        speed = table.machine.speed_rpm
+        usual = {SPEED_KEY: _times(SPEED, speed), "run_up.time_s": RUN_UPS, "start.speeds_rpm": (-speed, 0.0)}
     if (most := identified(design, "race_eccentricity_mm", (1.0, 1.0))[1]) > 1:
         usual["autobalancer.race_eccentricity_mm"] = 0.0, most * abu.race_eccentricity_mm
     if measured(design):
-        usual["wheel.imbalance_g_mm"] = imbalance, abu.capacity_margin * imbalance
+        usual["wheel.imbalance_g_mm"] = _times((1.0, abu.capacity_margin), from_si(design.imbalance.value, "g_mm"))
     if (given := table.suspension.frequencies) is not None:
         usual["suspension.natural_frequencies_hz"] = (
             NATURAL_FREQUENCY[0] * min(given),
             NATURAL_FREQUENCY[1] * max(given),
         )
-    rows = [(key, ends, True) for key, ends in promised.items()] + [(key, ends, False) for key, ends in usual.items()]
-    return tuple(BandRow(key=key, low=low, high=high, promised=kept) for key, (low, high), kept in rows)
+    return usual
 
 
 def _times(factors: Factors, value: float) -> Factors:

@@ -14,7 +14,6 @@ from abu_calc.features.design.tables import balls
 from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si
-from abu_calc.registry import imported
 from abu_calc.reporting.blocks import capitalised, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
 from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, caught, level, settling
@@ -33,13 +32,7 @@ SUMS: Final = ("residual_um", "worst_um")
 
 
 def size_extras(result: SizeResult) -> Extras:
-    """Figures, calculation note and summary of a page; warnings stand in the summary if it has room for all.
-
-    A machine with two races has figures of its own.
-    """
-    if not isinstance(result, SizeResult):
-        two: Extras = imported("two_races.figures:two_race_extras")(result)
-        return two
+    """Figures, calculation note and summary of a page; warnings stand in the summary if it has room for all."""
     figures = (
         *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),
         *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),

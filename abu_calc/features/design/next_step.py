@@ -15,10 +15,10 @@ from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import ACCURACY, Judgement, TrialWatcher
 from abu_calc.features.design.judgement import judge as judge_file
 from abu_calc.features.design.region import steadier
-from abu_calc.features.design.start_rules import LEVEL, RULES, StartFacts
+from abu_calc.features.design.start_rules import FULL, LEVEL, RULES, StartFacts
 from abu_calc.features.design.start_rules import OF_STARTS as OF_BALANCE
 from abu_calc.features.design.start_search import loudness, slowness
-from abu_calc.features.design.verdict import WORDS, creeps
+from abu_calc.features.design.verdict import WORDS, Verdict, creeps
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import RANK, Action, Check, worst
 from abu_calc.foundation.errors import AbuError
@@ -30,10 +30,10 @@ from abu_calc.reporting.blocks import capitalised
 from abu_calc.simulation.ensemble import Once
 from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
+from abu_calc.simulation.result import Provenance
 from abu_calc.simulation.start_cases import Member
 from abu_calc.sizing.actions import SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.case import UNKNOWN_OIL
 from abu_calc.sizing.change_words import PINNED, in_words
 from abu_calc.sizing.proposals import ARM, ON_ARM, PROPOSED, mended
 
@@ -222,11 +222,11 @@ class ChangeWatcher(NoWorse):
 def _in_design(design: Any, own: Any, member: Member) -> Member | None:
     """The start case of another design that stands for one of its own; None: there is none."""
     case, other = design.case, own.case
-    placed = not member.angles or len(member.angles) == design.autobalancer.ball_count
+    placed = not member.angles or len(member.angles) == sum(made.ball_count for made in design.autobalancers)
     run_up = not member.run_up or case.table.run_up == other.table.run_up
     if not (placed and run_up and (member.speed is None or case.speed_range == other.speed_range)):
         return None
-    known, shares = (getattr(each, "drag_shares", UNKNOWN_OIL) for each in (other, case))
+    known, shares = other.drag_shares, case.drag_shares
     share = member.drag / other.drag if other.drag else 1.0
     near = min(range(len(known)), key=lambda k: abs(math.log(known[k] / share)))
     own_share = shares[near] if math.isclose(known[near], share, rel_tol=ALIKE) else share
@@ -356,8 +356,13 @@ def _rare(judged: Judged) -> float | None:
     return math.nan if searched is None else finite(searched.foreseen)
 
 
+def _of_one(judged: Judged) -> bool:
+    """True of a machine with one race."""
+    return len(judged.facts.design.autobalancers) == 1
+
+
 def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judged], float | None]:
-    return lambda judged: value(judged.facts.design.autobalancer) if hasattr(judged.facts.design, "choice") else None
+    return lambda judged: value(judged.facts.design.autobalancer) if _of_one(judged) else None
 
 
 NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
@@ -416,7 +421,7 @@ SEATS: Final = "6"
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
-    codes = SEARCHED if hasattr(before.facts.design, "choice") else OF_STARTS
+    codes = SEARCHED if _of_one(before) else OF_STARTS
     bad = [check for check in before.checks
            if check.requested and check.status != "pass" and (_searched(check, codes) or not check.remedy)]  # fmt: skip
     first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
@@ -488,11 +493,19 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
 
 def _own(before: Judged) -> Entries:
     """Entries that pin the present balls and race; none of two races."""
-    design = before.facts.design
-    return overrides(pins(design.autobalancer)) if hasattr(design, "choice") else ()
+    return overrides(pins(before.facts.design.autobalancer)) if _of_one(before) else ()
 
 
-def change_in_short(before: Judged, step: NextStep) -> str | None:
+def verdict_of(judged: Judged, checks: Sequence[Check], step: NextStep, told: str, reading: Provenance) -> Verdict:
+    """The verdict with what the autobalancer does, as it is `told`, and the change that mends the machine."""
+    sought = judged.facts.starts == FULL and not patience.over()
+    return Verdict.of(
+        checks, told, reading, step.entries, promise(judged, step), incurable=sought and step.futile,
+        change=_in_short(judged, step),
+    )  # fmt: skip
+
+
+def _in_short(before: Judged, step: NextStep) -> str | None:
     """The change that was tried, without what it replaces: balls come last."""
     return in_words(step.entries, None, _own(before)).partition(" instead of ")[0] if step.entries else None
 

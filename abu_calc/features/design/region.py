@@ -27,7 +27,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
-from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
+from abu_calc.simulation.scene_of_design import idle_scene
 from abu_calc.simulation.start_cases import Member, members
 from abu_calc.sizing.actions import speeds_from
 from abu_calc.sizing.design import Design
@@ -163,7 +163,7 @@ def _speed_range(design: Design, *, with_boundaries: bool = True) -> SpeedRange 
 
     `with_boundaries`: also those outside the range.
     """
-    scene, half = idle_scene(design), contact_half_angle(design)
+    scene, half = idle_scene(design), design.autobalancer.half_angle
     low, high = design.case.speed_range
     listed = judged(scene, half)[1]
     if not listed:

@@ -27,6 +27,7 @@ from abu_calc.reporting.drawings.shapes import (
     Text,
     digits,
     text_width,
+    toleranced,
 )
 from abu_calc.standards.balls import inch_size
 
@@ -74,7 +75,9 @@ def _on_other_sheets(result: "SizeResult", shape: Shape) -> Shape:
     own = result.autobalancer.outer_diameter_mm, result.autobalancer.width_mm, result.section.bore_diameter_mm
     if isinstance(shape, Length) and any(abs(shape.value - size) < 1e-9 for size in own):
         return shape
-    return replace(shape, text=f"({shape.text.partition(' ')[0]})")
+    size = shape.text.partition(" ")[0]
+    sign, number = ("", size) if size[:1].isdigit() else (size[:1], size[1:])
+    return replace(shape, text=f"({sign}{digits(float(number))})")
 
 
 def assembly_face(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
@@ -98,7 +101,7 @@ def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
         *_cutting_plane(outer, scale),
         *_balls_seen(result),
         *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text, True) for (radius, text), angle in zip((
-            (abu.race_radius_mm, f"Ø{digits(2 * abu.race_radius_mm, 2)} ±{digits(2 * section.race_tolerance_mm)}"),
+            (abu.race_radius_mm, f"Ø{toleranced(2 * abu.race_radius_mm, 2 * section.race_tolerance_mm)}"),
             (pitch, f"(Ø{digits(2 * pitch)})"),
             (section.hub_diameter_mm / 2, f"Ø{digits(section.hub_diameter_mm)}"),
         ), _clear_of_balls(abu), strict=True)),
@@ -119,19 +122,22 @@ def _clear_of_balls(abu: "AutobalancerRecord") -> tuple[float, ...]:
 
 def section_drawing(result: "SizeResult", scale: float) -> Drawing:
     """The section alone, as a report shows it."""
-    return _alone("section", f"Section of the autobalancer, {result.title}", result, section_view(result, scale), scale)
+    title, shapes = f"Section of the autobalancer, {result.title}", section_view(result, scale)
+    return alone("section", title, described(result), shapes, scale)
 
 
 def face_drawing(result: "SizeResult", scale: float) -> Drawing:
     """The face alone, as a report shows it."""
-    return _alone("face", f"Face of the autobalancer, {result.title}", result, face_view(result, scale), scale)
+    title, shapes = f"Face of the autobalancer, {result.title}", face_view(result, scale)
+    return alone("face", title, described(result), shapes, scale)
 
 
-def _alone(name: str, title: str, result: "SizeResult", shapes: Sequence[Shape], scale: float) -> Drawing:
+def alone(name: str, title: str, words: str, shapes: Sequence[Shape], scale: float) -> Drawing:
+    """Shapes as a report shows them, without a frame."""
     low, high = extent(shapes, scale)
     margin = 3 / scale
     return Drawing(
-        name, title, described(result), scale, (low[0] - margin, low[1] - margin),
+        name, title, words, scale, (low[0] - margin, low[1] - margin),
         (high[0] + margin, high[1] + margin), tuple(shapes),
     )  # fmt: skip
 
@@ -232,7 +238,7 @@ def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
     outer, right = abu.outer_diameter_mm / 2, abu.width_mm + COLUMN * unit
     tip = _on_race(result, 0.7)
     shelf = right, outer - HEIGHT * unit
-    size = f"Ø{digits(section.race_diameter_mm, 2)} ±{digits(2 * section.race_tolerance_mm)}"
+    size = f"Ø{toleranced(section.race_diameter_mm, 2 * section.race_tolerance_mm)}"
     hard, rough = f"race {size}, {section.hardness}", f"Ra {digits(section.roughness_Ra_um)}"
     yield from leader(tip, shelf, hard, scale, more=6)
     end = right + (text_width(hard, HEIGHT) + 5) * unit
@@ -242,7 +248,7 @@ def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
     yield from tolerance_frame((right, shelf[1] - 2 * HEIGHT * unit), runout, scale)
     if abu.groove_radius_mm is not None:
         centre = abu.width_mm / 2, -(abu.race_radius_mm - abu.groove_radius_mm)
-        text = f"R{digits(abu.groove_radius_mm, 2)} ±{digits(section.groove_tolerance_mm)}"
+        text = f"R{toleranced(abu.groove_radius_mm, section.groove_tolerance_mm)}"
         angle = -90 + math.degrees(math.asin(section.inner_width_mm / 2 / abu.groove_radius_mm)) / 3
         lowest = min(y for _, _, _, y in _named(result, unit))
         shelf = right, min(-outer - STACK * unit, lowest - 2.2 * HEIGHT * unit)

@@ -20,7 +20,7 @@ from abu_calc.features.design.sheets.frame import (
     written_notes,
 )
 from abu_calc.features.design.sheets.manufacture import BALL_STEEL, SHOWN, assembly_notes, grade, note_of, race_lines
-from abu_calc.features.design.sheets.part_sheet import number, on_paper, origin, part_sheets, ratio
+from abu_calc.features.design.sheets.part_sheet import number, on_paper, origin, part_sheets, ratio, stamp
 from abu_calc.features.seats.figures import seats_of
 from abu_calc.reporting.drawings.dimensions import extent, moved
 from abu_calc.reporting.drawings.shapes import SCALES, Drawing, Point, Shape, digits, plain
@@ -50,7 +50,7 @@ def section_sheet(result: "SizeResult") -> Drawing:
     )  # fmt: skip
     paper = (
         *frame(), *title_block(block), *table(rows, COLUMNS, WIDE - MARGIN - BLOCK[0], MARGIN + BLOCK[1]),
-        *written_notes("Requirements (engineering practice, assumed)", notes, BINDING + 4, MARGIN + 3),
+        *written_notes("Requirements (engineering practice, assumed)", notes, BINDING + 4, MARGIN + 3), *stamp(result),
     )  # fmt: skip
     title = f"Section of the autobalancer, {plain(result.title)}"
     return on_paper("section", title, described(result), scale, views, paper, below)

@@ -26,13 +26,12 @@ from abu_calc.simulation.ensemble import (
     WORK,
     Runner,
     Watch,
+    called_for,
     every_start,
     first_tolerance,
-    integrator_for,
     start_once,
 )
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
-from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Member, usual_run_up
 from abu_calc.sizing.case import EQUAL_SPEEDS
 from abu_calc.sizing.design import Design
@@ -318,7 +317,7 @@ def at_near_speeds(member: Member, design: Design) -> Iterator[Member]:
 
 def bunches(design: Design, part: int = 0) -> Iterator[Angles]:
     """Neighbours touching, their middle at equal angles round the race; those of each part between those before."""
-    count, step = design.autobalancer.ball_count, 2 * contact_half_angle(design)
+    count, step = design.autobalancer.ball_count, 2 * design.autobalancer.half_angle
     within_step = (0.25 + part * GOLDEN) % 1.0  # of the first part neither on the imbalance nor opposite
     for place in range(PLACES):
         middle = math.tau * (place + within_step) / PLACES
@@ -330,7 +329,7 @@ def spreads(design: Design, part: int = 0) -> Iterator[Angles]:
 
     Each part continues the sequence.
     """
-    count, step = design.autobalancer.ball_count, 2 * contact_half_angle(design)
+    count, step = design.autobalancer.ball_count, 2 * design.autobalancer.half_angle
     free = max(math.tau - count * step, 0.0)
     for way in range(part * SPREADS, (part + 1) * SPREADS):
         shares = [-math.log(1 - (((way * count + ball + 1) * GOLDEN) % 1.0)) for ball in range(count)]
@@ -362,7 +361,7 @@ def _run(
     """Outcomes of the start cases that gave an answer. When balls rest decides nothing beside listed ones."""
     early, runner = (
         [(start, True) for start in starts],
-        Runner(partial(start_once, to_rest=False), integrator_for, watch=watch),
+        Runner(partial(start_once, to_rest=False), called_for, watch=watch),
     )
     answers = every_start(
         design, early, accuracy, first_tolerance(design), within(progress, "further"), workers, runner=runner

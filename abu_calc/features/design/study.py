@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, TrialWatcher, judge
-from abu_calc.features.design.next_step import Judge, NextStep, actions, change_in_short, next_step, promise, proposals
+from abu_calc.features.design.next_step import Judge, NextStep, actions, next_step, proposals, verdict_of
 from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
@@ -32,7 +32,6 @@ from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_en
 from abu_calc.features.grinding.work import Work, loaded_levels
 from abu_calc.features.seats.seats import SeatResult
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
-from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.parallel import meanwhile, processors
@@ -175,6 +174,16 @@ class SizeResult(Result):
     """Geometry of the parts, for drawings and solids."""
 
     @property
+    def autobalancers(self) -> tuple[AutobalancerRecord, ...]:
+        """The autobalancer as a list of one, beside results of machines with several races."""
+        return (self.autobalancer,)
+
+    @property
+    def worst_level_db(self) -> float | None:
+        """Level of the loudest start case [dB]; None without any."""
+        return None if self.ensemble is None else self.ensemble.level_db.worst
+
+    @property
     def candidates(self) -> Rows[AutobalancerRecord]:
         """The chosen autobalancer, then the runners-up, as a table."""
         return Rows((self.autobalancer, *self.alternatives))
@@ -215,7 +224,7 @@ def size(
     """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
 
     `workers`: how many starts run side by side, in threads; the result does not depend on it. None: one for each
-    processor. A machine with two races gets a `TwoRaceSizeResult`, whose `autobalancers` are both.
+    processor. A machine with several races gets a result of its own, whose `autobalancers` are all.
     `starts`: "full" simulates all start cases; "one", the first of them, and "none" are for loops over many machines:
     the design is the lightest one, and the checks that need the start cases fail or are not-done, but never pass.
     Raises InputError with file, line, key and remedy for what is wrong in the file.
@@ -223,12 +232,12 @@ def size(
     ACCURACY.check(accuracy)
     one_of("starts", starts, STARTS)
     WORKERS.check(1 if workers is None else workers)
-    if machine.two_races is not None:
+    if machine.spindle is not None:
         if starts != FULL:
             raise InputError(
                 "with two races all start cases are simulated", place=Place(key="starts"), found=starts, allowed=FULL
             )
-        two: SizeResult = imported("two_races.study:size_two_races")(machine, accuracy, progress, workers)
+        two: SizeResult = imported("spindle.study:size_spindle")(machine, accuracy, progress, workers)
         return two
     tables = machine.whole("size")
     with machine.located():
@@ -337,16 +346,7 @@ def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading
     if any(check.code == "ABU702" and check.status != "pass" for check in checks):
         quiet = None  # the sentence tells it otherwise
     told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
-    sought = judged.facts.starts == FULL and not patience.over()
-    return Verdict.of(
-        checks,
-        told,
-        reading,
-        step.entries,
-        promise(judged, step),
-        incurable=sought and step.futile,
-        change=change_in_short(judged, step),
-    )
+    return verdict_of(judged, checks, step, told, reading)
 
 
 def merged(*warnings: str) -> tuple[str, ...]:

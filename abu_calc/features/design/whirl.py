@@ -54,7 +54,7 @@ def unstable_speed(design: Design) -> float | None:
     hands = case.table.suspension.model == "hands"
     if not case.body.in_space or suspension is None or not (case.body.body.rotor_polar_inertia or hands):
         return None
-    balls = autobalancer.ball_count * autobalancer.ball_mass
+    balls = autobalancer.balls_mass
     body = replace(case.body.body, mass=case.body.mass + autobalancer.mass - balls)
     for speed in judged_speeds(case):
         motion = BodyMotion(body, speed, suspension)

@@ -151,10 +151,10 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "two-races": Step.of(
         "Two races on one spindle",
-        "formulas.two_races: TiltingRotor.receptance TiltingRotor.critical_speeds TiltingRotor.forward_modes "
+        "formulas.tilting_rotor: TiltingRotor.receptance TiltingRotor.critical_speeds TiltingRotor.forward_modes "
         "lever_shares balancing_resultants eccentricity_resultants worst_resultants resultant_quantile "
         "one_race_limit two_races_balance mode_margin",
-        "formulas.two_race_contact: TiltingContact.balanced_force TiltingContact.acting_imbalance",
+        "formulas.tilting_contact: TiltingContact.balanced_force TiltingContact.acting_imbalance",
     ),
     "balance": Step.of(
         "Balancing in one plane or two (`abu balance`)",

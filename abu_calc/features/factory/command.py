@@ -1,45 +1,30 @@
 """`abu factory [FILE …]`: measured levels of machines with autobalancers, beside predictions."""
 
-from typing import TYPE_CHECKING, Annotated
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-import typer
-
-from abu_calc.cli.command import add_command
-from abu_calc.cli.output import Delivery
-from abu_calc.cli.progress import progress
-from abu_calc.reporting.outcome import Outcome
+from abu_calc.cli.command import Command, Option
 
 if TYPE_CHECKING:
-    from abu_calc.features.factory.study import FactoryResult
+    from abu_calc.inputs.read_machine import Machine
 
 
-def factory(
-    how: Delivery,
-    files: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[MACHINE …]",
-            help="Machine files with tables [[measured]]. Without them: the presets that a factory measured.",
-        ),
-    ] = None,
-) -> Outcome:
-    """Compare predicted levels with measured ones."""
-    from abu_calc.features.factory.study import factory as study
+def _machines(files: Sequence[str], _: Sequence[str]) -> "list[Machine]":
     from abu_calc.inputs.read_machine import read
 
-    machines = [read(file) for file in files or ()]
-    with progress(how) as tell:
-        result = study(machines, tell)
-    return outcome_of(result)
+    return [read(file) for file in files]
 
 
-def outcome_of(result: "FactoryResult") -> Outcome:
-    """Outcome of a result: how it is shown and written."""
-    from abu_calc.features.factory.view import factory_blocks, factory_screen
-
-    return Outcome.of(result, lambda: factory_blocks(result), lambda: factory_screen(result))
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "factory", factory, simulates=True)
+COMMAND = Command(
+    "factory.study:factory",
+    (
+        Option(
+            "files",
+            list[str],
+            "[MACHINE …]",
+            "Machine files with tables [[measured]]. Without them: the presets that a factory measured.",
+            reads=_machines,
+        ),
+    ),
+    simulates=True,
+)

@@ -3,50 +3,34 @@
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
-from abu_calc.cli.command import add_command, option
 from abu_calc.cli.output import Delivery
+from abu_calc.features.files.new_machine import completed, machine_text
 from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.read_machine import read, read_file
+from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
+from abu_calc.inputs.reading.sources import text_of
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.write import Target, check_target
 
-MACHINE = "The machine"
-AXES = "Handle, mm from the centre of mass: x to the spindle, y across, z to the wheel; repeatable."
-
 
 def init(
     how: Delivery,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="New file, ending in .toml.")],
-    layout: Annotated[str | None, option("--layout NAME", "straight, angle or face.", MACHINE)] = None,
-    wheel: Annotated[str | None, option("--wheel MM", "Diameter of the wheel.", MACHINE)] = None,
-    mass: Annotated[str | None, option("--mass KG", "Mass without wheel and cable.", MACHINE)] = None,
-    speed: Annotated[str | None, option("--speed RPM", "Rated speed of the spindle.", MACHINE)] = None,
-    room: Annotated[str | None, option("--room ØxWIDTH", "Room for the autobalancer, mm.", MACHINE)] = None,
-    level: Annotated[str | None, option("--level DB", "Idle level measured without it.", MACHINE)] = None,
-    handle: Annotated[list[str] | None, option("--handle NAME=x,y,z", AXES, MACHINE)] = None,
-    all_keys: Annotated[bool, option("--all-keys", "Write every key with a comment instead.")] = False,
-    preset: Annotated[str | None, option("--preset NAME", "Copy this preset.")] = None,
-    scene: Annotated[bool, option("--scene", "Write a scene file for `abu simulate`.")] = False,
-    readings: Annotated[bool, option("--readings", "Write a file of readings for `abu balance`.")] = False,
-    method: Annotated[
-        str | None,
-        option(
-            "--method NAME",
-            "With --readings, the method: rig-data, trials, single-plane, four-runs, least-squares or coefficients.",
-        ),
-    ] = None,
-    recordings: Annotated[
-        bool, option("--recordings", "Write a list of recordings for `abu declare --recordings`.")
-    ] = False,
+    file: Path,
+    preset: str | None = None,
+    method: str | None = None,
+    *,
+    scene: bool = False,
+    readings: bool = False,
+    recordings: bool = False,
+    all_keys: bool = False,
+    **answers: Any,
 ) -> Outcome:
-    """Write the short file of a new machine from a few answers.
-
-    In a terminal the command asks for what the options do not give, with usual values. The file is for `abu size`.
-    """
+    """Write the short file of a machine from the answers to questions about it, or a file of another kind."""
     check_target(file, force=how.force, suffixes=(".toml",))
     kinds = (("scene", scene), ("readings", readings), ("recordings", recordings), ("all-keys", all_keys))
     asked = [name for name, wanted in kinds if wanted]
@@ -57,13 +41,11 @@ def init(
         )
     if method is not None and not readings:
         raise InputError("--method goes with --readings", remedy="Add --readings, or leave --method out.")
-    answers = {"layout": layout, "wheel": wheel, "mass": mass, "speed": speed, "room": room, "level": level,
-               "handle": handle}  # fmt: skip
     if asked or preset is not None:
-        given = [name for name, value in answers.items() if value]
-        if given:
+        if answers:
             raise InputError(
-                f"--{given[0]} describes a machine of a short file", remedy="Leave it out here, or the other option."
+                f"--{next(iter(answers))} describes a machine of a short file",
+                remedy="Leave it out here, or the other option.",
             )
         text, command = _whole(preset, "machine" if all_keys else asked[0] if asked else "", method)
     else:
@@ -76,10 +58,6 @@ def init(
 
 def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]:
     """A preset, or the commented file of a kind, and the command for it."""
-    from abu_calc.inputs.read_machine import read_file
-    from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
-    from abu_calc.inputs.reading.sources import text_of
-
     if preset is not None:
         return text_of(preset), kind_of(read_file(preset).document.content).command
     if method is not None:
@@ -93,8 +71,6 @@ def _whole(preset: str | None, kind: str, method: str | None) -> tuple[str, str]
 
 def _short(answers: Mapping[str, Any]) -> str:
     """The short file of a machine, read as a check before it is written."""
-    from abu_calc.features.files.new_machine import completed, machine_text
-    from abu_calc.inputs.read_machine import read
 
     def ask(words: str, usual: str) -> str:
         """An answer from the terminal; the usual one where none is given."""
@@ -103,8 +79,3 @@ def _short(answers: Mapping[str, Any]) -> str:
     text = machine_text(*completed(answers, ask if sys.stdin.isatty() else None))
     read(text)
     return text
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "init", init)

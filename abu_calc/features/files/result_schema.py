@@ -7,12 +7,12 @@ from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, 
 from abu_calc.foundation.checks import Check, Status
 from abu_calc.foundation.quantity import Record, described, hints, quantities
 from abu_calc.inputs.reading.schema import HOME
-from abu_calc.registry import FEATURES, imported
+from abu_calc.registry import VIEWS, imported
 from abu_calc.simulation.result import Result
 
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
-RESULTS: Final[tuple[type[Result], ...]] = tuple(imported(result) for feature in FEATURES for result in feature.results)
+RESULTS: Final[tuple[type[Result], ...]] = tuple(map(imported, VIEWS))
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
 
@@ -61,16 +61,17 @@ def _of_command(name: str, definitions: dict[str, Schema]) -> Schema:
     """Schema rule of one command: its documents without an error have this result and this model."""
     command = {"properties": {"abu": {"properties": {"command": {"const": name}}}}}
     kinds = [
-        {"properties": {"result": _type(kind.json_type(), definitions), "model": _type(_model(kind), definitions)}}
+        {
+            "properties": {
+                "result": _type(kind.json_type(), definitions),
+                "model": _type(hints(kind)["model"], definitions),
+            }
+        }
         for kind in RESULTS
         if kind.command == name
     ]
     good = {"not": {"required": ["error"]}}
     return {"if": {"allOf": [command, good]}, "then": kinds[0] if len(kinds) == 1 else {"anyOf": kinds}}
-
-
-def _model(kind: type[Result]) -> Any:
-    return hints(kind)["model"]
 
 
 def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
@@ -106,7 +107,8 @@ def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
     if origin in (Union, types.UnionType):
         return {"anyOf": [_type(argument, definitions) for argument in arguments]}
     if origin is tuple:
-        return {"type": "array", "items": _items(arguments, definitions), **_length(arguments)}
+        length = {} if Ellipsis in arguments else {"minItems": len(arguments), "maxItems": len(arguments)}
+        return {"type": "array", "items": _items(arguments, definitions), **length}
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return {"type": "object", "additionalProperties": _type(arguments[1], definitions)}
     if isinstance(hint, type) and issubclass(hint, Record):
@@ -117,8 +119,3 @@ def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
 def _items(arguments: tuple[Any, ...], definitions: dict[str, Schema]) -> Schema:
     kinds = [argument for argument in dict.fromkeys(arguments) if argument is not Ellipsis]
     return _type(kinds[0], definitions) if len(kinds) == 1 else {"anyOf": [_type(kind, definitions) for kind in kinds]}
-
-
-def _length(arguments: tuple[Any, ...]) -> Schema:
-    """Length limits of tuples that are written out; none for others."""
-    return {} if Ellipsis in arguments else {"minItems": len(arguments), "maxItems": len(arguments)}

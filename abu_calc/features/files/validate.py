@@ -5,15 +5,12 @@ grows from run to run: what is missing for an answer is said, with the next run.
 """
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
-from abu_calc.cli.command import Overrides, add_command
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.quantity import as_plain
 from abu_calc.foundation.units import from_si
-from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.read_machine import Machine, read_document
 from abu_calc.inputs.reading.document import Document, FileReading, open_document
 from abu_calc.inputs.reading.kinds import KINDS
 from abu_calc.reporting.blocks import Block, Paragraph
@@ -44,11 +41,11 @@ def _machine(machine: Machine) -> None:
         from abu_calc.features.seats.study import judged_seats
 
         judged_seats(machine)
-    if machine.two_races is not None:
+    if machine.spindle is not None:
         from abu_calc.registry import imported
 
-        imported("two_races.choice:choose_both")(imported("two_races.case:read_case")(machine.two_races))
-    elif getattr(machine.tables, "autobalancer", None) is not None:
+        imported("spindle.case:size_races")(machine)
+    elif machine.autobalancers:
         _design(machine)
 
 
@@ -101,25 +98,17 @@ def _named(stored: "Stored") -> str:
     )
 
 
-def validate(
-    files: Annotated[
-        list[str],
-        typer.Argument(metavar="FILE", help="Files of any kind that abu reads, or names of presets."),
-    ],
-    set_: Overrides = None,
-) -> Outcome:
-    """Check files without simulating: keys, types, ranges, rules."""
-    from abu_calc.inputs.read_machine import read_document
-
+def validate(files: Sequence[str], set_: Sequence[str] = ()) -> Outcome:
+    """Check files of any kind that abu reads; raises InputError with all that is wrong in them."""
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
             document = open_document(file)
-            if (stored := stored_coefficients(document, set_ or ())) is not None:
+            if (stored := stored_coefficients(document, set_)) is not None:
                 results.append({"file": file, "sha256": stored.sha256, "overrides": {}, "defaults": {}, "warnings": []})
                 blocks += [Paragraph(f"{file}: valid", "pass"), Paragraph(_named(stored), indent=4)]
                 continue
-            loaded = read_document(document, set_ or ())
+            loaded = read_document(document, set_)
             refuse_unusable(loaded)
         except InputError as error:
             faults.append(error)
@@ -141,8 +130,3 @@ def validate(
     if faults:
         raise InputError("\n".join(map(str, faults)))
     return Outcome("validate", {"files": results}, tuple(blocks), notes=tuple(warnings))
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "validate", validate)

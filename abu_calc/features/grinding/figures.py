@@ -10,7 +10,6 @@ from typing import Final
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
-from abu_calc.registry import imported
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, alike, db, micrometres
 from abu_calc.reporting.charts.figure import Extras, Figure
@@ -24,9 +23,6 @@ Course = list[tuple[float, float | None]]
 
 def grinding_extras(result: GrindingResult) -> Extras:
     """Figures, and the calculation note."""
-    if not isinstance(result, GrindingResult):
-        two: Extras = imported("two_races.work_view:work_extras")(result)
-        return two
     figures = (
         *_levels(result), *_wear(result), *_orbits(result), *_hodograph(result), *_response(result), *_force(result),
         *_profile(result),

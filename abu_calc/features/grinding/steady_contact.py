@@ -14,7 +14,6 @@ from abu_calc.features.grinding.formulas import BallArrangement, characteristic,
 from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
@@ -136,7 +135,7 @@ def with_balls(
     """
     autobalancer, ratio = design.autobalancer, design.autobalancer.requirement.plane_ratio
     needed = (contact.balancing_imbalance(runout) - imbalance) * ratio
-    whirl, moment = contact.whirl_per_imbalance, autobalancer.ball_mass * autobalancer.pitch_radius
+    whirl, moment = contact.whirl_per_imbalance, autobalancer.ball_moment
     balances, enough = whirl.real < 0, abs(needed) <= autobalancer.capacity
     places: Places = "balanced" if balances and enough else "short" if balances else "gathered"
     resultant = needed if balances and enough else _side_by_side(whirl, needed, autobalancer.capacity)
@@ -144,7 +143,7 @@ def with_balls(
     if resultant is None:
         places = "turning"
     else:
-        spread = even_fan(autobalancer.ball_count, abs(resultant) / moment, contact_half_angle(design))
+        spread = even_fan(autobalancer.ball_count, abs(resultant) / moment, design.autobalancer.half_angle)
         angles = tuple(cmath.phase(resultant) + angle for angle in spread)
     doubled = abs(sum(cmath.exp(2j * angle) for angle in angles))
 

@@ -53,9 +53,8 @@ from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import wrapped_deg
-from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.duty import Grinding
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.two_races import TwoRaceFile
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
@@ -198,12 +197,12 @@ def grinding(
 ) -> GrindingResult:
     """The machine of a file at its work, by closed forms and by simulation to `accuracy`.
 
-    A machine with two races gets a `TwoRaceGrindingResult`: each wheel at work in turn, or only `wheel`, from 1.
+    A machine with several races gets a result of its own: each wheel at work in turn, or only `wheel`, from 1.
     Raises InputError for a file without [grinding], and with file, line, key and remedy for what is wrong in it.
     """
     ACCURACY.check(accuracy)
-    if machine.two_races is not None:
-        two: GrindingResult = imported("two_races.work:grind_two_races")(machine, progress, wheel)
+    if machine.spindle is not None:
+        two: GrindingResult = imported("spindle.work:grind_spindle")(machine, progress, wheel)
         return two
     if wheel is not None:
         raise InputError(
@@ -212,7 +211,7 @@ def grinding(
         )  # fmt: skip
     tables = machine.whole("grinding")
     with machine.located():
-        refuse_idle(tables)
+        refuse_idle(tables.grinding)
         design = size_design(tables)
         work = at_work(design, accuracy, progress)
         work, loads = with_starts(work, loaded_ensemble(design, accuracy, progress, processors()))
@@ -290,9 +289,9 @@ def _orbits(work: Work, still: SteadyWork) -> Iterator[Orbit]:
             yield Orbit.through(name, run.path)
 
 
-def refuse_idle(tables: MachineFile | TwoRaceFile) -> None:
+def refuse_idle(table: Grinding | None) -> None:
     """Raise InputError for a file without [grinding]."""
-    if tables.grinding is None:
+    if table is None:
         raise InputError(
             "this command needs the machine on its workpiece",
             place=Place(key="grinding"),
@@ -321,7 +320,7 @@ def _printed(work: Work) -> Printed | None:
     mass, ratio = case.body.effective_mass(autobalancer.mass), autobalancer.requirement.plane_ratio
     natural = natural_frequency(case.suspension, 0, mass)
     printed = ratio * published_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
-    share = abs(printed) / (2 * autobalancer.ball_mass * autobalancer.pitch_radius)
+    share = abs(printed) / (2 * autobalancer.ball_moment)
     half = math.acos(share) if autobalancer.ball_count == 2 and share <= 1 else None
     place = cmath.phase(printed)
     return Printed(

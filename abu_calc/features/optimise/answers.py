@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from abu_calc.features.design.judgement import judge
 from abu_calc.features.optimise.candidates import SearchSpace, changes
-from abu_calc.features.optimise.choices import Option
+from abu_calc.features.optimise.choices import Choice
 from abu_calc.features.optimise.costs import cost_entries
 from abu_calc.features.optimise.members import SampleSource
 from abu_calc.features.optimise.racing import CandidateRace
@@ -33,7 +33,7 @@ Flags = NDArray[np.bool_]
 
 
 def answered(
-    ask: OptimiseRequest, options: Sequence[tuple[Option, ...]], space: SearchSpace, race: CandidateRace,
+    ask: OptimiseRequest, options: Sequence[tuple[Choice, ...]], space: SearchSpace, race: CandidateRace,
     source: SampleSource, best: int, proven: bool, on_front: Sequence[int], others: Sequence[int],
     fresh: Sequence[Flags], path: Path | None,
 ) -> OptimiseResult:  # fmt: skip
@@ -194,7 +194,7 @@ def _why_not(race: CandidateRace, number: int, best: int, proven: bool) -> str:
     return "as dear, lower share"
 
 
-def _options(options: Sequence[tuple[Option, ...]], *, default: bool) -> tuple[ChosenKey, ...]:
+def _options(options: Sequence[tuple[Choice, ...]], *, default: bool) -> tuple[ChosenKey, ...]:
     values: dict[str, dict[str, None]] = {}
     for option in (option for its in options for option in its):
         texts = ["×".join(shown_short(v) for v in assignment.values()) for assignment in option.values]

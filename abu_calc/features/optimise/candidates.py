@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.features.optimise.choices import SHARED, SIZED, Assignment, Option, sized_values
+from abu_calc.features.optimise.choices import SHARED, SIZED, Assignment, Choice, sized_values
 from abu_calc.features.optimise.costs import COUNT, DIAMETER, RADIUS, Values, cost_of
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.errors import AbuError, InputError, Place
@@ -61,7 +61,7 @@ class _Sized(NamedTuple):
 
 
 def search_space(
-    machines: Sequence[Machine], options: Sequence[tuple[Option, ...]], parts: Sequence[str], places: Sequence[Place]
+    machines: Sequence[Machine], options: Sequence[tuple[Choice, ...]], parts: Sequence[str], places: Sequence[Place]
 ) -> SearchSpace:
     """Every combination of the options of each machine that closed forms permit, and all ways to combine machines."""
     reasons: Counter[str] = Counter()
@@ -103,13 +103,13 @@ def search_space(
     return SearchSpace(tuple(variants), rows, costs, keys, ranked, considered, tuple(sorted(always - {GEOMETRY})))
 
 
-def combinations(options: Sequence[Option]) -> Iterator[Assignment]:
+def combinations(options: Sequence[Choice]) -> Iterator[Assignment]:
     """All combinations of one machine's options."""
     for values in product(*(option.values for option in options)):
         yield {key: value for assignment in values for key, value in assignment.items()}
 
 
-def _all_sized(machine: Machine, options: Sequence[Option]) -> Iterator[_Sized]:
+def _all_sized(machine: Machine, options: Sequence[Choice]) -> Iterator[_Sized]:
     """Each combination with the balls and the race that `abu size` gives it; equal ones once."""
     seen = set[str]()
     for assignment in combinations(options):

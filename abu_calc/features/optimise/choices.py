@@ -45,14 +45,14 @@ VISCOSITY_GRADES: Final[tuple[str, ...]] = get_args(Grade)
 Assignment = Mapping[str, Any]
 
 
-class Option(NamedTuple):
+class Choice(NamedTuple):
     """One thing to choose: its name, and the values of its keys, of which one is taken."""
 
     name: str
     values: tuple[Assignment, ...]
 
 
-def options_of(machine: Machine, choose: object, place: Place) -> tuple[Option, ...]:
+def options_of(machine: Machine, choose: object, place: Place) -> tuple[Choice, ...]:
     """Options as asked (`KEY=choice(A, B)` each, or a table by key), or the default list."""
     if choose is None:
         return tuple(_usual(machine))
@@ -70,7 +70,7 @@ def options_of(machine: Machine, choose: object, place: Place) -> tuple[Option, 
 GRAMMAR: Final = '"KEY=choice(A, B, …)"'
 
 
-def _option(key: str, way: Variation, place: Place) -> Option:
+def _option(key: str, way: Variation, place: Place) -> Choice:
     here = Place(place.file, place.line, f"{place.key} {key}")
     if path_of(key)[0] in (*NOT_OF_THE_MACHINE, "start", "measured", "measured_after", "limits"):
         raise InputError("no value that a design can choose", place=here, allowed="a key of machine or autobalancer")
@@ -78,7 +78,7 @@ def _option(key: str, way: Variation, place: Place) -> Option:
         raise InputError("a distribution is no list of values", place=here, found=way.text, allowed=GRAMMAR)
     if len(set(way.values)) < len(way.values):
         raise InputError("a value is listed twice", place=here, found=way.text)
-    return Option(key, tuple({key: value} for value in way.values))
+    return Choice(key, tuple({key: value} for value in way.values))
 
 
 def _tried(machine: Machine, assignment: Assignment, place: Place) -> None:
@@ -90,7 +90,7 @@ def _tried(machine: Machine, assignment: Assignment, place: Place) -> None:
         raise error.at(Place(place.file, place.line, f"{place.key} {key}")) from None
 
 
-def _refuse_many(options: Sequence[Option], place: Place) -> None:
+def _refuse_many(options: Sequence[Choice], place: Place) -> None:
     count = math.prod(len(option.values) for option in options)
     if count > MOST_ASSIGNMENTS:
         raise InputError(
@@ -99,17 +99,17 @@ def _refuse_many(options: Sequence[Option], place: Place) -> None:
         )  # fmt: skip
 
 
-def _usual(machine: Machine) -> Iterator[Option]:
+def _usual(machine: Machine) -> Iterator[Choice]:
     """Balls that fit, and for the values of the file also finer and coarser ones."""
     there = _sound(machine)
     ranked = sorted(there, key=_cost)
     strongest = max(there, key=lambda each: each.capacity_ratio)
     picked = [*ranked[: PAIRS - 1], strongest] if strongest not in ranked[: PAIRS - 1] else ranked[:PAIRS]
-    yield Option("balls", tuple(map(_pair_of, picked)))
+    yield Choice("balls", tuple(map(_pair_of, picked)))
     yield from _usual_scatter(machine, GRADES)
 
 
-def usual_of_family(machines: Sequence[Machine]) -> list[tuple[Option, ...]]:
+def usual_of_family(machines: Sequence[Machine]) -> list[tuple[Choice, ...]]:
     """Default list of several machines with the same balls: diameters that fit all of them."""
     all_sound = [_sound(machine) for machine in machines]
     cheapest = [{d: min(_cost(each) for each in its if _diameter(each) == d) for d in map(_diameter, its)}
@@ -117,7 +117,7 @@ def usual_of_family(machines: Sequence[Machine]) -> list[tuple[Option, ...]]:
     common = set.intersection(*(set(its) for its in cheapest))
     chosen = sorted(common, key=lambda d: (sum(its[d] for its in cheapest), d))[: PAIRS - 1]
     return [
-        (Option("balls", tuple(_pair_of(each) for d in chosen for each in _of_diameter(its, d))),
+        (Choice("balls", tuple(_pair_of(each) for d in chosen for each in _of_diameter(its, d))),
          *_usual_scatter(machine, GRADES[1:]))
         for machine, its in zip(machines, all_sound, strict=True)
     ] if chosen else [tuple(_usual(machine)) for machine in machines]  # fmt: skip
@@ -131,7 +131,7 @@ def _of_diameter(there: Sequence[Candidate], diameter: float) -> list[Candidate]
     return sorted((each for each in there if _diameter(each) == diameter), key=_cost)[:2]
 
 
-def _usual_scatter(machine: Machine, grades: Sequence[float]) -> Iterator[Option]:
+def _usual_scatter(machine: Machine, grades: Sequence[float]) -> Iterator[Choice]:
     own = machine.whole("optimise").autobalancer
     if own is None:
         return
@@ -143,7 +143,7 @@ def _usual_scatter(machine: Machine, grades: Sequence[float]) -> Iterator[Option
     if oil is not None:
         if oil.grade is not None and "rolling_drag_per_s" not in own.model_fields_set:
             place = VISCOSITY_GRADES.index(oil.grade)
-            yield Option(GRADE, tuple({GRADE: grade} for grade in VISCOSITY_GRADES[max(place - 1, 0) : place + 3]))
+            yield Choice(GRADE, tuple({GRADE: grade} for grade in VISCOSITY_GRADES[max(place - 1, 0) : place + 3]))
     elif (drag := own.rolling_drag_per_s) > 0:
         yield _scaled(DRAG, drag, grades, 1e5)
 
@@ -158,10 +158,10 @@ def _sound(machine: Machine) -> list[Candidate]:
     return [each for each in there if sound(case, each)] or there
 
 
-def _scaled(key: str, value: float, factors: Sequence[float], most: float) -> Option:
+def _scaled(key: str, value: float, factors: Sequence[float], most: float) -> Choice:
     """The value of the file and its multiples, to three digits."""
     values = [value if factor == 1 else min(float(f"{factor * value:.3g}"), most) for factor in factors]
-    return Option(key, tuple({key: each} for each in dict.fromkeys(values)))
+    return Choice(key, tuple({key: each} for each in dict.fromkeys(values)))
 
 
 def _cost(chosen: Candidate) -> float:

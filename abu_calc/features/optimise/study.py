@@ -13,7 +13,7 @@ from typing import Any, Final
 from abu_calc.features.design.study import WORKERS
 from abu_calc.features.optimise.answers import answered
 from abu_calc.features.optimise.candidates import SearchSpace, search_space
-from abu_calc.features.optimise.choices import Option, options_of, usual_of_family
+from abu_calc.features.optimise.choices import Choice, options_of, usual_of_family
 from abu_calc.features.optimise.members import COLUMNS, MOST, SampleSource, VariantStudy
 from abu_calc.features.optimise.racing import FIRST, CandidateRace, front, highest, run, runners_up
 from abu_calc.features.optimise.requests import OptimiseRequest, asked_of
@@ -102,7 +102,7 @@ def optimise(
 
 
 def _raced(
-    ask: OptimiseRequest, options: Sequence[tuple[Option, ...]], space: SearchSpace, source: SampleSource, budget: int,
+    ask: OptimiseRequest, options: Sequence[tuple[Choice, ...]], space: SearchSpace, source: SampleSource, budget: int,
     runs: int, path: Path | None,
 ) -> OptimiseResult:  # fmt: skip
     race = CandidateRace(space.rows, space.costs, ask.share, source, MOST, max(budget, FIRST * len(space.variants)))
@@ -120,7 +120,7 @@ def _raced(
     return answered(ask, options, space, race, source, best, proven, on_front, others, fresh, path)
 
 
-def _options(ask: OptimiseRequest) -> list[tuple[Option, ...]]:
+def _options(ask: OptimiseRequest) -> list[tuple[Choice, ...]]:
     if ask.choose is None and len(ask.machines) > 1 and {"balls", "housing"} & set(ask.share_parts):
         return usual_of_family(ask.machines)
     return [options_of(machine, ask.choose, ask.choose_place) for machine in ask.machines]

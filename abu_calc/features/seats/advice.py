@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from typing import Annotated, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.clearance import PRELOADED, Mounting, fails, lighter_group
+from abu_calc.features.seats.clearance import PRELOADED, fails, lighter_group, tightest_state
 from abu_calc.features.seats.creep import holds_at_start
 from abu_calc.features.seats.interference import Pair, SeatRecord, of_all
 from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
@@ -270,7 +270,7 @@ def _with_clearance(
 def _without_clearance(bearing: SeatedBearing, inner: Joint, outer: Joint) -> bool:
     """True if the group given fails with these seats: most bearings have no clearance, or the pair is overloaded."""
     given = bearing.internal_clearance
-    return given is not None and fails(Mounting(bearing, inner, outer), given)
+    return given is not None and fails(tightest_state(bearing, inner, outer), given)
 
 
 def _with_neighbours(
@@ -280,7 +280,7 @@ def _with_neighbours(
         if group is None or other is None or group in PRELOADED:
             return None
         pair = (joint, other) if joint.seat == "shaft" else (other, joint)
-        share = Mounting(bearing, *pair).share_below(group)
+        share = tightest_state(bearing, *pair).share_below(group)
         things = "pairs" if bearing.kind in PAIRED else "bearings"
         text = f"no operating clearance is left in {of_all(share, things)} of group {group}"
         return text if share > share_to_order(*pair) else None
@@ -322,7 +322,7 @@ def _group_of_pair(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> str 
     """The group given of a pair, or the next looser (preloaded: lighter) one that its seats allow."""
     given = bearing.internal_clearance
     if given in PRELOADED:
-        return lighter_group(Mounting(bearing, shaft, housing), given)
+        return lighter_group(tightest_state(bearing, shaft, housing), given)
     return _group(bearing, shaft, housing)
 
 
@@ -330,7 +330,7 @@ def _group(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> str | None:
     """The group given or a looser one, the usual one or a looser where none is given: the first that keeps."""
     if bearing.kind is None:
         return None
-    mounting, groups = Mounting(bearing, shaft, housing), groups_of(bearing.kind)
+    mounting, groups = tightest_state(bearing, shaft, housing), groups_of(bearing.kind)
     first, most = groups.index(bearing.internal_clearance or usual_group(bearing.kind)), share_to_order(shaft, housing)
     return next((group for group in groups[first:] if mounting.share_below(group) <= most), None)
 

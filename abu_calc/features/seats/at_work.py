@@ -2,13 +2,12 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
-from typing import Annotated, Final, NamedTuple
+from typing import Annotated, Final
 
 from abu_calc.features.seats.bearing import SEAT_DIAMETER, SeatedBearing
-from abu_calc.features.seats.clearance import Mounting
+from abu_calc.features.seats.clearance import states
 from abu_calc.features.seats.interference import Pair, SeatRecord
-from abu_calc.features.seats.joint import TEMPERATURE, Joint, Loss, ThermalCase
+from abu_calc.features.seats.joint import Joint
 from abu_calc.features.seats.joints import ROOM, expansions
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, record
@@ -97,7 +96,11 @@ def seat_mounting(bearing: SeatedBearing, joint: Joint) -> SeatMounting:
     hot = heated(most, clearance, around, d) if tight else None
     top, on_shaft = HOTTEST_CLOSED if bearing.closed else HOTTEST_RING, joint.seat == "shaft"
     cool = None
-    if hot is not None and hot > top + 0.5 and on_shaft:
+    if hot is not None and hot > top and on_shaft:
+        kept = (top - ROOM) * around * d - most
+        if wanted is None and kept >= LEAST_CLEARANCE:
+            hot, clearance = top, kept  # as hot as it may be leaves enough
+    if hot is not None and hot > top and on_shaft:
         cool = ROOM - ((hot - top) * around) / inside
     length = joint.length or joint.ring.width
     forces = tuple(
@@ -115,28 +118,10 @@ def seat_mounting(bearing: SeatedBearing, joint: Joint) -> SeatMounting:
     )
 
 
-class State(NamedTuple):
-    """Temperature [°C] of a state (None: differences alone are given), and the case of each seat."""
-
-    temperature: float | None
-    shaft: ThermalCase
-    housing: ThermalCase
-
-
-def coldest(joint: Joint) -> ThermalCase:
-    """The thermal case with the lowest temperature; that of mounting unless one is lower."""
-    return min(joint.thermal_cases, key=lambda case: case.rise or 0.0)
-
-
-def hottest(joint: Joint) -> ThermalCase:
-    """The thermal case with the highest temperature; one that gives differences alone is at work."""
-    return max(joint.thermal_cases, key=lambda case: math.inf if case.rise is None else case.rise)
-
-
 def at_work(joint: Joint) -> Mapping[str, Pair]:
     """Interference [m] cold and hot, from the loosest to the tightest pair."""
     low, high = joint.interference
-    cases = {"cold": coldest(joint), "hot": hottest(joint)}
+    cases = {"cold": joint.coldest, "hot": joint.hottest}
     return {name: (low - case.loss, high - case.loss) for name, case in cases.items()}
 
 
@@ -147,21 +132,7 @@ def clearance_at_work(
 
     The inner ring is warmer than the outer one when hot alone.
     """
-    states = {}
-    for name in ("cold", "mounted", "hot"):
-        pair = [_at(joint, name) for joint in (shaft, housing)]
-        service = (
-            bearing.service
-            if name == "hot"
-            else bearing.service.model_copy(update={"raceway_temperature_difference_K": None})
-        )
-        mounting = Mounting(replace(bearing, service=service), *pair)
-        states[name] = (mounting.end(group, few), mounting.end(group, 1 - few))
-    return states
-
-
-def _at(joint: Joint, state: str) -> Joint:
-    """The joint with the thermal loss of a state in place of that at work."""
-    loss = 0.0 if state == "mounted" else (coldest(joint) if state == "cold" else hottest(joint)).loss
-    others = [each for each in joint.losses if each.name != TEMPERATURE]
-    return replace(joint, losses=(*others, Loss(name=TEMPERATURE, amount=loss, formula="")))
+    return {
+        name: (mounting.end(group, few), mounting.end(group, 1 - few))
+        for name, mounting in zip(("cold", "mounted", "hot"), states(bearing, shaft, housing), strict=True)
+    }

@@ -301,11 +301,11 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
     tightest = joint.coldest_or_hottest
     if joint.turns_tight:
         low, high = (_um(end - tightest.loss) for end in joint.interference)
-        when = "at work" if tightest.rise is None else f"at {tightest.rise:+g} K"
-        judgement = f"A load fixed in direction requires none, but {when} the seat is {low:.3g} … {high:.3g} µm tight"
+        when = "at work" if tightest.rise is None else f"at {ROOM + tightest.rise:g} °C"
+        judgement = f"A load fixed in direction requires none, but the seat is {low:.3g} … {high:.3g} µm tight then"
         return coded(
-            _CODES[joint.seat][0], "warn", f"least interference of {joint.class_text}. {judgement}",
-            _um(joint.interference.smallest), None, "µm", _ways_out(joint) if joint.light_alloy else None, "least",
+            _CODES[joint.seat][0], "warn", f"largest interference of {joint.class_text} {when}. {judgement}",
+            high, None, "µm", _ways_out(joint) if joint.light_alloy else None, "least",
             of=bearing.name,
         )  # fmt: skip
     if joint.clearance_probability >= LOOSE_ENOUGH:

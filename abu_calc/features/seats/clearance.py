@@ -5,12 +5,13 @@ That of angular contact bearings is axial and belongs to a pair; all others have
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from typing import Annotated, Final
 
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.interference import Interval, Pair, SeatRecord
-from abu_calc.features.seats.joint import Joint, inner_ring_diameter, outer_ring_diameter
+from abu_calc.features.seats.joint import Joint, ThermalCase, inner_ring_diameter, outer_ring_diameter
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.standards.balls import seat_material
@@ -26,6 +27,7 @@ PRELOADED: Final = groups_of("angular-contact")[:3]
 """Groups of pairs under preload, the heaviest first."""
 MOST: Final = 0.5
 """Share of bearings without clearance from which on a group fails."""
+AS_MOUNTED: Final = ThermalCase("mounting", 0.0, 0.0)
 _TAIL: Final = 0.00135
 """Share beyond 3σ on one side of a normal law."""
 _REACH: Final = 5.0
@@ -75,6 +77,11 @@ class Mounting:
         """Losses of clearance by both seats, each with its share of bearings."""
         return _together(*(_growth(joint, self.lever) for joint in self.joints))
 
+    @property
+    def taken(self) -> float:
+        """Clearance [m] that the mean pairs and warmth take."""
+        return self.lever * sum(_change(joint, joint.mean) for joint in self.joints) + self.warmth
+
     def initial(self, group: str) -> Interval:
         """Clearance [m] of a group before mounting."""
         return Interval(*internal_clearance(self.kind, group, self.bore))
@@ -102,6 +109,30 @@ class Mounting:
         return _where(lambda clearance: self.share_below(group, clearance), share, low - spread, high + spread)
 
 
+def states(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> tuple[Mounting, Mounting, Mounting]:
+    """The bearing cold, as mounted and hot; the inner ring is warmer than the outer one when hot alone."""
+    alike = bearing.service.model_copy(update={"raceway_temperature_difference_K": None})
+    even = replace(bearing, service=alike)
+    return (
+        Mounting(even, shaft.at(shaft.coldest), housing.at(housing.coldest)),
+        Mounting(even, shaft.at(AS_MOUNTED), housing.at(AS_MOUNTED)),
+        Mounting(bearing, shaft.at(shaft.hottest), housing.at(housing.hottest)),
+    )
+
+
+def tightest_state(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> Mounting:
+    """The bearing at work, or cold or as mounted if that takes more of its clearance.
+
+    Differences of temperature within the bearing are there at work alone, and are meant by who gives them.
+    """
+    cold, mounted, _ = states(bearing, shaft, housing)
+    at_work, service = Mounting(bearing, shaft, housing), bearing.service
+    found = [at_work]
+    if service.ring_temperature_difference is None and service.housing_temperature_difference is None:
+        found += [cold, mounted]
+    return max(found, key=lambda each: each.taken)
+
+
 @formula(
     "Operating clearance of a bearing",
     "initial − change of both raceways − α·(d_i+d_e)/2·ΔT",
@@ -118,7 +149,7 @@ class Mounting:
     source="Lamé; ISO 5753-1:2009 for the groups; NSK and SKF for pairs",
 )
 def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Joint) -> Clearance:
-    mounting = Mounting(bearing, shaft, housing)
+    mounting = tightest_state(bearing, shaft, housing)
     start = mounting.initial(group)
     taken = sum(change * share for change, share in mounting.law)
     probable = Interval(mounting.end(group, _TAIL), mounting.end(group, 1 - _TAIL))

@@ -4,46 +4,15 @@ The options of one bearing are one for each key of [[bearing]]. They are typed h
 takes longer to load than the help of all commands.
 """
 
-import inspect
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
+from typing import TYPE_CHECKING, Final
 
-import typer
-
-from abu_calc.cli.command import Overrides, add_command, option
+from abu_calc.cli.command import EXPLAIN, MACHINE, SET, Answer, Command, Option, Study
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.reporting.blocks import Block
-from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.seats.study import CheckFitResult
     from abu_calc.inputs.read_machine import Machine
-    from abu_calc.reporting.drawings.shapes import Drawing
-
-
-class BearingOption(NamedTuple):
-    """One option: the key it gives, its name and value as help shows them, its panel, type and text."""
-
-    key: str
-    usage: str
-    panel: str
-    type: type[float] | type[int] | type[str] | type[bool]
-    help: str
-
-    @property
-    def name(self) -> str:
-        """Name of the option, with its dashes."""
-        return self.usage.split(" ")[0]
-
-    @property
-    def parameter(self) -> inspect.Parameter:
-        """The option as a parameter of a command, None when it is not given."""
-        shown = option(self.usage, self.help, self.panel)
-        return inspect.Parameter(
-            self.key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[self.type | None, shown]
-        )
-
 
 BEARING: Final = "Bearing"
 LOADS: Final = "Loads and speed"
@@ -54,103 +23,82 @@ THERMAL: Final = "Temperatures and clearance"
 KINDS: Final = "rotating, stationary or indeterminate."
 MATERIALS: Final = "steel, stainless-steel, cast-iron, aluminium or magnesium."
 OPTIONS: Final = (
-    BearingOption("designation", "--designation NAME", BEARING, str, "Designation, such as 6203 or 7516."),
-    BearingOption("bore_mm", "--bore MM", BEARING, float, "Bore of the inner ring."),
-    BearingOption("outer_mm", "--outer MM", BEARING, float, "Outer diameter."),
-    BearingOption("width_mm", "--width MM", BEARING, float, "Width of the ring."),
-    BearingOption("chamfer_mm", "--chamfer MM", BEARING, float, "Chamfer of one edge."),
-    BearingOption(
-        "bearing_type", "--bearing-type NAME", BEARING, str, "Type if sizes are given: ball, cylindrical, needle …"
+    Option("designation", str, "--designation NAME", "Designation, such as 6203 or 7516.", BEARING),
+    Option("bore_mm", float, "--bore MM", "Bore of the inner ring.", BEARING),
+    Option("outer_mm", float, "--outer MM", "Outer diameter.", BEARING),
+    Option("width_mm", float, "--width MM", "Width of the ring.", BEARING),
+    Option("chamfer_mm", float, "--chamfer MM", "Chamfer of one edge.", BEARING),
+    Option("bearing_type", str, "--bearing-type NAME", "Type if sizes are given: ball, cylindrical, needle …", BEARING),
+    Option("bearing_class", str, "--bearing-class NAME", "Normal, P6, P5, P4 or P2.", BEARING),
+    Option("series", str, "--series NAME", "light, medium or heavy.", BEARING),
+    Option("dynamic_load_rating_kN", float, "--dynamic-load-rating KN", "Basic dynamic load rating C.", BEARING),
+    Option("static_load_rating_kN", float, "--static-load-rating KN", "Basic static load rating C0.", BEARING),
+    Option("name", str, "--name NAME", "Name of the bearing in the report.", BEARING),
+    Option("radial_load_kN", float, "--radial-load-kN KN", "Radial load.", LOADS),
+    Option("cutting_force_N", float, "--cutting-force N", "Cutting force, in place of the radial load.", LOADS),
+    Option(
+        "normal_to_cutting_ratio", float, "--normal-to-cutting RATIO", "Normal force over cutting force (2.8).", LOADS
     ),
-    BearingOption("bearing_class", "--bearing-class NAME", BEARING, str, "Normal, P6, P5, P4 or P2."),
-    BearingOption("series", "--series NAME", BEARING, str, "light, medium or heavy."),
-    BearingOption("dynamic_load_rating_kN", "--dynamic-load-rating KN", BEARING, float, "Basic dynamic load rating C."),
-    BearingOption("static_load_rating_kN", "--static-load-rating KN", BEARING, float, "Basic static load rating C0."),
-    BearingOption("name", "--name NAME", BEARING, str, "Name of the bearing in the report."),
-    BearingOption("radial_load_kN", "--radial-load-kN KN", LOADS, float, "Radial load."),
-    BearingOption("cutting_force_N", "--cutting-force N", LOADS, float, "Cutting force, in place of the radial load."),
-    BearingOption(
-        "normal_to_cutting_ratio", "--normal-to-cutting RATIO", LOADS, float, "Normal force over cutting force (2.8)."
+    Option("bearings_sharing", int, "--bearings-sharing N", "Bearings that share this load (1).", LOADS),
+    Option("axial_load_kN", float, "--axial-load-kN KN", "Axial load.", LOADS),
+    Option("load_kind", str, "--load-kind NAME", "moderate (to 150 %) or shock (to 300 %).", LOADS),
+    Option("inner_ring_load", str, "--inner-ring-load NAME", f"Inner ring: {KINDS}", LOADS),
+    Option("outer_ring_load", str, "--outer-ring-load NAME", f"Outer ring: {KINDS}", LOADS),
+    Option("speed_rpm", float, "--speed RPM", "Speed of the shaft.", LOADS),
+    Option("starting_torque_N_m", float, "--starting-torque NM", "Torque that the seat must transmit.", LOADS),
+    Option(
+        "lubricant_viscosity_mm2_per_s", float, "--lubricant-viscosity MM2/S", "Viscosity at its temperature.", LIFE
     ),
-    BearingOption("bearings_sharing", "--bearings-sharing N", LOADS, int, "Bearings that share this load (1)."),
-    BearingOption("axial_load_kN", "--axial-load-kN KN", LOADS, float, "Axial load."),
-    BearingOption("load_kind", "--load-kind NAME", LOADS, str, "moderate (to 150 %) or shock (to 300 %)."),
-    BearingOption("inner_ring_load", "--inner-ring-load NAME", LOADS, str, f"Inner ring: {KINDS}"),
-    BearingOption("outer_ring_load", "--outer-ring-load NAME", LOADS, str, f"Outer ring: {KINDS}"),
-    BearingOption("speed_rpm", "--speed RPM", LOADS, float, "Speed of the shaft."),
-    BearingOption("starting_torque_N_m", "--starting-torque NM", LOADS, float, "Torque that the seat must transmit."),
-    BearingOption(
-        "lubricant_viscosity_mm2_per_s", "--lubricant-viscosity MM2/S", LIFE, float, "Viscosity at its temperature."
+    Option("contamination_factor", float, "--contamination-factor RATIO", "e_C of ISO 281: 1 clean … 0 dirty.", LIFE),
+    Option("required_life_h", float, "--required-life H", "Rating life that is required.", LIFE),
+    Option("position_mm", float, "--position MM", "Place along the spindle from the wheel's centre.", LIFE),
+    Option("shaft_fit", str, "--shaft CLASS", "Class of the shaft: k6, or several: j5,k5.", SEATS),
+    Option("housing_fit", str, "--housing CLASS", "Class of the housing: H7, or several.", SEATS),
+    Option("shaft_limits_um", str, "--shaft-limits LOW:HIGH", "Measured limits of the shaft, µm.", SEATS),
+    Option("housing_limits_um", str, "--housing-limits LOW:HIGH", "Measured limits of the housing, µm.", SEATS),
+    Option("ring_bore_limits_um", str, "--ring-bore-limits LOW:HIGH", "Measured bore of the ring, µm.", SEATS),
+    Option("ring_outer_limits_um", str, "--ring-outer-limits LOW:HIGH", "Measured outer diameter, µm.", SEATS),
+    Option("mounting_clearance_um", float, "--mounting-clearance UM", "Clearance of a heated ring.", SEATS),
+    Option(
+        "asked_interference_um", str, "--asked-interference LOW:HIGH", "Interference required of every pair, µm.", SEATS
     ),
-    BearingOption(
-        "contamination_factor", "--contamination-factor RATIO", LIFE, float, "e_C of ISO 281: 1 clean … 0 dirty."
-    ),
-    BearingOption("required_life_h", "--required-life H", LIFE, float, "Rating life that is required."),
-    BearingOption("position_mm", "--position MM", LIFE, float, "Place along the spindle from the wheel's centre."),
-    BearingOption("shaft_fit", "--shaft CLASS", SEATS, str, "Class of the shaft: k6, or several: j5,k5."),
-    BearingOption("housing_fit", "--housing CLASS", SEATS, str, "Class of the housing: H7, or several."),
-    BearingOption("shaft_limits_um", "--shaft-limits LOW:HIGH", SEATS, str, "Measured limits of the shaft, µm."),
-    BearingOption("housing_limits_um", "--housing-limits LOW:HIGH", SEATS, str, "Measured limits of the housing, µm."),
-    BearingOption("ring_bore_limits_um", "--ring-bore-limits LOW:HIGH", SEATS, str, "Measured bore of the ring, µm."),
-    BearingOption("ring_outer_limits_um", "--ring-outer-limits LOW:HIGH", SEATS, str, "Measured outer diameter, µm."),
-    BearingOption("mounting_clearance_um", "--mounting-clearance UM", SEATS, float, "Clearance of a heated ring."),
-    BearingOption(
-        "asked_interference_um", "--asked-interference LOW:HIGH", SEATS, str, "Interference required of every pair, µm."
-    ),
-    BearingOption(
-        "short_pairs_warn_percent", "--short-pairs-warn PERCENT", SEATS, float, "Share of short pairs that warns."
-    ),
-    BearingOption(
-        "short_pairs_fail_percent", "--short-pairs-fail PERCENT", SEATS, float, "Share of short pairs that fails."
-    ),
-    BearingOption("seat_friction", "--seat-friction RATIO", SEATS, float, "Friction coefficient of the seat."),
-    BearingOption("shaft_rz_um", "--shaft-rz UM", PARTS, float, "Roughness Rz of the shaft."),
-    BearingOption("shaft_bore_mm", "--shaft-bore MM", PARTS, float, "Bore of a hollow shaft."),
-    BearingOption("shaft_material", "--shaft-material NAME", PARTS, str, MATERIALS),
-    BearingOption("shaft_strength_MPa", "--shaft-strength MPA", PARTS, float, "Allowable hoop stress of the shaft."),
-    BearingOption("housing_rz_um", "--housing-rz UM", PARTS, float, "Roughness Rz of the housing."),
-    BearingOption("housing_outer_mm", "--housing-outer MM", PARTS, float, "Outer diameter of the housing."),
-    BearingOption("housing_material", "--housing-material NAME", PARTS, str, MATERIALS),
-    BearingOption(
-        "housing_strength_MPa", "--housing-strength MPA", PARTS, float, "Allowable hoop stress of the housing."
-    ),
-    BearingOption("housing_split", "--housing-split", PARTS, bool, "The housing is split in two halves."),
-    BearingOption("internal_clearance", "--internal-clearance GROUP", THERMAL, str, "C2, CN, C3, C4 or C5."),
-    BearingOption("temperature_rise_K", "--temperature-rise K", THERMAL, float, "Bearing warmer than at mounting."),
-    BearingOption(
-        "temperature_range_K", "--temperature-range LOW:HIGH", THERMAL, str, "Lowest and highest above mounting."
-    ),
-    BearingOption(
+    Option("short_pairs_warn_percent", float, "--short-pairs-warn PERCENT", "Share of short pairs that warns.", SEATS),
+    Option("short_pairs_fail_percent", float, "--short-pairs-fail PERCENT", "Share of short pairs that fails.", SEATS),
+    Option("seat_friction", float, "--seat-friction RATIO", "Friction coefficient of the seat.", SEATS),
+    Option("shaft_rz_um", float, "--shaft-rz UM", "Roughness Rz of the shaft.", PARTS),
+    Option("shaft_bore_mm", float, "--shaft-bore MM", "Bore of a hollow shaft.", PARTS),
+    Option("shaft_material", str, "--shaft-material NAME", MATERIALS, PARTS),
+    Option("shaft_strength_MPa", float, "--shaft-strength MPA", "Allowable hoop stress of the shaft.", PARTS),
+    Option("housing_rz_um", float, "--housing-rz UM", "Roughness Rz of the housing.", PARTS),
+    Option("housing_outer_mm", float, "--housing-outer MM", "Outer diameter of the housing.", PARTS),
+    Option("housing_material", str, "--housing-material NAME", MATERIALS, PARTS),
+    Option("housing_strength_MPa", float, "--housing-strength MPA", "Allowable hoop stress of the housing.", PARTS),
+    Option("housing_split", bool, "--housing-split", "The housing is split in two halves.", PARTS),
+    Option("internal_clearance", str, "--internal-clearance GROUP", "C2, CN, C3, C4 or C5.", THERMAL),
+    Option("temperature_rise_K", float, "--temperature-rise K", "Bearing warmer than at mounting.", THERMAL),
+    Option("temperature_range_K", str, "--temperature-range LOW:HIGH", "Lowest and highest above mounting.", THERMAL),
+    Option(
         "ring_temperature_difference_K",
+        float,
         "--ring-temperature-difference K",
-        THERMAL,
-        float,
         "Inner ring warmer than its shaft.",
+        THERMAL,
     ),
-    BearingOption(
+    Option(
         "housing_temperature_difference_K",
+        float,
         "--housing-temperature-difference K",
-        THERMAL,
-        float,
         "Housing warmer than the outer ring.",
-    ),
-    BearingOption(
-        "raceway_temperature_difference_K",
-        "--raceway-temperature-difference K",
         THERMAL,
+    ),
+    Option(
+        "raceway_temperature_difference_K",
         float,
+        "--raceway-temperature-difference K",
         "Inner ring warmer than the outer ring.",
+        THERMAL,
     ),
 )
-SELDOM: Final = (
-    *(LIFE, PARTS, THERMAL),
-    *("--chamfer", "--bearing-class", "--series", "--dynamic-load-rating", "--static-load-rating", "--name"),
-    *("--load-kind", "--starting-torque", "--shaft-limits", "--housing-limits", "--asked-interference"),
-    *("--cutting-force", "--normal-to-cutting", "--bearings-sharing", "--mounting-clearance"),
-    *("--ring-bore-limits", "--ring-outer-limits", "--bearing-type", "--explain"),
-    *("--seat-friction", "--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet", "--no-color"),
-)
-"""Panels and options that `--help` lists by name, so that it fits on a screen."""
 NAMES: Final = {option.key: option.name for option in OPTIONS}
 """The option of each key."""
 
@@ -202,58 +150,16 @@ def band(key: str, text: str) -> list[float]:
     return [least, most]
 
 
-def check_fit(
-    machine: Annotated[str | None, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")] = None,
-    set_: Overrides = None,
-    explain: Annotated[bool, option("--explain", "Print the report with every formula.")] = False,
-    **bearing: object,
-) -> Outcome:
-    """Check bearing seats, or recommend their tolerance classes.
-
-    Specify a machine file, or one bearing by options. The checks cover interference, creep, stress and clearance.
-    """
-    from abu_calc.features.seats.study import check_fit as study
-
-    given = {key: value for key, value in bearing.items() if value is not None}
-    source = _of_options(given, set_ or ()) if machine is None else _of_file(machine, set_ or (), given)
-    return outcome_of(study(source), explain=explain)
-
-
-def outcome_of(result: "CheckFitResult", *, explain: bool = False) -> Outcome:
-    """Outcome of a result: how it is shown and written; `explain`: with every formula."""
-    short = None if explain else lambda: _screen(result)
-    return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
-
-
-def _screen(result: "CheckFitResult") -> tuple[Block, ...]:
-    from abu_calc.features.seats.view import check_fit_screen
-
-    return check_fit_screen(result)
-
-
-def _blocks(result: "CheckFitResult", explain: bool) -> tuple[Block, ...]:
-    from abu_calc.features.seats.figures import seat_note
-    from abu_calc.features.seats.view import check_fit_blocks
-
-    return (*check_fit_blocks(result), *(seat_note(result) if explain else ()))
-
-
-def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
-    from abu_calc.features.seats.figures import seat_sheets
-
-    return seat_sheets(result)
-
-
-def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":
-    from abu_calc.inputs.read_machine import read_machine
-
-    if given:
+def _judged(study: Study, machine: object = None, set_: Sequence[str] = (), **bearing: object) -> Answer:
+    if machine is None:
+        return study(_of_options(bearing, set_))
+    if bearing:
         raise InputError(
             "a file and options of one bearing exclude each other",
-            found=NAMES[next(iter(given))],
+            found=NAMES[next(iter(bearing))],
             remedy="Remove the file or the options.",
         )
-    return read_machine(machine, overrides)
+    return study(machine)
 
 
 def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine":
@@ -270,6 +176,19 @@ def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine"
     return machine_of_bearings(several(given | bands), NAMES)
 
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "check-fit", check_fit, (option.parameter for option in OPTIONS), drawn=(".svg",), seldom=SELDOM)
+COMMAND = Command(
+    "seats.study:check_fit",
+    (MACHINE._replace(default=None), SET, EXPLAIN._replace(text="Print the report with every formula."), *OPTIONS),
+    "Specify a machine file, or one bearing by options. The checks cover interference, creep, stress and clearance.",
+    around=_judged,
+    drawn=(".svg",),
+    seldom=(
+        *(LIFE, PARTS, THERMAL),
+        *("--chamfer", "--bearing-class", "--series", "--dynamic-load-rating", "--static-load-rating", "--name"),
+        *("--load-kind", "--starting-torque", "--shaft-limits", "--housing-limits", "--asked-interference"),
+        *("--cutting-force", "--normal-to-cutting", "--bearings-sharing", "--mounting-clearance"),
+        *("--ring-bore-limits", "--ring-outer-limits", "--bearing-type", "--explain"),
+        *("--seat-friction", "--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet"),
+        "--no-color",
+    ),
+)

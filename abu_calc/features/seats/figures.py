@@ -69,6 +69,8 @@ def seats_sketch(name: str, result: Result, shaft: SeatResult, housing: SeatResu
         *_asked(shaft, housing, beyond, scale),
     )
     title = f"Bearing seats: {shaft.name}"
+    if shaft.bearing_verdict == "fail":
+        title = f"NOT FOR MANUFACTURE. {title}"
     return sketch(name, title, f"{title}. {_seat_note(shaft)} {_seat_note(housing)}", result, shapes, scale)
 
 
@@ -81,7 +83,8 @@ def _seat_note(seat: SeatResult) -> str:
 
 def _limits(pair: Pair) -> str:
     """Upper and lower deviation [mm], as drawings state them."""
-    return " / ".join(f"{limit / 1000:+.4g}" if limit else "0" for limit in reversed(pair))
+    decimals = 3 if all(float(limit).is_integer() for limit in pair) else 4
+    return " / ".join(f"{limit / 1000:+.{decimals}f}" if limit else "0" for limit in reversed(pair))
 
 
 def _parts(shaft: SeatResult, housing: SeatResult, beyond: float) -> Iterator[Shape]:

@@ -404,6 +404,21 @@ class Joint:
         return "fail" if self.short_pairs > fail and not self.load_assumed else "warn"
 
     @property
+    def coldest(self) -> ThermalCase:
+        """The case with the lowest temperature; that of mounting unless one is lower."""
+        return min(self.thermal_cases, key=lambda case: case.rise or 0.0)
+
+    @property
+    def hottest(self) -> ThermalCase:
+        """The case with the highest temperature; one that gives differences alone is at work."""
+        return max(self.thermal_cases, key=lambda case: math.inf if case.rise is None else case.rise)
+
+    def at(self, case: ThermalCase) -> "Joint":
+        """The joint with the loss of a case in place of that at work."""
+        others = tuple(loss for loss in self.losses if loss.name != TEMPERATURE)
+        return replace(self, losses=(*others, Loss(name=TEMPERATURE, amount=case.loss, formula="")))
+
+    @property
     def coldest_or_hottest(self) -> ThermalCase:
         """The case in which the seat is tightest."""
         return min(self.thermal_cases, key=lambda case: case.loss)

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, ClassVar, Final
 
-from abu_calc.features.seats.at_work import hottest
 from abu_calc.features.seats.clearance import PRELOADED
 from abu_calc.features.seats.seats import BearingSeats, SeatResult, bearing_notes, seat_bearings
 from abu_calc.foundation.errors import InputError, Place
@@ -88,7 +87,7 @@ CLOSER: Final = ("J7", "J6", "JS5")
 def _closer(judged: BearingSeats) -> str:
     """Classes with the clearance that they leave hot."""
     joint = judged.housing.joint
-    loss = hottest(joint).loss
+    loss = joint.hottest.loss
     spans = ((name, joint.with_class(name).interference) for name in CLOSER)
     return ", ".join(f"{name} {max(from_si(loss - each.smallest, 'um'), 0.0):.0f} µm" for name, each in spans)
 

@@ -8,7 +8,6 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final, TypeAlias
 
-from abu_calc.features.seats.at_work import coldest, hottest
 from abu_calc.features.seats.clearance import Clearance
 from abu_calc.features.seats.drawing_requirements import Repair, Requirements
 from abu_calc.features.seats.interference import Pair, of_all, um_pair
@@ -18,7 +17,7 @@ from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import unit_of
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, capitalised, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import BLANK, cut, one_screen, verdict_line
 from abu_calc.standards.tolerance_classes import NORMAL_RATIO
@@ -298,9 +297,13 @@ def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
     else:
         about += [line for pair in pairs for line in advice_lines(pair)]
     body: list[Block] = []
+    names = _that_differ(result.judged)
     for judged in result.judged:
-        body += _states(judged, several=len(pairs) > 1)
-    body.append(Paragraph(f"{SIGN} {_temperatures_told(result.judged)}"))
+        body += _states(judged, names, several=len(pairs) > 1)
+    inside = " Inside: what 99 of 100 bearings have, with a catalogue's own classes 95."
+    told = inside if any(judged.group_inside for judged in result.judged) else ""
+    body.append(Paragraph(f"{SIGN}{told} {_temperatures_told(result.judged, names)}"))
+    body += _below_required(result.judged)
     for pair in pairs:
         repairs = repair_lines(pair)
         asked = result.judged[pairs.index(pair)].bearing.asked_interference is not None
@@ -312,20 +315,57 @@ def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
     return one_screen(result, about, body, ("--explain, every formula with its numbers",))
 
 
-def _states(judged: BearingSeats, *, several: bool) -> list[Block]:
-    """Both seats and the clearance inside the bearing: cold, as mounted, hot; required and permitted."""
+STATES: Final = ("cold", "mounted", "hot")
+
+
+def _states(judged: BearingSeats, names: Sequence[str], *, several: bool) -> list[Block]:
+    """Both seats and the clearance inside the bearing in the states named; required and permitted."""
     rows = [
-        (seat.seat, seat.fit, *map(_whole, (seat.at_work_um["cold"], seat.interference_um, seat.at_work_um["hot"])),
+        (seat.seat, seat.fit, *(_whole(_in_state(seat, name)) for name in names),
          "none" if seat.needs_no_grip else _required(seat.required_interference_um),
          _permitted(seat.permitted_interference_um))
         for seat in judged.seats
     ]  # fmt: skip
-    inside = judged.clearance_at_work
-    if inside:
-        spans = (_whole(um_pair(inside[name])) for name in ("cold", "mounted", "hot"))
+    if inside := judged.clearance_at_work:
+        spans = (_whole(um_pair(inside[name])) for name in names)
         rows.append(("inside", judged.group_inside or "", *spans, "clearance", ""))
     first = shortened(judged.shaft.name, 16) if several else ""
-    return [Grid((first, "class", "cold", "mounted", "hot", "required", "permitted"), tuple(rows), frozenset({5, 6}))]
+    right = frozenset({len(names) + 2, len(names) + 3})
+    return [Grid((first, "class", *names, "required", "permitted"), tuple(rows), right)]
+
+
+def _in_state(seat: SeatResult, name: str) -> Pair:
+    """Interference [µm] in a state."""
+    at_work: Pair = seat.interference_um if name == "mounted" else seat.at_work_um[name]
+    return at_work
+
+
+def _that_differ(judged: Sequence[BearingSeats]) -> tuple[str, ...]:
+    """The state as mounted, and those in which a seat or the clearance inside is another."""
+
+    def differs(name: str) -> bool:
+        return any(
+            any(_in_state(seat, name) != seat.interference_um for seat in each.seats)
+            or (bool(each.clearance_at_work) and _whole(um_pair(each.clearance_at_work[name]))
+                != _whole(um_pair(each.clearance_at_work["mounted"])))
+            for each in judged
+        )  # fmt: skip
+
+    return tuple(name for name in STATES if name == "mounted" or differs(name))
+
+
+def _below_required(judged: Sequence[BearingSeats]) -> list[Block]:
+    """Seats that pass although some pairs have less than the rule for the load asks for."""
+    seats = [seat for each in judged for seat in each.seats if seat.joint.must_grip and seat.joint.grip == "pass"]
+    short = [
+        (seat.fit, seat.joint.short)
+        for seat in seats
+        if seat.joint.short and seat.interference_um[0] < (seat.needed_um or 0.0)
+    ]
+    return [
+        Paragraph(f"{of_all(share)} of {fit} have less than required; the catalogue gives this class.")
+        for fit, share in short[:1]
+    ]
 
 
 def _whole(span: tuple[float, float]) -> str:
@@ -333,19 +373,25 @@ def _whole(span: tuple[float, float]) -> str:
     return " … ".join(f"{each:.3g}" if abs(each) < 10 else f"{each:.0f}" for each in span)
 
 
-def _temperatures_told(judged: Sequence[BearingSeats]) -> str:
-    """Temperatures of the states, and whether they are assumed."""
-    told = dict.fromkeys(map(_told_of, judged))
-    return " ".join(told) if len(told) == 1 else "The temperatures of cold and hot are those of each bearing."
+def _temperatures_told(judged: Sequence[BearingSeats], names: Sequence[str]) -> str:
+    """Temperatures of the states, whether they are assumed, and which are alike."""
+    told = {_told_of(each, names) for each in judged}
+    return told.pop() if len(told) == 1 else "The temperatures of cold and hot are those of each bearing."
 
 
-def _told_of(judged: BearingSeats) -> str:
-    cold, hot = ({case(seat.joint).rise for seat in judged.seats} for case in (coldest, hottest))
+def _told_of(judged: BearingSeats, names: Sequence[str]) -> str:
+    seats = judged.seats
+    cold, hot = {seat.joint.coldest.rise for seat in seats}, {seat.joint.hottest.rise for seat in seats}
     if None in hot:
         return "Hot: with the temperature differences given."
-    low, high = min(cold) or 0.0, max(hot) or 0.0  # type: ignore[type-var]
-    assumed = ", assumed (--temperature-range)" if assumes_warmth(judged.bearing) else ""
-    return f"Cold is {ROOM + low:g} °C, mounted {ROOM:g} °C, hot {ROOM + high:g} °C{assumed}."
+    low, high = (ROOM + (end or 0.0) for end in (min(cold), max(hot)))  # type: ignore[type-var]
+    assumed = ", assumed: --temperature-range" if assumes_warmth(judged.bearing) else ""
+    shown = {"cold": f"{low:g} °C", "hot": f"{high:g} °C{assumed}"}
+    alike = [f"{name} ({text})" for name, text in shown.items() if name not in names]
+    apart = [f"{name} is {text}" for name, text in shown.items() if name in names]
+    verb = "are" if len(alike) > 1 else "is"
+    lines = [f"{' and '.join(alike)} {verb} as mounted", ", ".join(apart)]
+    return " ".join(f"{capitalised(line)}." for line in lines[not alike : 1 + bool(apart)])
 
 
 def mounting_lines(pair: Seats, *, named: bool) -> list[Block]:
@@ -358,13 +404,13 @@ def _mounting(seat: SeatResult) -> str:
     way = seat.mounting
     hot = way.heat_ring_C if seat.seat == "shaft" else way.heat_housing_C
     if hot is None or way.press_force_N is None:
-        return ""
+        return "The outer ring slides into its housing." if seat.seat == "housing" else ""
     least, most = (f"{force / 1e3:.3g}" for force in way.press_force_N)
     press = f"or press with {least} … {most} kN"
     clear = f"{way.mounting_clearance_um:.3g} µm of clearance"
     if seat.seat == "housing":
         apart = way.lets_go_at_C
-        go = "" if apart is None else f" It lets the ring go at {apart[0]:.0f} … {apart[1]:.0f} °C."
+        go = "" if apart is None else f" When warm it lets the ring go, from {apart[0]:.0f} … {apart[1]:.0f} °C on."
         return f"Mount the outer ring: heat the housing to {hot:.0f} °C ({clear}), {press}.{go}"
     if way.cool_part_C is not None:
         heat = f"{way.hottest_C:g} °C, the hottest permitted, and cool the shaft to {way.cool_part_C:.0f} °C"

@@ -194,8 +194,8 @@ def simulate(
     EVALUATIONS.check(1 if most_evaluations is None else most_evaluations)
     refuse_removed(integrator)
     one_of("integrator", integrator, WANTED)
-    if isinstance(source, Machine) and source.two_races is not None:
-        two: Subject = imported("two_races.subject:two_race_subject")(source, scene, start, race_centre_deg)
+    if isinstance(source, Machine) and source.spindle is not None:
+        two: Subject = imported("spindle.start_cases:spindle_subject")(source, scene, start, race_centre_deg)
         subject = two.lasting(duration_s)
     else:
         subject = subject_of(source, scene, start, race_centre_deg=race_centre_deg).lasting(duration_s)

@@ -133,12 +133,9 @@ class HalfWindow:
 
 def _order(scene: Scene, speeds: Array) -> NDArray[np.intp]:
     """Indices that sort the balls of each race by speed."""
-    parts, first = [np.empty(0, dtype=np.intp)], 0
-    for race in scene.races:
-        count = len(race.ball_masses)
-        parts.append(first + np.argsort(speeds[first : first + count], kind="stable"))
-        first += count
-    return np.concatenate(parts)
+    places = np.arange(len(scene.ball_masses), dtype=np.intp)
+    parts = [own[np.argsort(speeds[own], kind="stable")] for _, own in scene.by_race(places)]
+    return np.concatenate([places[:0], *parts])
 
 
 @dataclass(frozen=True)
@@ -189,17 +186,13 @@ class Follower:
     def _from_end(self, state: EndState, angles: Array) -> Scene:
         """The scene started from an end state, which is a whole number of revolutions after its start."""
         size, count = len(self.scene.support.names), len(self.scene.ball_masses)
-        rates, races, first = state.end[2 * size + count :], [], 0
-        for race in self.scene.races:
-            own = slice(first, first + len(race.ball_masses))
-            # Balls that touch are parted a little, as a disturbance may push one into its neighbour.
-            room = min(2 * touching(self.scene) + 2 * DISTURBED, math.tau / max(len(race.ball_masses), 1))
-            places = parted_angles(tuple(angles[own].tolist()), room)
-            races.append(replace(race, start_angles=places, start_speeds=tuple(rates[own])))
-            first = own.stop
+        # Balls that touch are parted a little, as a disturbance may push one into its neighbour.
+        room, places = 2 * touching(self.scene) + 2 * DISTURBED, list[float]()
+        for _, own in self.scene.by_race(tuple(angles.tolist())):
+            places += parted_angles(own, min(room, math.tau / max(len(own), 1)))
         return replace(
-            self.scene, races=tuple(races), start_position=state.end[:size], start_velocity=state.end[size : 2 * size],
-            duration=self.length,
+            self.scene.started(places, state.end[2 * size + count : 2 * (size + count)]),
+            start_position=state.end[:size], start_velocity=state.end[size : 2 * size], duration=self.length,
         )  # fmt: skip
 
     def _run(self, scene: Scene, tolerance: float) -> Trajectory:

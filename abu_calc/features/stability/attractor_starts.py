@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -73,14 +72,8 @@ def drawn_starts(scene: Scene, count: int, seed: int) -> Iterator[BallStart]:
 
 def started(scene: Scene, start: BallStart) -> Scene:
     """The scene with its balls started so."""
-    races, first = [], 0
-    for race in scene.races:
-        own = slice(first, first + len(race.ball_masses))
-        angles = tuple(to_si(angle, "deg") for angle in start.angles_deg[own])
-        speeds = tuple(to_si(speed, "rpm") for speed in start.speeds_rpm[own])
-        races.append(replace(race, start_angles=angles, start_speeds=speeds))
-        first = own.stop
-    return replace(scene, races=tuple(races))
+    speeds = [to_si(speed, "rpm") for speed in start.speeds_rpm]
+    return scene.started([to_si(angle, "deg") for angle in start.angles_deg], speeds)
 
 
 def _balls(scene: Scene) -> int:
@@ -105,13 +98,10 @@ def _room(race: Race, beta: float) -> float:
 
 def _start(scene: Scene, angles: list[float], shares: list[float], name: str) -> BallStart:
     """A start whose numbers are rounded as they are written; balls that would overlap are moved apart."""
-    placed: list[float] = []
-    first, beta = 0, touching(scene)
-    for race in scene.races:
-        own = tuple(angles[first : first + len(race.ball_masses)])
+    placed, beta = list[float](), touching(scene)
+    for _, own in scene.by_race(tuple(angles)):
         least = min(2 * beta + MARGIN, math.tau / max(len(own), 1)) if beta else MARGIN
         placed += parted_angles(own, least)
-        first += len(own)
     degrees = tuple(round(math.degrees(math.remainder(angle, math.tau)), 3) for angle in placed)
     speeds = tuple(round(from_si((share - 1) * scene.speed, "rpm"), 6) for share in shares)
     return BallStart(degrees, speeds, name.startswith("drawn"), name)

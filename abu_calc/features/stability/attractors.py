@@ -232,16 +232,14 @@ def _asked(subject: Subject, command: str) -> Iterator[str]:
 
 def _parts(subject: Subject, end: EndState) -> Iterator[str]:
     """Options of `abu simulate` that give a start, its effects and its duration."""
-    first, angles, speeds = 0, end.start.angles_deg, end.start.speeds_rpm
+    scene, angles, speeds = subject.scene, end.start.angles_deg, end.start.speeds_rpm
     if subject.design is not None:
         yield f"--set {shell_word(f'start.angles_deg={_toml(angles)}')}"
         yield f"--set {shell_word(f'start.speeds_rpm={_toml(speeds)}')}"
     else:
-        for index, race in enumerate(subject.scene.races):
-            own = slice(first, first + len(race.ball_masses))
-            yield f"--set {shell_word(f'scene.race[{index}].start_angles_deg={_toml(angles[own])}')}"
-            yield f"--set {shell_word(f'scene.race[{index}].start_speeds_rpm={_toml(speeds[own])}')}"
-            first = own.stop
+        for index, ((_, own), (_, rates)) in enumerate(zip(scene.by_race(angles), scene.by_race(speeds), strict=True)):
+            yield f"--set {shell_word(f'scene.race[{index}].start_angles_deg={_toml(own)}')}"
+            yield f"--set {shell_word(f'scene.race[{index}].start_speeds_rpm={_toml(rates)}')}"
     for name in _always(subject.scene):
         yield f"--with {name}"
     for name in RUNS_UP:

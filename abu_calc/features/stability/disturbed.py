@@ -11,7 +11,7 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene, only
-from abu_calc.dynamics.stability.family import closed
+from abu_calc.dynamics.stability.family import closed, parts
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.search import MARGIN, Search, decided, searched
 from abu_calc.dynamics.stability.verdict import Stability, judged
@@ -100,18 +100,14 @@ def consequence(scene: Scene, worst: Stability, half_angle: float = 0.0) -> Arra
 
 def _disturbed(scene: Scene, angles: tuple[float, ...]) -> Scene:
     """The scene at rest in the arrangement, gaps between neighbours opened but for the widest one of each race."""
-    races, first = [], 0
-    for race in scene.races:
-        count = len(race.ball_masses)
-        own = np.array(angles[first : first + count])
-        rank = _ranks(own)
-        # Not even, so that no symmetry of the arrangement is kept.
-        moved = own + DISTURBANCE * (rank / max(1, count - 1)) ** 1.5
-        races.append(replace(race, start_angles=tuple(moved.tolist()), start_speeds=(0.0,) * count))
-        first += count
+    # Not even, so that no symmetry of the arrangement is kept.
+    parts = [
+        own + DISTURBANCE * (_ranks(own) / max(1, len(own) - 1)) ** 1.5 for _, own in scene.by_race(np.array(angles))
+    ]
     still = (0.0,) * len(scene.support.names)
     contact = [effect.name for effect in scene.effects if effect.name == "ball_contact"]
-    return replace(only(scene, contact), races=tuple(races), start_position=still, start_velocity=still)
+    moved = only(scene, contact).started(np.concatenate(parts).tolist())
+    return replace(moved, start_position=still, start_velocity=still)
 
 
 def _ranks(angles: Array) -> Array:
@@ -153,9 +149,6 @@ def _followed(scene: Scene, duration: float, search: Search) -> ArrangementEnd:
 
 def _residual(search: Search, angles: Array) -> Array:
     """Σ over races of |Σ m e^{iθ} − what balances| [kg], over time."""
-    total, first = np.zeros(angles.shape[1]), 0
-    for masses, resultant, _ in search.races:
-        own = angles[first : first + len(masses)]
-        total += np.abs(masses @ np.exp(1j * own) - resultant)
-        first += len(masses)
-    return total
+    every = zip(search.races, parts(search.races, angles), strict=True)
+    left = (np.abs(masses @ np.exp(1j * own) - resultant) for (masses, resultant, _), own in every)
+    return sum(left, np.zeros(angles.shape[1]))

@@ -321,8 +321,8 @@ BALANCED_TO_FIRST_ORDER: Final = frozenset({"gravity"})
 
 def _subject(source: Source, scene: str | None) -> Subject:
     """Subject of a source; of a machine with two races, its balls evenly spread."""
-    if isinstance(source, Machine) and source.two_races is not None:
-        subject: Subject = imported("two_races.subject:two_race_subject")(source, scene, "spread")
+    if isinstance(source, Machine) and source.spindle is not None:
+        subject: Subject = imported("spindle.start_cases:spindle_subject")(source, scene, "spread")
         return subject
     return subject_of(source, scene, command="stability")
 

@@ -9,20 +9,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
 
+from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.sweep.columns import TEMPERATURE
-from abu_calc.features.sweep.samples import Builds, Designs, Scenes, SweepStudy
+from abu_calc.features.sweep.samples import PHASE, Builds, Designs, Scenes, SpindleBuilds, SweepStudy, phase_keys
 from abu_calc.features.sweep.sampling import Factor, Sample
-from abu_calc.features.sweep.two_races import (
-    PHASE,
-    TwoRaceBuilds,
-    TwoRaceDesigns,
-    TwoRaceVariants,
-    phase_keys,
-    wheel_scatter,
-)
-from abu_calc.features.two_races.case import TwoRaceCase
-from abu_calc.features.two_races.case import read_case as read_two_races
-from abu_calc.features.two_races.choice import TwoRaceDesign, choose_both
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
@@ -31,7 +21,7 @@ from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.two_races import MOST_WHEELS, TwoRaceFile
+from abu_calc.inputs.spindle import MOST_WHEELS
 from abu_calc.inputs.variation import (
     MOST_RUNS,
     NOT_OF_THE_MACHINE,
@@ -118,11 +108,13 @@ NAMES: Final = ("runs", "what", "tolerances", "grid", "sensitivity", "sampling",
 def _given(source: Machine | SceneDescription) -> Sweep | None:
     if isinstance(source, SceneDescription):
         return source.sweep
-    return source.whole("sweep").sweep if source.two_races is None else source.two_races.sweep
+    return (source.spindle or source.whole("sweep")).sweep
 
 
 EXAMPLE: Final = "wheel.imbalance_g_mm=normal(265,40), in quotes"
-DRAG, WARMTH = "autobalancer.rolling_drag_per_s", "start.temperature_C"
+DRAG_RATE: Final = "rolling_drag_per_s"
+DRAG, WARMTH = f"autobalancer.{DRAG_RATE}", "start.temperature_C"
+ECCENTRICITY: Final = "autobalancer.race_eccentricity_mm"
 WARM: Final = 0.55
 """ln 3 / 2: drags of a third and of three times the one given, oil hot and cold, are two standard deviations off."""
 
@@ -136,26 +128,23 @@ ROUGH, WORN, HELD = 0.5, 0.2, 0.2
 from wheel to wheel; of the frequencies of hands."""
 
 
-def of_starts(tables: MachineFile, varied: frozenset[str]) -> Iterator[tuple[str, Variation]]:
-    """Start, drag and the side to which the race stands off, unless these vary as asked."""
-    abu = tables.autobalancer
-    ways = {
-        "start.kind": f"choice({','.join(KINDS)})",
-        "start.angle_deg": "uniform(-180, 180)",
-        "start.eccentricity_deg": "uniform(-180, 180)",
-    }
-    if abu is not None and abu.race_eccentricity_mm == 0 and "autobalancer.race_eccentricity_mm" not in varied:
-        del ways["start.eccentricity_deg"]
-    if abu is not None and abu.rolling_drag_per_s > 0 and not varied & {DRAG, WARMTH}:
-        if tables.oil is None:
-            known = _identified(tables).get("rolling_drag_per_s", 0.0)
-            ways[DRAG] = f"lognormal({abu.rolling_drag_per_s!r}, {math.hypot(WARM, known) if known else WARM})"
+def of_starts(machine: Machine, varied: frozenset[str], phases: Sequence[str] = ()) -> Iterator[tuple[str, Variation]]:
+    """Start, unknown phases of imbalances, drag and the side to which races stand off, unless these vary as asked."""
+    tables, races, turn = machine.spindle or machine.whole("sweep"), machine.autobalancers, "uniform(-180, 180)"
+    ways = {"start.kind": f"choice({','.join(KINDS)})", "start.angle_deg": turn, **dict.fromkeys(phases, turn)}
+    if not races or races[0].race_eccentricity_mm > 0 or ECCENTRICITY in varied:
+        ways["start.eccentricity_deg"] = turn
+    drags = {race.rolling_drag_per_s for race in races}
+    if min(drags, default=0.0) > 0 and not any(key == WARMTH or key.endswith(DRAG_RATE) for key in varied):
+        if tables.oil is None and len(drags) == 1:
+            known = _identified(tables).get(DRAG_RATE, 0.0)
+            ways[DRAG] = f"lognormal({drags.pop()!r}, {math.hypot(WARM, known) if known else WARM})"
         elif warmth := _warmth(tables.oil):
             ways[WARMTH] = warmth
     yield from _scatter_ways({key: way for key, way in ways.items() if key not in varied})
 
 
-def _identified(tables: MachineFile) -> dict[str, float]:
+def _identified(tables: Any) -> dict[str, float]:
     """Standard deviation of the logarithm of identified values: their intervals hold 95 %."""
     known = {} if tables.identified is None else tables.identified.in_force(tables.autobalancer)
     return {key: max(math.log(high / low) / (2 * SIDES), 1e-6) for key, (low, high) in known.items()}
@@ -170,39 +159,41 @@ def _warmth(oil: Oil | None) -> str:
     return f"triangular({oil.cold_temperature_C!r}, {oil.temperature_C!r}, {oil.hot_temperature_C!r})"
 
 
-def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Variation]]:
-    """Balls and race as the drawing permits them; eccentricity, friction, wheels, hands and oil as is usual.
+def of_tolerances(design: Design | SpindleDesign, *, building: bool) -> Iterator[tuple[str, Variation]]:
+    """Balls and races as the drawing permits them; eccentricity, friction, wheels, hands and oil as is usual.
 
     `building`: the design is fixed; one that is made anew has no balls or race yet that could be off, and no start.
     """
-    case, autobalancer, tables = design.case, design.autobalancer, design.case.table
-    ways: dict[str, str] = {}
+    case, tables, made, ways = design.case, design.case.table, design.autobalancers, dict[str, str]()
     if building:
-        diameter, radius = from_si(autobalancer.ball_diameter, "mm"), from_si(autobalancer.race_radius, "mm")
+        diameter = from_si(made[0].ball_diameter, "mm")
         ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
-        ways["autobalancer.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
+        for key, own in zip(case.race_keys, made, strict=True):
+            radius = from_si(own.race_radius, "mm")
+            ways[f"{key}.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
         if warmth := _warmth(tables.oil):
             ways[WARMTH] = warmth
     if (off := case.autobalancer.race_eccentricity_mm) > 0:
-        ways["autobalancer.race_eccentricity_mm"] = f"triangular(0, {off / 3!r}, {off!r})"
+        ways[ECCENTRICITY] = f"triangular(0, {off / 3!r}, {off!r})"
     if (arm := case.autobalancer.rolling_friction_mm) > 0:
         ways["autobalancer.rolling_friction_mm"] = f"lognormal({arm!r}, {ROUGH})"
     for key, spread in _identified(tables).items():
         value = getattr(case.autobalancer, key)
-        if value > 0 and (building or key != "rolling_drag_per_s"):
+        if value > 0 and (building or key != DRAG_RATE):
             ways[f"autobalancer.{key}"] = f"lognormal({value!r}, {spread:.6g})"
-    if (imbalance := from_si(design.imbalance.value, "g_mm")) > 0:
-        ways["wheel.imbalance_g_mm"] = f"lognormal({imbalance:.6g}, {WORN})"
-    ways |= _hands(tables)
+    for key, imbalance in zip(case.wheel_keys, design.imbalances, strict=True):
+        if imbalance > 0:
+            ways[f"{key}.imbalance_g_mm"] = f"lognormal({from_si(imbalance, 'g_mm'):.6g}, {WORN})"
+    ways |= _hands(tables.suspension.frequencies)
     low, high = tables.machine.speed_range
     if low < high:
         ways["machine.speed_rpm"] = f"uniform({low!r}, {high!r})"
     yield from _scatter_ways(ways)
 
 
-def _hands(tables: MachineFile) -> dict[str, str]:
+def _hands(frequencies: tuple[float, float] | None) -> dict[str, str]:
     """The natural frequencies of springs that stand for hands; both alike where the file has both alike."""
-    frequencies, key = tables.suspension.frequencies, "suspension.natural_frequencies_hz"
+    key = "suspension.natural_frequencies_hz"
     if frequencies is None:
         return {}
     if frequencies[0] == frequencies[1]:
@@ -216,17 +207,12 @@ def _scatter_ways(ways: dict[str, str]) -> Iterator[tuple[str, Variation]]:
 
 
 START: Final = "start."
+OF_BUILD: Final = ("start.kind", "start.angle_deg", "start.eccentricity_deg", "start.temperature_C")
 KEYS: Final = {
-    "build": ("start.kind", "start.angle_deg", "start.eccentricity_deg", "start.temperature_C"),
+    "build": OF_BUILD,
     "design": (),
     "scene": ("start.angle_deg", "start.temperature_C"),
-    "two races": (
-        "start.kind",
-        "start.angle_deg",
-        "start.eccentricity_deg",
-        "start.temperature_C",
-        *(PHASE.format(number) for number in range(1, MOST_WHEELS + 1)),
-    ),
+    "several races": (*OF_BUILD, *(PHASE.format(number) for number in range(1, MOST_WHEELS + 1))),
 }
 """Keys of the start, which no file has."""
 CHECKED: Final = 50
@@ -246,7 +232,7 @@ class Plan:
     grid: tuple[str, str] | None
     warnings: tuple[str, ...]
     limits: Limits | None = None
-    """Limits of the file, if there is no design of one race."""
+    """Limits of the file; a scene has none."""
 
 
 def planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: float) -> Plan:
@@ -262,86 +248,33 @@ def planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: flo
 def _planned(source: Machine | SceneDescription, ask: SweepRequest, accuracy: float) -> Plan:
     if isinstance(source, SceneDescription):
         return _of_scene(source, ask, accuracy)
-    if source.two_races is not None:
-        return _of_two_races(source, source.two_races, ask, accuracy)
-    tables = source.whole("sweep")
+    building, spindle = ask.what == "build", source.spindle
+    tables = source.whole("sweep") if spindle is None else spindle
     with source.located():
-        design = sized(tables)
-    variants = Variants.of(source, MachineFile)
-    building = ask.what == "build"
+        design = sized(tables) if isinstance(tables, MachineFile) else size_races(source)
+    phases = phase_keys(design.case) if isinstance(design, SpindleDesign) else ()
     ways = dict(of_tolerances(design, building=building)) if ask.tolerances else {}
     ways |= dict(ask.vary)
     if building:
-        ways |= dict(of_starts(tables, frozenset(ways)))
-    sample = _sample(ways, ask, ask.what)
-    warnings = _tried(variants, sample)
-    if not building:
-        return Plan(
-            Designs(sample, accuracy, ask.time_limit, source), variants.content, design, _grid(ask, sample), warnings
-        )
-    study = Builds(sample, accuracy, ask.time_limit, variants, design)
-    return Plan(study, variants.content, design, _grid(ask, sample), warnings)
-
-
-def _of_two_races(source: Machine, tables: TwoRaceFile, ask: SweepRequest, accuracy: float) -> Plan:
-    """The study of a machine with two races."""
-    with source.located():
-        design = choose_both(read_two_races(tables))
-    variants, building = TwoRaceVariants(Variants.of(source, TwoRaceFile).content, TwoRaceFile), ask.what == "build"
-    ways = dict(two_race_tolerances(design, building=building)) if ask.tolerances else {}
-    ways |= dict(ask.vary)
-    if building:
-        ways |= dict(two_race_starts(design.case, frozenset(ways)))
-    sample = _sample(ways, ask, "two races" if building else ask.what)
-    known = {key for key in ways if key.startswith(PHASE.partition("{")[0])} - set(phase_keys(design.case))
+        ways |= dict(of_starts(source, frozenset(ways), phases))
+    sample = _sample(ways, ask, "several races" if building and spindle is not None else ask.what)
+    known = {key for key in ways if key.startswith(PHASE.partition("{")[0])} - set(phases)
     if known:
         raise InputError(
             "the phase of this imbalance is known, or it is the one that others are measured from",
-            place=Place(key=f"vary {min(known)}"), allowed=", ".join(phase_keys(design.case)) or "none",
+            place=Place(key=f"vary {min(known)}"), allowed=", ".join(phases) or "none",
         )  # fmt: skip
+    variants = Variants[Any].of(source, type(tables))
+    warnings = _tried(variants, sample)
     study: SweepStudy
-    if building:
-        study = TwoRaceBuilds(sample, accuracy, ask.time_limit, variants, design)
+    if not building:
+        study = Designs(sample, accuracy, ask.time_limit, source)
+    elif isinstance(design, Design):
+        study = Builds(sample, accuracy, ask.time_limit, variants, design)
     else:
-        study = TwoRaceDesigns(sample, accuracy, ask.time_limit, source)
-    return Plan(study, variants.content, None, _grid(ask, sample), _tried(variants, sample), tables.limits)
-
-
-def two_race_starts(case: TwoRaceCase, varied: frozenset[str]) -> Iterator[tuple[str, Variation]]:
-    """Start, unknown phases of the imbalances, drag and the side to which the races stand off, unless these vary."""
-    turn = "uniform(-180, 180)"
-    ways = {"start.kind": f"choice({','.join(KINDS)})", "start.angle_deg": turn}
-    ways |= dict.fromkeys(phase_keys(case), turn)
-    if case.eccentricity > 0 or "autobalancer.race_eccentricity_mm" in varied:
-        ways["start.eccentricity_deg"] = turn
-    if not any(key == WARMTH or key.endswith("rolling_drag_per_s") for key in varied) and min(case.drags) > 0:
-        alike = case.drags[0] == case.drags[1]
-        ways |= {DRAG: f"lognormal({case.drags[0]!r}, {WARM})"} if alike else {WARMTH: _warmth(None)}
-    yield from _scatter_ways({key: way for key, way in ways.items() if key not in varied})
-
-
-def two_race_tolerances(design: TwoRaceDesign, *, building: bool) -> Iterator[tuple[str, Variation]]:
-    """Balls and races as the drawing permits them; eccentricity, friction, wheels, springs and oil as is usual."""
-    case, tables, ways = design.case, design.case.table, dict[str, str]()
-    if building:
-        diameter = from_si(design.races[0].design.autobalancer.ball_diameter, "mm")
-        ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
-        for number, race in enumerate(design.races):
-            radius = from_si(race.design.autobalancer.race_radius, "mm")
-            ways[f"autobalancer.{number}.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
-        ways[WARMTH] = _warmth(None)
-    abu = tables.autobalancer[0]
-    if (off := abu.race_eccentricity_mm) > 0:
-        ways["autobalancer.race_eccentricity_mm"] = f"triangular(0, {off / 3!r}, {off!r})"
-    if (arm := abu.rolling_friction_mm) > 0:
-        ways["autobalancer.rolling_friction_mm"] = f"lognormal({arm!r}, {ROUGH})"
-    ways |= dict(wheel_scatter(case, WORN))
-    if (frequency := tables.suspension.natural_frequencies_hz) is not None:
-        ways["suspension.natural_frequencies_hz"] = f"lognormal({frequency!r}, {HELD})"
-    low, high = tables.machine.speed_range
-    if low < high:
-        ways["machine.speed_rpm"] = f"uniform({low!r}, {high!r})"
-    yield from _scatter_ways(ways)
+        study = SpindleBuilds(sample, accuracy, ask.time_limit, variants, design)
+    of_one = design if isinstance(design, Design) else None
+    return Plan(study, variants.content, of_one, _grid(ask, sample), warnings, tables.limits)
 
 
 def _of_scene(source: SceneDescription, ask: SweepRequest, accuracy: float) -> Plan:
@@ -395,7 +328,7 @@ def _path(key: str, what: str) -> tuple[str | int, ...]:
     return path_of(key)
 
 
-def _tried(variants: Variants[MachineFile] | Variants[SceneFile] | TwoRaceVariants, sample: Sample) -> tuple[str, ...]:
+def _tried(variants: Variants[Any], sample: Sample) -> tuple[str, ...]:
     """Puts the ends of each value into the file, one at a time; notes of entries whose place they take."""
     notes: list[str] = []
     for factor in sample.factors:

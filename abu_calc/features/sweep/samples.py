@@ -1,5 +1,6 @@
 """Samples of a sweep, each from its number: values put in, the machine built or designed, and run."""
 
+import cmath
 import math
 import time
 from abc import ABC, abstractmethod
@@ -12,21 +13,24 @@ import numpy as np
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.features.design.study import size
+from abu_calc.features.spindle.case import SpindleCase, SpindleDesign
+from abu_calc.features.spindle.start_cases import FIRST_TOLERANCE, race_centre, race_needs, start_of, start_once
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, What, drag_ratio
 from abu_calc.features.sweep.sampling import Sample
 from abu_calc.features.sweep.time_limit import Overtime, limited
+from abu_calc.formulas.tilting_rotor import eccentricity_resultants
 from abu_calc.foundation import patience
-from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.errors import AbuError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.interruption import raise_pending
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.variation import Variants
+from abu_calc.inputs.variation import Variants, in_all_races
 from abu_calc.simulation.ensemble import MORE, TOLERANCE, WORK, first_tolerance, integrated, run_of_start
-from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.ensemble_results import Lost, StartOutcome
 from abu_calc.simulation.residual_criteria import HALF, allowed_imbalance, allowed_of_scene, balances, slip
 from abu_calc.simulation.response import Response, evaluate, needed_times
 from abu_calc.simulation.scene_file import SceneFile
@@ -162,22 +166,76 @@ def numbers_of(outcome: StartOutcome, limits: Limits, capacity_ratio: float) -> 
     )  # fmt: skip
 
 
+PHASE: Final = "start.phase_{}_deg"
+"""Key of the phase of a wheel's imbalance, by the number of the wheel."""
+
+
+@dataclass(frozen=True)
+class SpindleBuilds(SweepStudy):
+    """The design is fixed: each member is one machine built and switched on once, at phases of its own."""
+
+    what: ClassVar[What] = "build"
+
+    variants: Variants[Any]
+    design: SpindleDesign
+
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """One start of one machine. Raises NotTrustworthyError if the run gives no answer."""
+        made = self.design.built(self.variants.table(self._in_file(values)))
+        member = start_on_spindle(made, values)
+        run = start_once(made, member, self.accuracy, FIRST_TOLERANCE, MORE * WORK)
+        if isinstance(run, Lost):
+            raise NotTrustworthyError(run.reason)
+        return numbers_of(run, made.case.table.limits, capacity_ratio(made, member))
+
+
+def phase_keys(case: SpindleCase) -> tuple[str, ...]:
+    """Keys of the phases that are not known; without any known one, the first imbalance is the zero mark."""
+    wheels = [number for number, angle in enumerate(case.angles, 1) if angle is None]
+    return tuple(PHASE.format(number) for number in wheels[len(wheels) - case.unknown_phases :])
+
+
+def start_on_spindle(design: SpindleDesign, values: Values) -> Member:
+    """The start case of a sample; values that do not vary are usual, phases that do not vary 0."""
+    kind, warm, angle = (values.get(f"start.{key}") for key in ("kind", "temperature_C", "angle_deg"))
+    phases = tuple(to_si(values.get(key, 0.0), "deg") for key in phase_keys(design.case))
+    member = start_of(
+        design, kind or "bunched", phases, drag=(drag_ratio(warm) if warm is not None else 1.0) * design.case.drag
+    )
+    ahead = 0.0 if angle is None else to_si(angle, "deg") - (AHEAD if member.start != "spread" else 0.0)
+    return replace(member, turned=ahead, eccentricity=to_si(values.get("start.eccentricity_deg", 0.0), "deg"))
+
+
+def capacity_ratio(design: SpindleDesign, member: Member) -> float:
+    """Smaller ratio of capacity to what a race needs at the phases and eccentricities of this start."""
+    case = design.case
+    whirl = cmath.rect(case.eccentricity, race_centre(design, member))
+    eccentric = eccentricity_resultants(case.rotor, case.races, (whirl, whirl), case.speed)
+    needs = (abs(off - idle) for off, idle in zip(eccentric, race_needs(design, member), strict=True))
+    ratios = (made.capacity / need for made, need in zip(design.autobalancers, needs, strict=True) if need > 0)
+    return min(ratios, default=math.inf)
+
+
 @dataclass(frozen=True)
 class Designs(SweepStudy):
-    """Each member is a machine for which an autobalancer is designed anew."""
+    """Each member is a machine for which all autobalancers are designed anew."""
 
     what: ClassVar[What] = "design"
 
     machine: Machine
 
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
-        """Numbers that `abu size` gives."""
-        sizing = size(self.machine.changed({item.key: values[item.key] for item in self.sample.factors}), self.accuracy)
-        design, many = sizing.autobalancer, sizing.ensemble
-        worst = (many.level_db, many.quiet_time_s, many.rest_time_s, many.settling_time_s) if many else ()
+        """Numbers that `abu size` gives; of several autobalancers the least capacity ratio and the mass of all."""
+        races = self.machine.autobalancers
+        paths = {own: values[item.key] for item in self.sample.factors for own in in_all_races(item.path, races)}
+        sizing = size(self.machine.changed({".".join(map(str, own)): paths[own] for own in paths}), self.accuracy)
+        every, many = sizing.autobalancers, sizing.ensemble
+        times = () if many is None else (many.quiet_time_s, many.rest_time_s, many.settling_time_s)
         return (
-            sizing.vibration.level_after_db, *((each.worst for each in worst) if worst else (None,) * 4),
-            design.ball_count, design.ball_diameter_mm, design.race_radius_mm, design.mass_g, design.capacity_ratio,
+            sizing.vibration.level_after_db, sizing.worst_level_db,
+            *((each.worst for each in times) if times else (None,) * 3),
+            every[0].ball_count, every[0].ball_diameter_mm, every[0].race_radius_mm, sum(race.mass_g for race in every),
+            min((race.capacity_ratio for race in every if race.capacity_ratio is not None), default=None),
             sizing.status == "pass",
         )  # fmt: skip
 

@@ -272,11 +272,10 @@ def _share(met: MeetsLimits, least: float | None) -> Check:
 
 def _limits(plan: Plan) -> dict[str, float]:
     """Limits on the numbers that the file limits."""
-    limits = plan.limits if plan.design is None else plan.design.case.table.limits
-    if limits is None:
+    if plan.limits is None:
         return {}
-    level = limits.vibration_level_db
-    return {"level_db": level, "level_after_db": level, "quiet_time_s": limits.longest_quiet_time}
+    level = plan.limits.vibration_level_db
+    return {"level_db": level, "level_after_db": level, "quiet_time_s": plan.limits.longest_quiet_time}
 
 
 def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -> list[str]:

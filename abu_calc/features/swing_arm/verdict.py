@@ -11,7 +11,7 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import SwingArm
-from abu_calc.simulation.scene_of_design import contact_half_angle, scene_of_design
+from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import SwingArmBounds, doubted
 
@@ -123,7 +123,7 @@ def steady_at_work(design: Design) -> bool:
 
 
 def _growth(design: Design, scene: Scene, arrangement: Arrangement) -> tuple[float, bool]:
-    assessment = stability(scene, contact_half_angle(design), arrangement)
+    assessment = stability(scene, design.autobalancer.half_angle, arrangement)
     if assessment.growth_rate is None or assessment.stable is None:
         raise NotTrustworthyError(assessment.reason or "there is no balanced state")
     return assessment.growth_rate, assessment.stable

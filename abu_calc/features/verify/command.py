@@ -1,54 +1,36 @@
 """`abu verify [FILE|FOLDER …]`: hold files of machines and readings to the results they expect."""
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
-from abu_calc.cli.command import add_command, option
-from abu_calc.cli.output import Delivery
-from abu_calc.cli.progress import progress
+from abu_calc.cli.command import Answer, Command, Option, Study
 from abu_calc.foundation.errors import InputError, OutputError, Place
+from abu_calc.foundation.progress import Progress
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.verify.study import VerifyResult
-    from abu_calc.foundation.progress import Progress
     from abu_calc.inputs.reading.document import FileReading
 
 
-def verify(
-    how: Delivery,
-    files: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="FILE|FOLDER", help="Files of machines or readings, folders, or presets."),
-    ] = None,
-    update: Annotated[bool, option("--update", "Write the results into [expected]; comments stay.")] = False,
-) -> Outcome:
-    """Recompute files and compare with their [expected] values.
-
-    Without files, the command verifies the presets.
-    """
+def _verified(study: Study, files: Sequence[str] = (), update: bool = False, *, progress: Progress) -> Answer:
     from abu_calc.features.verify.study import expectations
-    from abu_calc.features.verify.study import verify as study
     from abu_calc.inputs.bearing_file import expected_values
     from abu_calc.inputs.read_machine import read_file
 
     named = _named(files)
     machines = [read_file(file) for file in named]
-    with progress(how) as tell:
-        if update:
-            return _updated(machines, tell)
-        # A file named itself must expect something; one found in a folder, or a preset, may pass.
-        asked = [each for each in machines if expected_values(expectations(each)) or each.file in (files or ())]
-        if not asked:
-            raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
-        result = study(asked, tell)
-    return outcome_of(result)
+    if update:
+        return _updated(machines, progress)
+    # A file named itself must expect something; one found in a folder, or a preset, may pass.
+    asked = [each for each in machines if expected_values(expectations(each)) or each.file in files]
+    if not asked:
+        raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
+    return study(asked, progress)
 
 
-def _updated(machines: "list[FileReading]", tell: "Progress") -> Outcome:
+def _updated(machines: "list[FileReading]", tell: Progress) -> Outcome:
     """All files with their present values written into [expected]."""
     from abu_calc.reporting.write import Target, write
 
@@ -100,7 +82,7 @@ def _refuse_changed(machine: "FileReading") -> None:
         raise OutputError("changed while it was recomputed", place=Place(machine.file), remedy="Run it again.")
 
 
-def _named(files: list[str] | None) -> list[str]:
+def _named(files: Sequence[str]) -> list[str]:
     """Files as given, folders as the files in them that expect something, nothing as all presets."""
     from abu_calc.inputs.reading.sources import names
 
@@ -133,13 +115,13 @@ def _may_expect(path: Path) -> bool:
     return "expected" in tables and kind_of(tables).name != "scene" and bool({"machine", "rotor"} & tables.keys())
 
 
-def outcome_of(result: "VerifyResult") -> Outcome:
-    """Outcome of a result: how it is shown and written."""
-    from abu_calc.features.verify.view import verify_blocks, verify_screen
-
-    return Outcome.of(result, lambda: verify_blocks(result), lambda: verify_screen(result))
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    add_command(app, "verify", verify, simulates=True)
+COMMAND = Command(
+    "verify.study:verify",
+    (
+        Option("files", list[str], "FILE|FOLDER", "Files of machines or readings, folders, or presets."),
+        Option("update", bool, "--update", "Write the results into [expected]; comments stay."),
+    ),
+    "Without files, the command verifies the presets.",
+    around=_verified,
+    simulates=True,
+)

@@ -20,7 +20,7 @@ from pydantic import ValidationError
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import bounded
-from abu_calc.inputs.reading.format import KEY, format_of
+from abu_calc.inputs.reading.format import KEY, check_format
 from abu_calc.inputs.reading.plain import check_nesting
 from abu_calc.inputs.reading.sources import LARGEST_FILE, Document, bytes_of
 from abu_calc.inputs.reading.table import Table, Usual, numbers_in, usual_of
@@ -378,8 +378,7 @@ def parsed(text: str, source: str) -> dict[str, object]:
     if KEY in content:
         from abu_calc.inputs.reading.toml_text import key_lines
 
-        format_of(content, Place(source, key_lines(text).get(KEY), KEY))
-        del content[KEY]
+        check_format(content.pop(KEY), Place(source, key_lines(text).get(KEY), KEY))
     return _one_of_each(content)
 
 

@@ -9,7 +9,6 @@ from pydantic import ValidationError
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.reading.format import renamed
 from abu_calc.inputs.reading.suggestions import header, meant_key, meant_table, nearest, nearest_numbered
 from abu_calc.inputs.reading.table import RULE, Table, is_array, subtable, table_at, usual_of
 from abu_calc.inputs.reading.text import Part, is_number, key_path, quoted, shown, shown_short, unit_symbol
@@ -145,8 +144,6 @@ def _table_of(path: tuple[Part, ...], root: type[Table]) -> type[Table]:
 
 
 def _stray(finding: _Finding) -> tuple[str | None, str | None]:
-    if change := renamed(tuple(part for part in finding.path if isinstance(part, str))):
-        return change.name, f"since format {change.format} it is {change.name}: `abu migrate FILE` renames it"
     if len(finding.path) == 1:
         return meant_table(finding.root, finding.key, finding.value)
     return meant_key(finding.root, finding.path[:-1], finding.table, finding.key)

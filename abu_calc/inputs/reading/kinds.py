@@ -53,7 +53,7 @@ KINDS: Final = (
     Kind(
         "machine", "a machine", ("machine",), "size",
         "inputs.read_machine:machine_from",
-        ("inputs.machine:MachineFile", "inputs.two_races:TwoRaceFile", "inputs.bearing_file:BearingFile"),
+        ("inputs.machine:MachineFile", "inputs.spindle:TwoRaceFile", "inputs.bearing_file:BearingFile"),
     ),
     Kind(
         "scene", "a scene", ("scene",), "simulate",

@@ -82,7 +82,7 @@ _FORMAT: Final = {
     "type": "integer",
     "minimum": 1,
     "maximum": FORMAT,
-    "description": f"Format of the file; newest: {FORMAT}. Optional; `abu migrate FILE` brings older files up to date.",
+    "description": f"Format of the file; newest: {FORMAT}. Optional.",
 }
 
 

@@ -16,7 +16,7 @@ HEAD: Final = (
     'mass_kg = 5.6 or mass = "5.6 kg". Keys and tables with a # right before them are optional: take the # away to use '
     "them."
 )
-ABOUT_FORMAT: Final = "Format of this file: if keys change in later versions, `abu migrate FILE` renames them."
+ABOUT_FORMAT: Final = "Format of this file. Its number goes up if keys change in later versions."
 FIRST: Final = (
     "Values without a # are those of an example. Replace those of [machine], [suspension] and [wheel], and in "
     "[autobalancer] the room: max_outer_diameter_mm, max_width_mm and bore_diameter_mm. Values called assumed may "

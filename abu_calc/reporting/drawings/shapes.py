@@ -204,6 +204,17 @@ def plain(text: str) -> str:
     return " ".join("".join(sign if sign.isprintable() else " " for sign in text).split())
 
 
+def toleranced(value: float, either_way: float) -> str:
+    """A size [mm] with its tolerance either way, both to the same decimals (ISO 129-1), two at least.
+
+    >>> toleranced(6.959, 0.05), toleranced(62.4, 0.1), toleranced(4.8125, 0.005)
+    ('6.96 ±0.05', '62.40 ±0.10', '4.813 ±0.005')
+    """
+    decimals = max(2, len(digits(either_way).partition(".")[2]))
+    size, limit = (f"{number + math.copysign(1e-9, number):.{decimals}f}" for number in (value, either_way))
+    return f"{size} ±{limit}"
+
+
 def digits(value: float, most: int = 3) -> str:
     """A number as drawings write it: no zeros at its end.
 

@@ -70,7 +70,7 @@ def judged(
         ball_count=4, ball_diameter=0.016, race_radius=0.031,
     )  # fmt: skip
     design = SimpleNamespace(
-        autobalancer=balls, case=SimpleNamespace(oil=None, table=machine()), choice=None,
+        autobalancer=balls, case=SimpleNamespace(oil=None, table=machine()), autobalancers=(balls,),
         frequency=SimpleNamespace(balancing_possible=True), checks=(),
     )  # fmt: skip
     facts = SimpleNamespace(design=design, ensemble=Ensemble(DRAG, (run,), ()), searched=None)

@@ -44,7 +44,7 @@ def test_the_section_holds_its_own_lengths(design: Design) -> None:
     assert section.race_diameter_mm == pytest.approx(2e3 * candidate.race_radius)
     assert section.bore_diameter_mm < section.hub_diameter_mm < section.race_diameter_mm <= section.ring_diameter_mm
     assert 2 * section.web_mm + section.inner_width_mm == pytest.approx(1e3 * candidate.housing.width)
-    balls = candidate.ball_count * candidate.ball_mass
+    balls = candidate.balls_mass
     assert sum(part.mass_g for part in section.parts) == pytest.approx(1e3 * (candidate.mass - balls), rel=1e-6)
 
 

@@ -13,7 +13,7 @@ from abu_calc.features.design.region import SpeedRange, TrueRegion, _modes, _sta
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble import hanging_bounds
-from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
+from abu_calc.simulation.scene_of_design import idle_scene
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import overrides
 from abu_calc.sizing.design import Design
@@ -82,7 +82,7 @@ def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
 def test_the_boundary_of_the_even_fan(tmp_path: Path) -> None:
     """1739 rpm, by the eigenvalues of the full motion: stable just above it in the fan, in the worst one not yet."""
     scene = idle_scene(design_of(written(tmp_path), "machine.speed_rpm=1740.5", "machine.speed_range_rpm=[1740, 1741]"))
-    half = contact_half_angle(design_of(written(tmp_path)))
+    half = design_of(written(tmp_path)).autobalancer.half_angle
     assert stability(scene, half, "fan").stable and not stability(scene, half).stable
 
 
@@ -215,7 +215,7 @@ def test_a_light_springy_mount_leaves_a_doubt() -> None:
         "avtovaz-707-222", "suspension.natural_frequencies_hz=[30, 30]", "suspension.damping_ratios=[0.02, 0.02]",
         "machine.speed_rpm=4000", "machine.speed_range_rpm=[4000, 4000]",
     )  # fmt: skip
-    one, beta = design.autobalancer, contact_half_angle(design)
+    one, beta = design.autobalancer, design.autobalancer.half_angle
     share = math.sin(one.ball_count * beta) / (one.ball_count * math.sin(beta))
     mass, w = design.case.body.effective_mass(one.mass), design.frequency.natural_frequencies[0]
     zeta = 0.02 * math.sqrt(design.case.body.effective_mass() / mass)

@@ -37,7 +37,6 @@ from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.foundation.patience import limited
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
-from abu_calc.simulation.scene_of_design import contact_half_angle
 from abu_calc.simulation.start_cases import ALIKE, Member, members
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
@@ -71,7 +70,7 @@ def design_of(text: str, *overrides: str) -> Design:
 def test_designed_starts_cover_the_race_without_overlap(name: str) -> None:
     """Bunches all round, every other one in a run-up, the race off to both sides of each kind."""
     found = design(name)
-    starts, half = list(designed(found)), contact_half_angle(found)
+    starts, half = list(designed(found)), found.autobalancer.half_angle
     assert len(set(starts)) == len(starts) == DESIGNED
     for start in starts:
         angles = sorted(start.angles)

@@ -36,7 +36,7 @@ def test_a_face_has_no_regions_of_stiffness() -> None:
 
 def test_an_idle_machine_is_refused_with_the_table_it_lacks() -> None:
     with pytest.raises(InputError) as refused:
-        refuse_idle(machine())
+        refuse_idle(machine().grinding)
     assert refused.value.place.key == "grinding" and "press_force_N" in str(refused.value.remedy)
     with pytest.raises(InputError, match="accuracy"):
         abu_calc.grinding(abu_calc.read(STRAIGHT), accuracy=2.0)

@@ -6,7 +6,7 @@ import pytest
 
 from abu_calc.features.seats.seats import seat_bearing
 from abu_calc.standards.bearing_catalogue import bearing
-from abu_calc.standards.catalogue import load_ratings
+from abu_calc.standards.catalogue import catalogue_bearing
 from abu_calc.standards.tables import csv_rows
 from abu_calc.standards.tolerance_classes import maker_fits, tolerance_classes
 from tests.features.seats.samples import by_designation, seats
@@ -25,7 +25,7 @@ def makers(diameter_mm: float, ratio: float) -> str:
 
 
 def judged(name: str, ratio: float, **changes):
-    load = ratio * load_ratings(name).dynamic / 1e3
+    load = ratio * catalogue_bearing(name).ratings.dynamic / 1e3
     return seat_bearing(by_designation(name, radial_load_kN=load, **changes))
 
 

@@ -34,8 +34,12 @@ def test_sizes_and_limits_of_the_knife_shaft_s_seats() -> None:
     for drawing in seat_sheets(check_fit(read_machine("mmg-3200k-knife-shaft")))[:2]:
         check_clear(drawing)
         drawn.append({each.text: (each.value, each.below) for each in drawing.shapes if isinstance(each, Length)})
-    assert drawn[0] == {"Ø80 k6": (80.0, "(+0.021 / +0.002)"), "Ø140 H7": (140.0, "(+0.04 / 0)"), "33": (33.0, "")}
-    assert drawn[1] == {"Ø80 m6": (80.0, "(+0.03 / +0.011)"), "Ø140 K7": (140.0, "(+0.012 / -0.028)"), "33": (33.0, "")}
+    assert drawn[0] == {"Ø80 k6": (80.0, "(+0.021 / +0.002)"), "Ø140 H7": (140.0, "(+0.040 / 0)"), "33": (33.0, "")}
+    assert drawn[1] == {
+        "Ø80 m6": (80.0, "(+0.030 / +0.011)"),
+        "Ø140 K7": (140.0, "(+0.012 / -0.028)"),
+        "33": (33.0, ""),
+    }
 
 
 def test_bars_of_interference_start_and_end_at_its_limits() -> None:

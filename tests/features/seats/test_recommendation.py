@@ -138,10 +138,10 @@ def test_a_group_for_the_classes_given_says_which_group_is_enough() -> None:
 
 
 def test_the_action_names_the_group_that_is_told() -> None:
-    """6202 in aluminium, outer ring turning: R7 leaves 55 of 100 bearings of C4 without clearance, and C5 is told."""
+    """6202 in aluminium, outer ring turning: P7, cold, leaves bearings of C4 without clearance, and C5 is told."""
     given = {
         "radial_load_kN": 0.132, "inner_ring_load": "indeterminate", "outer_ring_load": "rotating",
-        "housing_material": "aluminium", "temperature_range_K": (-18.0, 57.0), "internal_clearance": "C4",
+        "housing_material": "aluminium", "temperature_range_K": (-10.0, 30.0), "internal_clearance": "C4",
     }  # fmt: skip
     found = seat_bearing(by_designation("6202", **given, **OPEN))
     check = next(check for check in found.checks if check.code == "ABU621")

@@ -12,7 +12,7 @@ import pytest
 
 from abu_calc.features.seats.seats import BearingSeats, seat_bearing
 from abu_calc.standards.bearing_catalogue import bearing as dimensions
-from abu_calc.standards.catalogue import load_ratings
+from abu_calc.standards.catalogue import catalogue_bearing
 from tests.features.seats.samples import by_designation, table
 from tests.features.seats.test_advice import DEEP_GROOVE
 
@@ -28,7 +28,7 @@ def judged(designation: str, **changes: Any) -> BearingSeats:
 @cache
 def at_share(designation: str, share: float) -> BearingSeats:
     """Under a load of this share of C."""
-    ratings = load_ratings(designation)
+    ratings = catalogue_bearing(designation).ratings
     assert ratings is not None
     return judged(designation, radial_load_kN=share * ratings.dynamic / 1e3)
 
@@ -57,7 +57,7 @@ def test_1_sizes_of_6205_get_its_rating_and_class() -> None:
 @pytest.mark.slow
 def test_1_sizes_and_designation_agree_at_a_twentieth_of_c() -> None:
     for name in DEEP_GROOVE:
-        size, ratings = dimensions(name), load_ratings(name)
+        size, ratings = dimensions(name), catalogue_bearing(name).ratings
         assert ratings is not None
         load = {"radial_load_kN": 0.05 * ratings.dynamic / 1e3}
         named = judged(name, **load)
@@ -108,7 +108,7 @@ def test_2_the_row_governs_under_heavy_loads(found: Any, seat: str, expected: st
 def test_2_ball_bearings_at_a_quarter_of_c_take_k5(number: int) -> None:
     """Ball bearings over 17 up to 100 mm above 0.05·C: k5, however heavy the load."""
     name = f"62{number}"
-    ratings = load_ratings(name)
+    ratings = catalogue_bearing(name).ratings
     assert ratings is not None
     found = judged(name, radial_load_kN=0.25 * ratings.dynamic / 1e3)
     assert (found.shaft.recommended_fit, found.group_to_order) == ("k5", "C3")
@@ -331,7 +331,7 @@ def test_a_recommended_class_never_fails_under_any_load(name: str) -> None:
 
 def keeps_its_checks(name: str, service: dict[str, Any], shares: list[float]) -> None:
     """Written into the file it keeps or mends every check that a tolerance class can decide."""
-    size, ratings = dimensions(name), load_ratings(name)
+    size, ratings = dimensions(name), catalogue_bearing(name).ratings
     assert ratings is not None
     given = dict(service)
     if "shaft_bore_mm" in given:

@@ -51,10 +51,10 @@ def test_starts_vary_in_every_build_but_in_no_design(machine: abu_calc.Machine) 
     assert built == {*vary, "start.kind", "start.angle_deg", "start.eccentricity_deg", DRAG}
     designed = planned(machine, asked(machine, vary, what="design"), 0.01)
     assert [factor.key for factor in designed.study.sample.factors] == [*vary]
-    warm = dict(of_starts(machine.whole(), frozenset({"start.temperature_C"})))
+    warm = dict(of_starts(machine, frozenset({"start.temperature_C"})))
     assert DRAG not in warm  # the temperature makes it
     assert "start.eccentricity_deg" not in dict(
-        of_starts(machine.changed({"autobalancer.race_eccentricity_mm": 0.0}).whole(), frozenset())
+        of_starts(machine.changed({"autobalancer.race_eccentricity_mm": 0.0}), frozenset())
     )
 
 

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.features.two_races.case import read_case
-from abu_calc.features.two_races.choice import choose_both
-from abu_calc.features.two_races.records import TwoRaceAutobalancer
+from abu_calc.features.spindle.case import size_races
+from abu_calc.features.spindle.records import PlacedAutobalancerRecord
 from abu_calc.features.verify.study import compare, expectations
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.bearing_file import expected_values
@@ -52,11 +51,11 @@ def test_presets_with_two_races_keep_what_they_expect(name: str) -> None:
 def test_designs_of_two_races_keep_what_is_expected(name: str) -> None:
     """What needs no start case of what their files expect: balls, race, capacity, mass."""
     machine = read_machine(name)
-    assert machine.two_races is not None
-    design = choose_both(read_case(machine.two_races))
+    assert machine.spindle is not None
+    design = size_races(machine)
     entries = {
         "required_capacity_g_mm": from_si(design.races[0].need, "g_mm"),
-        "autobalancer": TwoRaceAutobalancer.of_race(design, 0),
+        "autobalancer": PlacedAutobalancerRecord.of_race(design, 0),
     }
     expected = expected_values(expectations(machine))
     kept = {path: value for path, value in expected.items() if path.partition(".")[0] in entries}

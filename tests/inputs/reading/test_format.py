@@ -1,11 +1,10 @@
-"""Format of files: optional, of this version, refused if newer; keys that changed are told."""
+"""Format of files: optional, of this version, refused if newer."""
 
 import pytest
 
 import abu_calc
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.reading import errors, format
-from abu_calc.inputs.reading.format import CHANGES, FORMAT, KeyChange, since
+from abu_calc.inputs.reading.format import FORMAT
 from abu_calc.inputs.reading.kinds import KINDS
 from abu_calc.inputs.reading.sources import text_of
 from abu_calc.inputs.reading.template import template_of
@@ -36,17 +35,3 @@ def test_others_are_refused_with_their_line(given: str) -> None:
 def test_a_table_of_that_name_is_refused() -> None:
     with pytest.raises(InputError):
         abu_calc.read(f"{TEXT}\n[format]\nx = 1")
-
-
-def test_changes_are_in_order_and_none_is_of_the_future() -> None:
-    assert [change.format for change in CHANGES] == sorted(change.format for change in CHANGES)
-    assert all(1 < change.format <= FORMAT for change in CHANGES)
-    change = KeyChange(2, ("wheel", "weight_kg"), "mass_kg", "one name")
-    assert list(since(1, (change,))) == list(since(None, (change,))) == [change] and not list(since(2, (change,)))
-
-
-def test_a_key_that_changed_is_told_with_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    change = KeyChange(2, ("wheel", "weight_kg"), "mass_kg", "one name")
-    monkeypatch.setattr(errors, "renamed", lambda path: format.renamed(path, (change,)))
-    with pytest.raises(InputError, match="abu migrate FILE"):
-        abu_calc.read(TEXT.replace("[wheel]", "[wheel]\nweight_kg = 0.9"))

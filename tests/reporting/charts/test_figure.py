@@ -13,7 +13,7 @@ import pytest
 
 import abu_calc
 from abu_calc.foundation.errors import InputError
-from abu_calc.registry import BY_NAME, figures_of, known
+from abu_calc.registry import FIGURES, figures_of, known
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, MarkedPoint, Plot
 from abu_calc.reporting.charts.figure import Figure, caught, settling
 from abu_calc.reporting.charts.matplotlib_charts import colors
@@ -60,10 +60,8 @@ def _texts(file: str | bytes) -> list[str]:
 def test_size_has_these_figures_and_the_help_knows_them() -> None:
     assert sized().figures == NAMES
     told = " ".join(abu("size", "--help").out.split())
-    assert all(one.name in told for one in BY_NAME["size"].figures)
-    assert {known("size", name).name for name in (*NAMES, "arm", "seats-12")} == {
-        one.name for one in BY_NAME["size"].figures
-    }
+    assert all(one.name in told for one in FIGURES["size"])
+    assert {known("size", name).name for name in (*NAMES, "arm", "seats-12")} == {one.name for one in FIGURES["size"]}
 
 
 @pytest.mark.few(2)
@@ -277,5 +275,5 @@ def test_every_command_knows_the_names_of_its_figures(command: str) -> None:
     assert not kinds & absent
     for name in result.figures:
         assert len(result.figure(name).axes) == 1
-    always = {one.name for one in BY_NAME[command].figures if not one.when}
+    always = {one.name for one in FIGURES[command] if not one.when}
     assert always <= kinds

@@ -81,10 +81,10 @@ def test_tolerances_are_the_result_s(name: str) -> None:
     if name == "bearing-ring":  # its ring is bought: a sphere without a tolerance of ours
         assert any(text.startswith("race SØ") for text in texts)
         return
-    race_text = f"race Ø{2 * one['autobalancer']['race_radius_mm']:.2f}".rstrip("0").rstrip(".") + " ±0.1"
+    race_text = f"race Ø{2 * one['autobalancer']['race_radius_mm']:.2f} ±0.10"
     assert any(text.startswith(race_text) for text in texts)
     assert section["race_tolerance_mm"] == 0.05 and section["groove_tolerance_mm"] == 0.2
-    assert any(text.endswith("±0.2") for text in texts) == (one["autobalancer"]["groove_radius_mm"] is not None)
+    assert any(text.endswith("±0.20") for text in texts) == (one["autobalancer"]["groove_radius_mm"] is not None)
     if section["bore_limits_um"] is not None:
         every = " ".join(each.dxf.text for each in document(name).modelspace().query("DIMENSION TEXT"))
         low, high = section["bore_limits_um"]

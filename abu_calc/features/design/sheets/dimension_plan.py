@@ -10,7 +10,7 @@ from typing import Final, Literal, NamedTuple
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.reporting.drawings.shapes import digits
+from abu_calc.reporting.drawings.shapes import digits, toleranced
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 from abu_calc.sizing.parts.surfaces import Surface
 
@@ -105,19 +105,6 @@ def size_text(value: float, toleranced: bool) -> str:
     return digits(value, 3 if toleranced else 2)
 
 
-COARSE: Final = 0.1
-"""From this tolerance [mm], either way, two decimals are enough."""
-
-
-def symmetric_text(value: float, either_way: float) -> str:
-    """A size [mm] with its tolerance either way, rounded to no more than a twentieth of it.
-
-    >>> symmetric_text(12.6432, 0.2), symmetric_text(4.8125, 0.05)
-    ('12.64 ±0.2', '4.813 ±0.05')
-    """
-    return f"{size_text(value, either_way < COARSE - SAME)} ±{digits(either_way, 3)}"
-
-
 def limits_text(surface: Surface) -> str:
     """Limit deviations [mm] as a drawing writes them; nothing where they are not tabulated."""
     if surface.limits is None:
@@ -141,7 +128,7 @@ def diameter_text(value: float, surface: Surface | None) -> tuple[str, str]:
     if surface.limits is not None:
         return f"Ø{size_text(value, True)}", limits_text(surface)
     if surface.plus_minus is not None:
-        return f"Ø{symmetric_text(value, from_si(surface.plus_minus, 'mm'))}", ""
+        return f"Ø{toleranced(value, from_si(surface.plus_minus, 'mm'))}", ""
     return f"Ø{size_text(value, False)}", ""
 
 
@@ -150,7 +137,7 @@ def _groove_text(surface: Surface | None, edge: Edge) -> str:
     allowed = None if surface is None else surface.groove_plus_minus
     if allowed is None:
         return f"R{size_text(edge.radius, False)}"
-    return f"R{symmetric_text(edge.radius, from_si(allowed, 'mm'))}"
+    return f"R{toleranced(edge.radius, from_si(allowed, 'mm'))}"
 
 
 def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iterator[Diameter]:
@@ -235,7 +222,7 @@ def _lengths(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iterat
         middle = edge.centre[0]
         if all(abs(middle - other) > SAME for other in (0.0, length, *places)):
             places.append(middle)
-            yield AxialLength(0.0, middle, symmetric_text(middle, GROOVE_PLACE))
+            yield AxialLength(0.0, middle, toleranced(middle, GROOVE_PLACE))
 
 
 def _seat_floor(part: TurnedPart, edges: tuple[Edge, ...]) -> float | None:

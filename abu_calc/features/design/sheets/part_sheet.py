@@ -23,7 +23,20 @@ from abu_calc.features.design.sheets.manufacture import GENERAL_ROUGHNESS, deman
 from abu_calc.features.design.sheets.part_views import detail_surfaces, part_section, race_detail
 from abu_calc.foundation.checks import verdict_codes
 from abu_calc.reporting.drawings.dimensions import extent, moved
-from abu_calc.reporting.drawings.shapes import SCALES, Arc, Drawing, Line, Point, Shape, Solid, Text, digits, plain
+from abu_calc.reporting.drawings.shapes import (
+    HEIGHT,
+    SCALES,
+    Arc,
+    Drawing,
+    Line,
+    Point,
+    Shape,
+    Solid,
+    Text,
+    digits,
+    fitted,
+    plain,
+)
 from abu_calc.reporting.parts import replaced_entries
 from abu_calc.sizing.parts.housing_parts import TurnedPart
 
@@ -56,6 +69,7 @@ def part_sheet(result: "SizeResult", part: TurnedPart, sheet: int, sheets: int) 
     paper = (*frame(), *title_block(block), *written_notes("Requirements (engineering practice, assumed)", notes,
                                                              BINDING + 4, MARGIN + 3))  # fmt: skip
     described = f"Sheet {sheet} of {sheets}: {part.name}, {grade(part, race).name}, {digits(1e3 * part.mass, 1)} g."
+    paper = (*paper, *stamp(result))
     name = part.name.replace(" ", "-")
     title = f"{part.name} of the autobalancer, {plain(result.title)}"
     return on_paper(name, title, described, scale, views, paper, below)
@@ -81,6 +95,13 @@ def origin(result: "SizeResult") -> dict[str, str]:
     return {"date": source.date, "creator": f"abu-calc {source.version}", "status": "design",
             "file": f"{name}{_changed(replaced_entries(source))}", "sha256": source.sha256 or "–",
             "checks": verdict(result)}  # fmt: skip
+
+
+def stamp(result: "Result") -> Iterator[Shape]:
+    """Words across a sheet whose design does not pass: nobody is to make it."""
+    if result.status != "pass":
+        words = f"NOT FOR MANUFACTURE: {verdict(result)}"
+        yield Text((BINDING + 6, HIGH - MARGIN - 10), *fitted(words, WIDE - MARGIN - BINDING - 12, 2 * HEIGHT))
 
 
 def _changed(entries: Sequence[str]) -> str:

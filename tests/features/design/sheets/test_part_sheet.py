@@ -61,7 +61,7 @@ def test_the_part_with_the_race_tells_about_it(name: str) -> None:
     assert any(text.startswith("Z (") for text in shown)
     groove = sized.autobalancer.groove_radius_mm
     assert groove is not None
-    assert f"R{round(groove, 2):g} ±0.2" in shown
+    assert f"R{groove:.2f} ±0.20" in shown
 
 
 def test_a_design_without_ring_has_no_sheet_of_one() -> None:
@@ -197,7 +197,7 @@ def test_the_cover_never_stands_out(name: str) -> None:
 
 def test_race_and_seat_of_one_diameter_have_names() -> None:
     shown = texts(next(part_sheets(result("one-piece"), 3)))
-    assert "race Ø62 ±0.1" in shown and "seat Ø62 H6" in shown and "cover seat" in shown
+    assert "race Ø62.00 ±0.10" in shown and "seat Ø62 H6" in shown and "cover seat" in shown
 
 
 def test_a_pressed_cover_is_as_round_as_the_race_and_the_growth_stands_there() -> None:
@@ -206,3 +206,16 @@ def test_a_pressed_cover_is_as_round_as_the_race_and_the_growth_stands_there() -
     form = ("circularity", f"{sized.section.circularity_um / 1000:g}")
     assert frames(body).count(form) == 2 and frames(cover).count(form) == 1
     assert "before the cover is pressed in" in " ".join(texts(body))
+
+
+def test_sheets_of_a_design_that_does_not_pass_say_so() -> None:
+    """Every sheet, of the assembly and of each part; those of a design that passes do not."""
+    good = result("one-piece")
+    failed = replace(good.checks[0], status="fail")
+    for made, stamped in ((good, False), (replace(good, checks=(failed, *good.checks[1:])), True)):
+        assert (made.status != "pass") is stamped
+        sheets = size_sheets(made)
+        assert len(sheets) > 1
+        for sheet in sheets:
+            assert any(text.startswith("NOT FOR MANUFACTURE: ") for text in texts(sheet)) is stamped
+            check_clear(sheet)
