@@ -83,6 +83,7 @@ FIGURES: Final[Mapping[str, tuple[Known, ...]]] = {
         Known("seats-N", "the machine has such a bearing", True),
         Known("levels", "a level is known at a place"),
         Known("speeds", "the machine has a range of speeds at which balls balance"),
+        Known("oil", "the file has [oil]"),
         Known("budget", "something keeps the balls from balancing to nothing"),
         Known("motion", SETTLES),
         Known("settling", SETTLES),

@@ -1,5 +1,6 @@
 """Figures of `abu size`: section and face, levels, candidates, budget, cost of tolerances, formulas."""
 
+import math
 from collections.abc import Iterator
 from typing import Final
 
@@ -34,7 +35,7 @@ SUMS: Final = ("residual_um", "worst_um")
 def size_extras(result: SizeResult) -> Extras:
     """Figures, calculation note and summary of a page; warnings stand in the summary if it has room for all."""
     figures = (
-        *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),
+        *_drawings(result), *_levels(result), *_over_speed(result), *_oil(result), *_budget(result), *_motion(result),
         *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),
     )  # fmt: skip
     section = next(figure.shown for figure in figures if figure.section == SUMMARY)
@@ -119,6 +120,34 @@ def _over_speed(result: SizeResult) -> Iterator[Figure]:
     )
     chart = Plot("Level against speed", text, across, up, (Curve(curve),), points, limit, bands)
     yield Figure("speeds", "vibration-level", chart, caption)
+
+
+def _oil(result: SizeResult) -> Iterator[Figure]:
+    """The drag rate from cold to hot with its uncertainty, and the range of drag rates that the verdict covers."""
+    if result.oil is None:
+        return
+    states = sorted(result.oil.temperatures, key=lambda state: state.temperature_C)
+    ways = (("drag rate", "rolling_drag_per_s", 1), ("its band", "low_per_s", 2), ("its band", "high_per_s", 2))
+    lines = [
+        Curve([(state.temperature_C, math.log10(getattr(state, key))) for state in states], name, series)
+        for name, key, series in ways
+    ]
+    cold, hot = states[0].temperature_C, states[-1].temperature_C
+    band = next((each for each in (result.ensemble.band if result.ensemble else ()) if each.key == DRAG), None)
+    if band is not None:
+        judged = [math.log10(end) for end in (band.low, band.high) if end]
+        lines += [Curve([(cold, end), (hot, end)], "judged between", 3) for end in judged]
+    told = ", ".join(f"{state.temperature_C:g} °C {number(state.rolling_drag_per_s, 3)} 1/s" for state in states)
+    up = Axis.around("power of ten of the drag rate [1/s]", [y for line in lines for _, y in line.points])
+    chart = Plot("Drag of the oil", told, Axis("oil [°C]", cold, hot), up, lines)
+    caption = (
+        "Viscous drag rate of the balls from cold to hot oil. Between the lines of the range judged the verdict holds; "
+        "beyond them it is not tried."
+    )
+    yield Figure("oil", "oil", chart, caption)
+
+
+DRAG: Final = "autobalancer.rolling_drag_per_s"
 
 
 def _measured(result: SizeResult) -> Iterator[MarkedPoint]:

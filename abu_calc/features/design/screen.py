@@ -100,7 +100,7 @@ def _make(result: SizeResult) -> list[str]:
     """Balls and race, housing, run-outs, what it carries; of what no change mends the balls alone."""
     abu, section, split = result.autobalancer, result.section, result.eccentricity
     groove = "" if abu.groove_radius_mm is None else (
-        f", groove R {number(abu.groove_radius_mm, 4)} ± {number(section.groove_tolerance_mm, 1)} mm"
+        f", groove R {abu.groove_radius_mm:.2f} ± {section.groove_tolerance_mm:.2f} mm"
     )  # fmt: skip
     kind = f"{abu.ball_material} {abu.corrector}s"
     arm = next((f", rolling {row.requirement.partition(':')[0]}" for row in result.drawing

@@ -79,7 +79,7 @@ def make(result: SizeResult) -> list[Block]:
     capacity = _required(result)
     groove = abu.groove_radius_mm
     shape = "" if groove is None else (
-        f"groove R {number(groove, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, "
+        f"groove R {groove:.2f} ± {section.groove_tolerance_mm:.2f} mm, "
     )  # fmt: skip
     rows = (
         TableCase("Balls", f"{balls(abu)}{inch(abu)}, {abu.ball_material}"

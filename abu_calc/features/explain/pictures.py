@@ -44,6 +44,16 @@ ORIGIN: Final = (
     "same axes and counts from the wheel's centre to +: [-90, 0, -45] is 90 mm behind the spindle and 45 mm above the "
     "wheel."
 )
+CHAIN: Final = (
+    "from the axis of rotation to the middle of the race, each part at its worst",
+    "",
+    "  axis of rotation                                  middle of the race",
+    "  |-- spindle --|------ fit ------|-- housing --|------ race ------|",
+    "   half the TIR   half the largest   imbalance    half the TIR",
+    "   of its seat    clearance in the   without      of race to bore",
+    "                  bore               balls",
+    "  |<----------------- race_eccentricity_mm ----------------------->|",
+)
 BODY: Final = (STRAIGHT, ANGLE, FACE)
 PICTURES: Final = dict.fromkeys(
     (
@@ -52,6 +62,11 @@ PICTURES: Final = dict.fromkeys(
         "machine.center_of_mass_from_wheel_mm",
         "machine.layout",
     ),
-    BODY,
-)
+    (BODY, ORIGIN),
+) | {
+    "autobalancer.race_eccentricity_mm": (
+        (CHAIN,),
+        "`abu size` says what each part may be, and the drawing asks for it.",
+    )
+}
 """Pictures of the keys that need one."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from abu_calc.features.explain.keys import FileKey, keys_with, machine_keys
-from abu_calc.features.explain.pictures import ORIGIN, PICTURES
+from abu_calc.features.explain.pictures import PICTURES
 from abu_calc.features.explain.steps import STEPS, code_blocks, step_blocks
 from abu_calc.foundation.checks import CHECK_CODES, CONDITIONS
 from abu_calc.foundation.errors import InputError
@@ -98,11 +98,11 @@ def _keys(keys: Sequence[FileKey]) -> Outcome:
     blocks: list[Block] = []
     for key in keys:
         blocks += [Heading(f"{key.header} {key.name}"), Paragraph(key.meaning or "A table of its own.")]
-    drawn = next((PICTURES[key.path] for key in keys if key.path in PICTURES), ())
+    drawn, words = next((PICTURES[key.path] for key in keys if key.path in PICTURES), ((), ""))
     for lines in drawn:
         blocks += [Paragraph(""), Picture(lines, "", indent=2)]
     if drawn:
-        blocks += [Paragraph(""), Paragraph(ORIGIN)]
+        blocks += [Paragraph(""), Paragraph(words)]
     return Outcome("explain", {"keys": {key.path: key.meaning for key in keys}}, tuple(blocks))
 
 
