@@ -4,6 +4,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from abu_calc.foundation.units import to_si
 from abu_calc.inputs.bearing_file import NAME
 from abu_calc.inputs.reading.table import Many, Name, Table, boxed, entry, problem
 
@@ -46,11 +47,9 @@ class Handle(Table):
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """The place [mm] from the centre of mass."""
-        if self.position_mm is not None:
-            x, y, z = self.position_mm
-            return x, y, z
-        return 0.0, 0.0, self.from_center_of_mass_mm or 0.0
+        """The place [m] from the centre of mass."""
+        x, y, z = self.position_mm or (0.0, 0.0, self.from_center_of_mass_mm or 0.0)
+        return to_si(x, "mm"), to_si(y, "mm"), to_si(z, "mm")
 
     @model_validator(mode="after")
     def _has_one_place(self) -> Self:

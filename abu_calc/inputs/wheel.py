@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, Final, Literal, Self, get_args
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import to_si
 from abu_calc.inputs.reading.table import Name, Table, boxed, entry, problem, usual, whole
 from abu_calc.standards.vibration import grade_named
 
@@ -255,8 +256,8 @@ class Wheel(Measured):
 
     @property
     def runout(self) -> float:
-        """Eccentricity of the outer surface [mm], from either key."""
-        return self.runout_mm if self.runout_tir_mm is None else self.runout_tir_mm / 2
+        """Eccentricity of the outer surface [m], from either key."""
+        return to_si(self.runout_mm if self.runout_tir_mm is None else self.runout_tir_mm / 2, "mm")
 
     @property
     def grade(self) -> float | None:

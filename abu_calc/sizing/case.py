@@ -3,7 +3,6 @@
 Elsewhere sizing asks the tables only which of several ways people have chosen.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -193,9 +192,9 @@ def read_case(machine: MachineFile) -> Case:
         suspension=suspension,
         speed=top.speed,
         speed_range=_judged_range(working_speeds(machine), idle),
-        runout=to_si(machine.wheel.runout, "mm"),
+        runout=machine.wheel.runout,
         contact=machine.grinding,
-        handles=tuple(HandlePlace(handle.name, _in_metres(handle.position)) for handle in top.handle),
+        handles=tuple(HandlePlace(handle.name, handle.position) for handle in top.handle),
         race_eccentricity=eccentricity,
         drag=abu.rolling_drag_per_s,
         friction_arm=abu.rolling_friction,
@@ -241,8 +240,8 @@ def _body(machine: MachineFile) -> RigidMachine:
     if top.transverse_inertia_kg_m2 is not None and top.center_of_mass_to_wheel_mm is not None:
         J = top.transverse_inertia_kg_m2
         return RigidMachine(RigidBody(mass, Inertia(J, J, J)), (0.0, 0.0, top.center_of_mass_to_wheel))
-    given = top.center_of_mass_from_wheel_mm
-    wheel = None if given is None else _in_metres(given, -1.0)
+    x, y, z = top.center_of_mass_from_wheel or (0.0, 0.0, 0.0)
+    wheel = None if top.center_of_mass_from_wheel_mm is None else (0.0 - x, 0.0 - y, 0.0 - z)
     if top.inertia_kg_m2 is not None and wheel is not None:
         return RigidMachine(_given_body(machine, mass, *top.inertia_kg_m2), wheel, in_space=True)
     if not top.estimates:
@@ -274,11 +273,6 @@ def _given_body(machine: MachineFile, mass: float, xx: float, yy: float, zz: flo
     except InputError as error:
         raise error.at(Place(key="machine.inertia_kg_m2")) from None
     return RigidBody(mass, inertia, top.rotor_polar_inertia_kg_m2 or 0.0)
-
-
-def _in_metres(position_mm: Sequence[float], sign: float = 1.0) -> Vector:
-    x, y, z = (sign * to_si(value, "mm") if value else 0.0 for value in position_mm)
-    return x, y, z
 
 
 def _suspension(machine: MachineFile, body: RigidMachine) -> SuspensionReaction:

@@ -73,7 +73,7 @@ def test_body_in_space_reads(tmp_path: Path) -> None:
 def test_handle_in_space_and_one_along_the_spindle(tmp_path: Path) -> None:
     handles = '[[machine.handle]]\nname = "a"\nposition_mm = [1, 2, 3]\n[[machine.handle]]\nname = "b"\n'
     first, second = machine(tmp_path, BASIC + handles + "from_center_of_mass_mm = -4\n").machine.handle
-    assert first.position == (1, 2, 3) and second.position == (0, 0, -4)
+    assert first.position == (1e-3, 2e-3, 3e-3) and second.position == (0, 0, -4e-3)
 
 
 @pytest.mark.parametrize(

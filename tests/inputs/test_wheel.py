@@ -22,7 +22,7 @@ def machine(folder: Path, text: str) -> MachineFile:
 def test_runout_from_either_key(tmp_path: Path) -> None:
     gauge = BASIC.replace("diameter_mm = 150.0", "diameter_mm = 150.0\nrunout_tir_mm = 0.08")
     direct = BASIC.replace("diameter_mm = 150.0", "diameter_mm = 150.0\nrunout_mm = 0.04")
-    assert machine(tmp_path, gauge).wheel.runout == machine(tmp_path, direct).wheel.runout == 0.04
+    assert machine(tmp_path, gauge).wheel.runout == machine(tmp_path, direct).wheel.runout == 4e-5
     assert machine(tmp_path, BASIC).wheel.runout == 0
 
 

@@ -249,9 +249,7 @@ def _bearings(table: TwoRaceFile) -> tuple[Bearing, ...]:
 
 def _places(table: TwoRaceFile) -> tuple[LevelPlaceOnSpindle, ...]:
     if table.machine.handle:
-        return tuple(
-            LevelPlaceOnSpindle(handle.name, to_si(handle.position[2], "mm")) for handle in table.machine.handle
-        )
+        return tuple(LevelPlaceOnSpindle(handle.name, handle.position[2]) for handle in table.machine.handle)
     if table.suspension.model == "bearings":
         positions = table.suspension.bearing_positions_mm or ()
         return tuple(LevelPlaceOnSpindle(f"bearing {k}", to_si(z, "mm")) for k, z in enumerate(positions, 1))
@@ -347,7 +345,7 @@ def pressed_wheels(case: SpindleCase) -> tuple[PressedWheel, ...]:
     return tuple(
         PressedWheel(
             index, wheel.name or f"wheel {index + 1}", wheel.plane, wheel.diameter / 2,
-            to_si(wheel.runout, "mm"), wheel.runout_angle, table,
+            wheel.runout, wheel.runout_angle, table,
         )
         for index, wheel in enumerate(case.table.wheel)
     )  # fmt: skip

@@ -109,7 +109,7 @@ def test_two_sources_of_imbalance_set_at_once_are_refused(tmp_path: Path) -> Non
 
 def test_other_keys_that_exclude_each_other(tmp_path: Path) -> None:
     runout = BASIC.replace("diameter_mm = 150.0", "diameter_mm = 150.0\nrunout_mm = 0.04")
-    assert machine(tmp_path, ["wheel.runout_tir_mm=0.1"], runout).wheel.runout == 0.05
+    assert machine(tmp_path, ["wheel.runout_tir_mm=0.1"], runout).wheel.runout == pytest.approx(5e-5)
     assert machine(tmp_path, ["suspension.model=hands"]).suspension.frequencies is None
     stiff = BASIC + "[grinding]\ncontact_stiffness_N_per_m = 1e6\n"
     grinding = machine(tmp_path, ["grinding.contact=rigid"], stiff).grinding

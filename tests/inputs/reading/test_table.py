@@ -41,7 +41,7 @@ def vars_of(limit: object) -> list[tuple[str, float]]:
 
 
 TAKEN = {"Handle.position", "MachineTable.speed_range", "TwoRaceMachineTable.speed_range", "Wheel.runout"}
-"""Properties in the units of their keys, whichever key gives them."""
+"""Properties, whichever key gives them: places and runouts in SI, too, ranges of speed in rpm."""
 
 
 def test_a_quantity_in_si_has_a_name_of_its_own() -> None:
