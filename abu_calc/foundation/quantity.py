@@ -22,7 +22,7 @@ from types import NoneType
 from typing import Any, ClassVar, Final, NamedTuple, Never, Self, TypeVar, dataclass_transform, get_args, get_type_hints
 
 from abu_calc.foundation.rows import Rows, as_rows
-from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit, unit_of
+from abu_calc.foundation.units import SI_PER_UNIT, UNIT_BY_SUFFIX, quantity_and_unit, unit_of
 
 T = TypeVar("T")
 
@@ -96,6 +96,10 @@ def _units(kind: "type[Record]") -> Mapping[str, str]:
         )
         pairs = ((name, note.unit) for name, notes in beside for note in notes if isinstance(note, Quantity))
         _UNITS[kind] = {name: unit for name, unit in pairs if unit}
+        if strange := [unit for unit in _UNITS[kind].values() if unit not in UNIT_BY_SUFFIX]:
+            raise TypeError(
+                f"{kind.__name__}: no conversion of {', '.join(strange)}; abu_calc.foundation.units has all"
+            )
     return _UNITS[kind]
 
 

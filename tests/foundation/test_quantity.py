@@ -4,12 +4,12 @@ import importlib
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import ClassVar, NamedTuple, get_args
+from typing import Annotated, ClassVar, NamedTuple, get_args
 
 import pytest
 
 import abu_calc
-from abu_calc.foundation.quantity import Record, hints, quantities, record
+from abu_calc.foundation.quantity import Quantity, Record, hints, quantities, record
 from abu_calc.simulation.result import Result
 from tests.rows import for_each
 
@@ -107,3 +107,14 @@ def test_a_record_is_read_in_the_units_of_its_fields():
 def test_a_record_that_cannot_be_read_says_why(sources, given, message):
     with pytest.raises(TypeError, match=message):
         Outer.read(*sources, **given)
+
+
+def test_a_unit_that_is_not_known_is_refused() -> None:
+    """Otherwise the number would stand there in SI under the name of another unit."""
+
+    @record
+    class Weight(Record):
+        mass: Annotated[float, Quantity("mass", "M", unit="stone")]
+
+    with pytest.raises(TypeError, match="no conversion of stone"):
+        _ = Weight(mass=5.6).to_dict()
