@@ -9,6 +9,7 @@ import typer
 
 from abu_calc.cli.help import SectionedGroup
 from abu_calc.cli.streams import make_safe
+from abu_calc.cli.watch import Watch
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place
 from abu_calc.foundation.escaping import escaped, escaped_lines, shortened
 from abu_calc.foundation.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
@@ -140,6 +141,8 @@ def run(arguments: list[str]) -> int:
         except Exception:
             raise_pending()
             raise
+    except Watch as watch:
+        return watch.follow(run, arguments)
     except AbuError as error:
         return fail(command, error, as_json)
     except (KeyboardInterrupt, EndedBySignal) as ended:

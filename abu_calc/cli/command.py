@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple, TypeAlias
 
 import typer
 
+from abu_calc.cli import watch
 from abu_calc.cli.help import OUTPUT, HelpAll, SectionedCommand
 from abu_calc.cli.output import Delivery, asked_figures, deliver, write_files
 from abu_calc.cli.progress import progress
@@ -207,6 +208,8 @@ def _shared(name: str, command: Command) -> Iterator[Option]:
     if figures:
         text = f"Also write one figure (.svg, .png or .pdf); repeatable. NAME: {figures}."
         yield Option("figure", list[str], "--figure NAME=FILE", text, OUTPUT)
+    if name in watch.WATCHED:
+        yield Option("watch", bool, watch.OPTION, watch.ABOUT, OUTPUT)
     yield Option("force", bool, "--force", "Overwrite existing files.", OUTPUT)
     yield Option("quiet", bool, "--quiet -q", "Print no report; use the exit status.", OUTPUT)
     yield Option("no_color", bool, "--no-color", "Print without colours, as NO_COLOR does.", OUTPUT)
@@ -232,6 +235,8 @@ def add_command(app: typer.Typer, name: str, command: Command) -> None:
         )  # fmt: skip
         with one_call():
             how.check(name, command.drawn)
+            if given.get("watch"):
+                raise watch.Watch(given, how.outputs, quiet=how.quiet)
             for option, file in command.files(given):
                 check_target(given[option.key], force=how.force, suffixes=(file.suffix,), option=option.name)
             with _naming_options(options), limited(given.get("patience")):

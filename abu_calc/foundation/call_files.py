@@ -14,6 +14,8 @@ from abu_calc.foundation.errors import OutputError, Place
 
 _CALL: Final[ContextVar[list[tuple[Path, bool]] | None]] = ContextVar("files of the call", default=None)
 """Each file of the call, and whether it is written."""
+READ: Final[set[Path]] = set()
+"""Every file that this process has read, whatever the call."""
 _SAME, _READ = "two outputs name the same file", "the command reads the file that it would write"
 
 
@@ -29,6 +31,8 @@ def one_call() -> Iterator[None]:
 
 def enter(path: Path, *, written: bool) -> None:
     """Enter a file; raises OutputError if the call reads it and writes it, or writes it twice."""
+    if not written:
+        READ.add(path)
     call = _CALL.get()
     for other, others in call or ():
         if (written or others) and same_file(path, other):

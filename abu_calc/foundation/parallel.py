@@ -88,7 +88,7 @@ def process_pool(count: int) -> "ProcessPoolExecutor":
     from concurrent.futures import ProcessPoolExecutor  # here, since their imports take as long as some work
     from multiprocessing import get_context
 
-    return ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
+    return ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=begin_worker)
 
 
 @contextmanager
@@ -110,7 +110,7 @@ def end_processes(executor: Executor) -> None:
         process.terminate()
 
 
-def _begin() -> None:
+def begin_worker() -> None:
     """A worker leaves Ctrl-C to the one who started it, and ends when that one does, however."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # The process that began them says once what there is to say of compiled code.

@@ -14,10 +14,10 @@ from abu_calc.features.design.summary import size_summary
 from abu_calc.features.design.tables import balls
 from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.quantity import quantities
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, velocity_from_level
 from abu_calc.reporting.blocks import capitalised, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
-from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, caught, level, settling
+from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, Shown, caught, level, settling
 from abu_calc.reporting.charts.run_up_chart import run_up_chart
 from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.parts import value_of
@@ -25,8 +25,11 @@ from abu_calc.simulation.run_up_amplitude import Course, both_courses
 
 SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
 ROOM: Final = 130.0
-SUMMARY_ROOM: Final = 115.0
+SUMMARY_ROOM: Final = 100.0
 """Room for the outer diameter on paper [mm], in the details and in the summary."""
+BARS_MM: Final = 30.0
+BAR_MM: Final = 7.4
+"""Height of a chart of bars on paper with its caption [mm], and of each bar."""
 PARTS: Final = ("race_eccentricity_um", "rolling_friction_um", "rolling_friction_worst_um", "race_ovality_um",
                 "plane_offset_um", "capacity_shortfall_um", "residual_um", "worst_um")  # fmt: skip
 SUMS: Final = ("residual_um", "worst_um")
@@ -35,13 +38,19 @@ SUMS: Final = ("residual_um", "worst_um")
 def size_extras(result: SizeResult) -> Extras:
     """Figures, calculation note and summary of a page; warnings stand in the summary if it has room for all."""
     figures = (
-        *_drawings(result), *_levels(result), *_over_speed(result), *_oil(result), *_budget(result), *_motion(result),
+        *_levels(result), *_drawings(result), *_over_speed(result), *_oil(result), *_budget(result), *_motion(result),
         *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),
     )  # fmt: skip
-    section = next(figure.shown for figure in figures if figure.section == SUMMARY)
-    summary = size_summary(result, section.size[1] if isinstance(section, Drawing) else 0.0)
+    summary = size_summary(result, sum(_height_mm(figure.shown) for figure in figures if figure.section == SUMMARY))
     held = frozenset({"contents", "make", "levels", *(["warnings"] if summary.whole else [])})
     return Extras(figures, explanation_blocks(result)[1:], summary.blocks, held)
+
+
+def _height_mm(shown: Shown) -> float:
+    """Height of a figure of the summary on paper."""
+    if isinstance(shown, Drawing):
+        return shown.size[1]
+    return BARS_MM + BAR_MM * len(shown.rows) if isinstance(shown, Bars) else 0.0
 
 
 def size_charts(result: SizeResult) -> tuple[Figure, ...]:
@@ -87,19 +96,23 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     )]  # fmt: skip
     if (measured := result.measured_after) is not None:
         rows.append((f"{measured.place}, with: measured", measured.measured_level_db, 3))
-    known = [Bar(name, value, db(value), series) for name, value, series in rows if value is not None]
+    known = [Bar(name, _mm_per_s(level), db(level), series) for name, level, series in rows if level is not None]
     if not known:
         return
-    limit = _limit(result, "ABU401")
-    values = [*(bar.value for bar in known), *([limit[0]] if limit else [])]
-    axis = Axis.around("velocity level, idle [dB]", values)
+    bound = _limit(result, "ABU401")
+    limit = (_mm_per_s(bound[0]), bound[1]) if bound else None
+    most = max(*(bar.value for bar in known), limit[0] if limit else 0.0)
+    axis = Axis("velocity, rms, idle [mm/s]", 0.0, 1.05 * most)
     text = "; ".join(f"{bar.name} {bar.text}" for bar in known) + (f"; {limit[1]}" if limit else "")
-    caption = "Velocity level at each place, idle, at the rated speed, dB re 5e-8 m/s rms."
-    where = f", {vibration.place}," if beside else ""
-    caption += f" The expected level (circle){where} should stand left of the dashed limit." if limit else ""
-    yield Figure(
-        "levels", "vibration-level", Bars("Levels without and with the autobalancer", text, axis, known, limit), caption
-    )
+    caption = "Vibration at each place, idle, at the rated speed. Beside the bars: level in dB re 5e-8 m/s rms."
+    where = f" at the {vibration.place}" if beside else ""
+    caption += f" The expected bar{where} should end left of the dashed limit." if limit else ""
+    chart = Bars("Vibration without and with the autobalancer", text, axis, known, limit)
+    yield Figure("levels", SUMMARY, chart, caption)
+
+
+def _mm_per_s(level: float) -> float:
+    return from_si(velocity_from_level(level), "mm_per_s")
 
 
 def _over_speed(result: SizeResult) -> Iterator[Figure]:

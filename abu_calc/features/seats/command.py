@@ -189,6 +189,6 @@ COMMAND = Command(
         *("--cutting-force", "--normal-to-cutting", "--bearings-sharing", "--mounting-clearance"),
         *("--ring-bore-limits", "--ring-outer-limits", "--bearing-type", "--explain"),
         *("--seat-friction", "--short-pairs-warn", "--short-pairs-fail", "--figure", "--force", "--quiet"),
-        "--no-color",
+        *("--no-color", "--watch", "--json"),
     ),
 )

@@ -21,6 +21,7 @@ LAST: Final = frozenset({"conventions", "defaults"})
 SOURCE: Final = "provenance"
 """Id of the section whose blocks stand below `REPEAT`."""
 REPEAT: Final = "Origin of this page"
+NOTE: Final = "Calculation note"
 MAIN: Final = '<main id="main" tabindex="-1">'
 SAFE: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 """Security policy of the page: it never asks a network, not even by mistake."""
@@ -39,7 +40,7 @@ def page(outcome: "Outcome") -> str:
     drawn = [*above, *(illustration for part in front for illustration in figures_of(part, extras.figures))]
     rest = tuple(illustration for illustration in extras.figures if illustration not in drawn)
     named = [_heading(part) for part in front]
-    named += ["Figures"] * bool(rest) + ["Calculation note"] * bool(extras.note)
+    named += ["Figures"] * bool(rest) + [NOTE] * bool(extras.note)
     named += [_heading(part) for part in back] + [REPEAT]
     contents = _contents(named)
     if extras.summary:
@@ -60,7 +61,7 @@ def page(outcome: "Outcome") -> str:
         chain.from_iterable(elements(_below(part), REPEAT) for part in source),
         ("</section>", "</main>"),
     )
-    return _framed(f"{verdict_word(outcome.status, outcome.checks)}: {title}", body)
+    return framed(f"{verdict_word(outcome.status, outcome.checks)}: {title}", body)
 
 
 def _for_reader(part: Sequence[Block]) -> Sequence[Block]:
@@ -81,7 +82,8 @@ def _summary(title: str, blocks: Sequence[Block], figures: Sequence[Figure]) -> 
     yield "</header>"
 
 
-def _framed(title: str, body: Iterable[str]) -> str:
+def framed(title: str, body: Iterable[str]) -> str:
+    """A whole page with its style."""
     lines = (
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',
@@ -114,13 +116,15 @@ def figures_of(part: Sequence[Block], figures: Sequence[Figure]) -> list[Figure]
 
 
 def _note(blocks: Sequence[Block]) -> Iterator[str]:
+    """Formulas behind their heading, which opens them; on paper they are left out."""
     if blocks:
-        yield f'{_opened("Calculation note")}<div class="note">'
+        opened = _opened(NOTE).replace("<h2>", '<details class="note"><summary><h2>')
+        yield f"{opened}</summary>"
         yield paragraph(
             "Each step with the numbers of this result put in (→), then what its formulas say of themselves."
         )
-        yield from elements(blocks, "Calculation note", 3)
-        yield "</div></section>"
+        yield from elements(blocks, NOTE, 3)
+        yield "</details></section>"
 
 
 def _repeat(outcome: "Outcome") -> Iterator[str]:

@@ -5,6 +5,7 @@ A motion is a canvas with a player: button, slider, pace; keys on the canvas too
 
 import re
 from collections.abc import Iterable, Iterator
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
@@ -22,8 +23,12 @@ if TYPE_CHECKING:
 
 WIDEST: Final = 92
 """Letters that stand side by side on paper."""
+COLUMN: Final = 48
+"""Letters of words, cells aside, that stand side by side in half of it."""
 POINT: Final = "! "
 """Beginning of a warning in a terminal; on a page it is a point of a list."""
+KEY: Final = re.compile(r"\b([a-z_]{4,})\.(?=[a-z_]{4})")
+"""Table of a key, with its dot."""
 CODE = re.compile(r"`([^`]+)`")
 
 
@@ -76,7 +81,15 @@ def _grid(grid: Grid, title: str) -> str:
         "".join(f"<td{_kind(cell) or kind}>{_cell(cell)}</td>" for cell, kind in zip(row, kinds, strict=False))
         for row in grid.rows
     )
-    return _table(title, head + "<tbody>\n" + "".join(f"<tr>{row}</tr>\n" for row in rows) + "</tbody>")
+    least = sum(
+        max(len(word) for cell in column for word in [*cell.replace(".", " ").split(), ""]) for column in _columns(grid)
+    )
+    body = head + "<tbody>\n" + "".join(f"<tr>{row}</tr>\n" for row in rows) + "</tbody>"
+    return _table(title, body, "broad" if least > COLUMN else "")
+
+
+def _columns(grid: Grid) -> Iterable[tuple[str, ...]]:
+    return zip_longest(grid.header, *grid.rows, fillvalue="")
 
 
 def _coded(words: str) -> str:
@@ -89,7 +102,8 @@ def _tied(words: str) -> str:
 
 
 def _cell(words: str) -> str:
-    return text(_tied(words))
+    """Text of a cell; a key may be broken behind its table."""
+    return KEY.sub(r"\1.<wbr>", text(_tied(words)))
 
 
 def _kind(cell: str) -> str:
@@ -102,7 +116,7 @@ def _table(title: str, rows: str, kind: str = "") -> str:
     """A table in a place of its own, which scrolls, by keys too, where the page is narrower."""
     named = f' class="{kind}"' if kind else ""
     return (
-        f'<div class="wide" tabindex="0" role="region" aria-label="{text(title)}">'
+        f'<div class="wide{" broad" * (kind == "broad")}" tabindex="0" role="region" aria-label="{text(title)}">'
         f"<table{named}>\n{rows}\n</table></div>"
     )
 
@@ -150,7 +164,7 @@ def _rounded(values: "Array", digits: int) -> list[float]:
 
 PIXELS: Final = 3.78
 """Pixels of a screen per millimetre."""
-READABLE: Final = 2.5
+READABLE: Final = 2.14
 """Pixels for a millimetre below which writing is too small."""
 NAMESPACE: Final = ' xmlns="http://www.w3.org/2000/svg"'
 """Elements inside a page need none."""

@@ -79,6 +79,7 @@ class Browser:
         self._ask("Page.navigate", url=file.as_uri())
         self._settled("document.readyState === 'complete' && location.protocol === 'file:' && !window.former")
         self.value(SCRIPTS.read_text("utf-8"))
+        self.value("document.querySelectorAll('details').forEach((each) => { each.open = true; })")
 
     def seen(self, width: int, *, dark: bool = False, paper: bool = False) -> None:
         """From now on so many pixels wide, in a theme, or as on paper."""

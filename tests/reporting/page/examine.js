@@ -4,7 +4,7 @@ var examine = {
     const found = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     while (walk.nextNode()) {
       const node = walk.currentNode, owner = node.parentElement;
-      if (!node.data.trim() || owner.closest("script, style, title, desc, option, .skip")) continue;
+      if (!node.data.trim() || owner.closest("script, style, title, desc, option, .skip, details:not([open]) > :not(summary)")) continue;
       if (getComputedStyle(owner).visibility !== "visible") continue;
       const range = document.createRange();
       range.selectNodeContents(node);

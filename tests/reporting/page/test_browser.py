@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from tests.cli.runner import again
 from tests.reporting.page.browser import FOUND, Browser, BrowserUnavailableError
 from tests.reporting.page.pages import COMMANDS
 
@@ -54,7 +55,7 @@ def test_no_writing_overlaps_or_is_cut(name: str, written: Any, browser: Browser
         for what in ("overlaps", "cut"):
             assert browser.value(f"examine.{what}()") == [], (what, width, paper)
     browser.seen(360)
-    assert browser.value("examine.small(8)") == []
+    assert browser.value("examine.small(7)") == []
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -75,6 +76,22 @@ def test_paper_has_pages_of_a4(name: str, written: Any, browser: Browser) -> Non
     pdf = browser.pdf()
     assert pdf.count(b"/Type /Page\n") >= 5
     assert b"/MediaBox [0 0 594.95996 841.91998]" in pdf or b"/MediaBox [0 0 595" in pdf
+
+
+@pytest.mark.parametrize("preset", ["avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230"])
+def test_page_of_a_factory_machine_takes_six_sheets_and_fits_a_telephone(
+    preset: str, tmp_path: Path, browser: Browser
+) -> None:
+    """Formulas are closed at first; bars without and with the autobalancer are the first picture."""
+    file = tmp_path / "page.html"
+    assert again("size", preset, "--output", str(file), "--quiet").status in (0, 1)
+    browser.load(file)
+    assert 3 <= browser.pdf().count(b"/Type /Page\n") <= 6
+    browser.seen(390)
+    assert browser.value("examine.cut()") == []
+    wide = "[...document.querySelectorAll('.wide')].filter((each) => each.scrollWidth > each.clientWidth + 1)"
+    assert browser.value(f"{wide}.map((each) => each.ariaLabel)") == []
+    assert browser.value("document.querySelector('svg title').textContent").startswith("Vibration without and with")
 
 
 @pytest.mark.parametrize("name", ["size", "arm-size"])
