@@ -164,7 +164,7 @@ def _rounded(values: "Array", digits: int) -> list[float]:
 
 PIXELS: Final = 3.78
 """Pixels of a screen per millimetre."""
-READABLE: Final = 2.14
+READABLE: Final = 2.11
 """Pixels for a millimetre below which writing is too small."""
 NAMESPACE: Final = ' xmlns="http://www.w3.org/2000/svg"'
 """Elements inside a page need none."""

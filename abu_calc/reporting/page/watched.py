@@ -117,7 +117,7 @@ def changes(before: Shown, now: Shown) -> str:
     earlier = before.named
     pairs = [(earlier[key], check) for key, check in now.named.items() if key in earlier]
     moved = [(old, new) for old, new in pairs if old["status"] != new["status"] or _value(old) != _value(new)]
-    moved.sort(key=lambda pair: (pair[0]["status"] == pair[1]["status"], pair[1]["code"] not in MAIN_CHECKS))
+    moved.sort(key=lambda pair: (pair[0]["status"] == pair[1]["status"], _rank(pair[1]["code"])))
     told = "; ".join(_change(old, new) for old, new in moved[:MOST_CHANGES])
     more = len(moved) - MOST_CHANGES
     return (
@@ -125,6 +125,10 @@ def changes(before: Shown, now: Shown) -> str:
         if moved
         else "Every check has the same grade and number."
     )
+
+
+def _rank(code: str) -> int:
+    return MAIN_CHECKS.index(code) if code in MAIN_CHECKS else len(MAIN_CHECKS)
 
 
 def _change(old: dict[str, Any], new: dict[str, Any]) -> str:
