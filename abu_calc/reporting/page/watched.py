@@ -110,7 +110,7 @@ def changes(before: Shown, now: Shown) -> str:
     """Checks whose grades or numbers have changed, in a line: grades first, then the main numbers.
 
     >>> def shown(level: float, grade: str) -> Shown:
-    ...     return Shown("", "", [{"code": "ABU401", "name": "level", "status": grade, "value": level, "unit": "dB"}])
+    ...     return Shown("", "", [{"code": "…", "name": "level", "status": grade, "value": level, "unit": "dB"}])
     >>> changes(shown(110.25, "fail"), shown(100.5, "pass"))
     'Changed: level 110.2 → 100.5 dB, FAIL → PASS.'
     """
