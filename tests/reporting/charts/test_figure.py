@@ -28,7 +28,7 @@ from tests.reporting.page.sized import sized
 pytest.importorskip("matplotlib")
 
 NAMES = (
-    *("section", "face", "levels", "speeds", "budget", "motion", "settling", "level", "level-loaded", "run-up"),
+    *("levels", "section", "face", "speeds", "budget", "motion", "settling", "level", "level-loaded", "run-up"),
     *("run-up-amplitude", "candidates", "costs"),
 )
 SVG = "{http://www.w3.org/2000/svg}"
