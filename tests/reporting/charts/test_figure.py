@@ -61,7 +61,9 @@ def test_size_has_these_figures_and_the_help_knows_them() -> None:
     assert sized().figures == NAMES
     told = " ".join(abu("size", "--help").out.split())
     assert all(one.name in told for one in FIGURES["size"])
-    assert {known("size", name).name for name in (*NAMES, "arm", "seats-12")} == {one.name for one in FIGURES["size"]}
+    assert {known("size", name).name for name in (*NAMES, "arm", "oil", "seats-12")} == {
+        one.name for one in FIGURES["size"]
+    }
 
 
 @pytest.mark.few(2)
