@@ -344,6 +344,8 @@ def _seat(
     creep_result = creep(joint, *start)
     recommended = own.best.tolerance_class if own.best else None
     selection, groups = _sorting(joint, asked)
+    if bearing.asked_interference is None and selection is None:
+        asked = None  # nobody asked for what no sorting reaches
     rule = rule_class(joint, start)
     wanted = recommended or joint.tolerance_class
     maker, male_and_female = joint.maker, joint.male_and_female
