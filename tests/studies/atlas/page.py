@@ -59,7 +59,8 @@ def _opening() -> Iterator[str]:
     yield _wrapped(
         "For a designer: far above the resonance and with enough drag, nearly every start ends balanced. Near the "
         "resonance, with a rough race or very thin oil, some do not, however the balls are chosen. The charts show "
-        "where that line runs, for machines of any size. Your own machine needs none of them: `abu size` runs its own starts."
+        "where that line runs, for machines of any size. Your own machine needs none of them: `abu size` runs "
+        "its own starts."
     )
     yield _wrapped(
         "Charts over dimensionless numbers. Each cell is a command, and each number has its interval in a CSV file "
