@@ -133,8 +133,10 @@ def awaited(condition: Callable[[], object]) -> None:
 @contextmanager
 def watching(*words: str, folder: Path) -> Iterator[subprocess.Popen[str]]:
     """A session, ended at the latest with the test."""
+    # What runs in the background may have the signal ignored, and its children with it.
+    heed = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
     process = subprocess.Popen(
-        [sys.executable, "-m", "abu_calc", *words, "--watch"],
+        [sys.executable, "-c", f"{heed}from abu_calc.cli.start import main; main()", *words, "--watch"],
         cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ | {"PYTHONUTF8": "1"},
     )  # fmt: skip
     try:
