@@ -63,7 +63,7 @@ def timing(table: Lines, columns: Sequence[RecordingColumn], asked: RecordingOpt
         per_unit, rows = rate_of(table, *column, remarks)
         rate = per_unit / _unit(table, *column, per_unit, rates, remarks)
         for other, line in rates.items():
-            if abs(rate / other - 1) > AGREES and "equested" not in "".join(remarks):
+            if abs(rate / other - 1) > AGREES:
                 remarks.append(f"The times tell {rate:.4g} samples a second, line {line} {other:g}: the times count.")
         return Timing(rate, column[0], rows)
     if len(rates) != 1:

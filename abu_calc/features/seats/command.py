@@ -76,7 +76,7 @@ OPTIONS: Final = (
     Option("housing_split", bool, "--housing-split", "The housing is split in two halves.", PARTS),
     Option("internal_clearance", str, "--internal-clearance GROUP", "C2, CN, C3, C4 or C5.", THERMAL),
     Option("temperature_rise_K", float, "--temperature-rise K", "Bearing warmer than at mounting.", THERMAL),
-    Option("temperature_range_K", str, "--temperature-range LOW:HIGH", "Lowest and highest above mounting.", THERMAL),
+    Option("temperature_range_K", str, "--temperature-range LOW:HIGH", "Lowest, highest: K above mounting.", THERMAL),
     Option(
         "ring_temperature_difference_K",
         float,

@@ -1,10 +1,8 @@
 """The report of `abu check-fit`, on one screen and whole: advice, both seats, zones, losses, sorting.
 
-The one screen says first what to specify, then gives each seat a line. The zones of both seats are drawn as textbooks
-do, in plain characters that every console has.
+The one screen says first what to specify, then gives each seat a line.
 """
 
-import math
 from collections.abc import Iterator, Sequence
 from typing import Final, TypeAlias
 
@@ -14,6 +12,7 @@ from abu_calc.features.seats.interference import Pair, of_all, um_pair
 from abu_calc.features.seats.joints import ROOM, assumes_warmth
 from abu_calc.features.seats.seats import BearingSeats, SeatResult
 from abu_calc.features.seats.study import CheckFitResult
+from abu_calc.features.seats.zones import legend, zone_lines
 from abu_calc.foundation.escaping import shortened
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import unit_of
@@ -223,61 +222,6 @@ def _span(interval: tuple[float, float]) -> str:
     return " … ".join(f"{round(each, 2):g}" for each in interval)
 
 
-ROWS_WANTED: Final = 14
-STEPS: Final = (1, 2, 5, 10, 20, 50, 100, 200, 500)
-RING, PART = "/", "#"
-WIDTH: Final = 26
-"""Columns of one seat: with the scale both take 60."""
-
-
-def zone_lines(shaft: SeatResult, housing: SeatResult) -> list[str]:
-    """Zero line, ring zone and part zone of both seats over one scale in µm; a row is a step of the scale."""
-    seats = [(each.ring_limits_um, each.part_limits_um, each.fit) for each in (shaft, housing)]
-    deviations = [0.0, *(limit for ring, part, _ in seats for limit in (*ring, *part))]
-    low, high = min(deviations), max(deviations)
-    step = next((division for division in STEPS if (high - low) / division <= ROWS_WANTED), STEPS[-1])
-    top, bottom = math.ceil(high / step), math.floor(low / step)
-    lines = [f"{'um':>5} |{'shaft':^{WIDTH}}{'housing':^{WIDTH}}".rstrip()]
-    for row in range(top - 1, bottom - 1, -1):
-        cells = "".join(_zone_cell(row, step, *seat) for seat in seats)
-        label = row + 1 if row >= 0 else row
-        lines.append(f"{label * step:+5} |{cells}".rstrip())
-        if row == 0 or (row == top - 1 and top == 0):
-            lines.append(f"{0:5} +{'-' * (2 * WIDTH - 2)}")
-    if top == 0:
-        lines.insert(1, lines.pop(2))
-    return lines
-
-
-def legend() -> str:
-    """Legend of the characters."""
-    return (
-        f"{RING * 3} zone of the ring, {PART * 3} zone of the shaft or housing, --- zero line (nominal size); "
-        "deviations in µm, upper limit above, lower below. Interference: the shaft zone is above its ring zone, the "
-        "housing zone below."
-    )
-
-
-def _zone_cell(row: int, step: int, ring: Pair, part: Pair, fit: str) -> str:
-    """One row of one seat: both zones side by side, each with its limits and its name."""
-    return f"  {_zone(row, step, ring, RING, 'ring')}{_zone(row, step, part, PART, fit)}".ljust(WIDTH)
-
-
-def _zone(row: int, step: int, limits: Pair, mark: str, name: str) -> str:
-    lower, upper = limits
-    rows = [
-        tick for tick in range(math.floor(lower / step), math.ceil(upper / step)) if lower < (tick + 0.5) * step < upper
-    ]
-    rows = rows or [math.floor((lower + upper) / 2 / step)]
-    bar = mark * 5
-    if len(rows) > 2 and row == rows[len(rows) // 2]:
-        bar = name[:5].center(5, mark)
-    limit = f"{upper:+g}" if row == rows[-1] else f"{lower:+g}" if row == rows[0] else ""
-    if len(rows) == 1:
-        limit = f"{lower:+g}{upper:+g}"
-    return f"{bar if row in rows else '':5} {limit if row in rows else '':6}"
-
-
 SIGN: Final = (
     "Interference in µm, loosest to tightest pair; negative: clearance. A ring whose load is fixed in direction "
     "requires none."
@@ -384,14 +328,15 @@ def _told_of(judged: BearingSeats, names: Sequence[str]) -> str:
     cold, hot = {seat.joint.coldest.rise for seat in seats}, {seat.joint.hottest.rise for seat in seats}
     if None in hot:
         return "Hot: with the temperature differences given."
-    low, high = (ROOM + (end or 0.0) for end in (min(cold), max(hot)))  # type: ignore[type-var]
-    assumed = ", assumed: --temperature-range" if assumes_warmth(judged.bearing) else ""
-    shown = {"cold": f"{low:g} °C", "hot": f"{high:g} °C{assumed}"}
+    low, high = (end or 0.0 for end in (min(cold), max(hot)))  # type: ignore[type-var]
+    warmth = f", assumed: --temperature-range {low:g}:{high:g}, in K above {ROOM:g} °C"
+    assumed = warmth if assumes_warmth(judged.bearing) else ""
+    shown = {"cold": f"{ROOM + low:g} °C", "hot": f"{ROOM + high:g} °C{assumed}"}
     alike = [f"{name} ({text})" for name, text in shown.items() if name not in names]
     apart = [f"{name} is {text}" for name, text in shown.items() if name in names]
     verb = "are" if len(alike) > 1 else "is"
-    lines = [f"{' and '.join(alike)} {verb} as mounted", ", ".join(apart)]
-    return " ".join(f"{capitalised(line)}." for line in lines[not alike : 1 + bool(apart)])
+    sentences = ([f"{' and '.join(alike)} {verb} as mounted"] if alike else []) + ([", ".join(apart)] if apart else [])
+    return " ".join(f"{capitalised(sentence)}." for sentence in sentences)
 
 
 def mounting_lines(pair: Seats, *, named: bool) -> list[Block]:
