@@ -414,6 +414,12 @@ def _no_class(joint: Joint, recommended: str | None) -> str | None:
         return "A split housing cannot hold a ring whose load turns round it. Specify a one-piece housing."
     if joint.diameter < _SMALL and joint.must_grip:
         return "A class that holds so small a ring overstresses it. Specify h5 and bond the ring."
+    if joint.light_alloy and joint.loss_by_warmth > 0:
+        gap = _um(joint.loss_by_warmth - joint.interference.smallest)
+        return (
+            "No tabulated class both holds the ring hot and is permitted. Specify a housing of steel: warmth then "
+            f"takes nothing from its seat. Or hold the ring by adhesive: the gap is up to {gap:.3g} µm hot."
+        )
     if joint.maker is not None and joint.catalogue_class is None:
         wall = "shaft with a smaller bore" if joint.seat == "shaft" else "housing with a thicker wall, or of steel"
         return f"No tabulated class both holds the ring and is permitted. Specify a {wall}."

@@ -329,8 +329,12 @@ class Joint:
     @property
     def counted_losses(self) -> float:
         """Losses [m] that the interference must cover: those given, the thermal one of the loosest case."""
-        others = sum(loss.amount for loss in self.losses if loss.name != TEMPERATURE)
-        return others + (0.0 if self._row_is_for_warmth else max(0.0, *(case.loss for case in self.thermal_cases)))
+        return self.loss_by_warmth + sum(loss.amount for loss in self.losses if loss.name != TEMPERATURE)
+
+    @property
+    def loss_by_warmth(self) -> float:
+        """Loss [m] in the loosest case of the temperatures given; a catalogue's row includes the usual ones."""
+        return 0.0 if self._row_is_for_warmth else max(0.0, *(case.loss for case in self.thermal_cases))
 
     @property
     def _row_is_for_warmth(self) -> bool:
@@ -492,10 +496,13 @@ class Joint:
     def grip(self) -> Grade:
         """Grade of the interference: pass by the loosest pair, warn by the mean, else fail; not-done without a load.
 
-        The catalogue's own class passes as long as few pairs are short of what it gives: the maker specifies it so.
+        The catalogue's own class passes as long as few pairs are short of what it gives: the maker specifies it so. A
+        ring that turns against its load and is loose in most pairs at a temperature given holds no load at all.
         """
         if not self.must_grip:
             return "pass"
+        if self.ring.load == "rotating" and self.mean < self.loss_by_warmth:
+            return "fail"
         if self.required is None:
             return "not-done"
         if self.loosens_hot:

@@ -329,13 +329,13 @@ def _told_of(judged: BearingSeats, names: Sequence[str]) -> str:
     if None in hot:
         return "Hot: with the temperature differences given."
     low, high = (end or 0.0 for end in (min(cold), max(hot)))  # type: ignore[type-var]
-    warmth = f", assumed: --temperature-range {low:g}:{high:g}, in K above {ROOM:g} °C"
-    assumed = warmth if assumes_warmth(judged.bearing) else ""
-    shown = {"cold": f"{ROOM + low:g} °C", "hot": f"{ROOM + high:g} °C{assumed}"}
+    assumed = f"both are assumed: --temperature-range {low:g}:{high:g}, in K above {ROOM:g} °C"
+    shown = {"cold": f"{ROOM + low:g} °C", "hot": f"{ROOM + high:g} °C"}
     alike = [f"{name} ({text})" for name, text in shown.items() if name not in names]
     apart = [f"{name} is {text}" for name, text in shown.items() if name in names]
     verb = "are" if len(alike) > 1 else "is"
     sentences = ([f"{' and '.join(alike)} {verb} as mounted"] if alike else []) + ([", ".join(apart)] if apart else [])
+    sentences += [assumed] if assumes_warmth(judged.bearing) else []
     return " ".join(f"{capitalised(sentence)}." for sentence in sentences)
 
 

@@ -66,8 +66,10 @@ def test_without_a_load_a_normal_one_is_judged_and_told() -> None:
     found = seat_bearing(by_designation("6205", radial_load_kN=None, shaft_fit=None, housing_fit=None))
     assert found.shaft.checks[0].status == "pass" and found.shaft.recommended_fit == "k5"
     assert "kN (normal, assumed)" in found.shaft.checks[0].message
+    light = seat_bearing(by_designation("6205", radial_load_kN=None, shaft_fit="h5", housing_fit=None)).shaft
+    assert light.checks[0].status == "warn"  # an assumed load never fails a class
     loose = seat_bearing(by_designation("6205", radial_load_kN=None, shaft_fit="g6", housing_fit=None)).shaft
-    assert loose.checks[0].status == "warn"  # an assumed load never fails a class
+    assert loose.checks[0].status == "fail"  # most pairs are loose: no load is held
     assert found.housing.checks[0].status == "pass" and found.housing.recommended_fit == "H7"
 
 
@@ -79,6 +81,17 @@ def test_cn_warns_with_the_share_unless_most_have_none_left(shaft: str, housing:
     check = found.checks[-1]
     assert (check.code, check.status) == ("ABU621", status) and "have none left" in check.message
     assert (found.clearance.below_zero_probability >= 0.5) == (status == "fail")
+
+
+def test_a_light_alloy_that_lets_a_rotating_load_go_fails_also_without_a_load_and_names_what_helps() -> None:
+    turning = {
+        "radial_load_kN": None, "inner_ring_load": "stationary", "outer_ring_load": "rotating", "shaft_fit": None,
+        "temperature_range_K": [0.0, 80.0], "housing_material": "aluminium",
+    }  # fmt: skip
+    check = seat_bearing(by_designation("6310", **turning, housing_fit="N7")).housing.checks[0]
+    assert check.status == "fail" and "a housing of steel" in (check.remedy or "")
+    steel = seat_bearing(by_designation("6310", **{**turning, "housing_material": "steel"}, housing_fit=None)).housing
+    assert steel.checks[0].status == "pass" and steel.recommended_fit is not None
 
 
 def test_start_is_checked_only_where_a_torque_is_given_and_a_ring_must_grip() -> None:
