@@ -120,6 +120,15 @@ def from_si(value: float, unit: str) -> float:
     return value / SI_PER_UNIT[unit]
 
 
+def shown(value: float, unit: str, style: str = ".3g") -> str:
+    """An SI value in `unit` with the unit's sign, as sentences have it.
+
+    >>> shown(15.4e-6, "um"), shown(607.37461, "rpm", ".6g"), shown(0.0231, "mm", ".2f")
+    ('15.4 µm', '5800 rpm', '23.10 mm')
+    """
+    return f"{from_si(value, unit):{style}} {SYMBOLS.get(unit, unit)}"
+
+
 def level_from_velocity(velocity_rms: float) -> float:
     """Velocity level L = 20 lg(v/5e-8) [dB] of an rms velocity [m/s]; v > 0.
 
