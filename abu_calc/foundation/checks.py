@@ -1,7 +1,7 @@
 """Checks of a design and the status of several, with the meaning of each check code.
 
-A code has its question, a condition for each grade and its action; `abu explain ABU203` shows them. The texts are in
-check_data/, one file for each hundred, read when one of its codes is first requested.
+A code has its question, a condition for each grade, its action, its unit and its bound; `abu explain CODE` shows the
+texts. They are in check_data/, one file for each hundred, read when one of its codes is first requested.
 """
 
 import tomllib
@@ -10,9 +10,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import EllipsisType
 from typing import Final, Literal, NamedTuple
 
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import SI_PER_UNIT, SYMBOLS, from_si
 
 _DATA: Final = Path(__file__).parent / "check_data"
 
@@ -32,6 +34,10 @@ HUNDREDS: Final = {
 """The file of each hundred, by what stands before the last two digits of its codes."""
 
 
+Bound = Literal["most", "least"]
+"""Whether a limit is the most or the least that a value may be."""
+
+
 @dataclass(frozen=True)
 class CheckCode:
     """One kind of check: its code, its name, its question, the condition of each grade that it can get, its action.
@@ -43,6 +49,13 @@ class CheckCode:
     name: str
     question: str
     action: str
+    key: str = ""
+    """The word by which a check of this kind is looked up, if it ever is."""
+    unit: str | None = None
+    """Unit of value and limit for readers: a suffix of units.py, or a word if they are no SI numbers; None: no unit."""
+    bound: Bound = "most"
+    follows: tuple[str, ...] = ()
+    """Keys of the kinds with which this one fails: one fault counts once."""
     fault: str = ""
     """What is wrong where it is not passed, in a few words; empty: the name says it."""
     pass_if: str = ""
@@ -68,15 +81,16 @@ def _hundred(file: str) -> dict[str, CheckCode]:
             codes[code] = replace(codes[table["as"]], code=code, name=table["name"])
         else:
             conditions = {f"{grade}_if": table.pop(grade, "") for grade in CONDITIONS}
-            codes[code] = CheckCode(code, **table | conditions | {"formulas": tuple(table.get("formulas", ()))})
+            lists = {name: tuple(table.get(name, ())) for name in ("formulas", "follows")}
+            codes[code] = CheckCode(code, **table | conditions | lists)
     return codes
 
 
 def number_of(code: str) -> int:
     """Number of a code, by which checks are ordered.
 
-    >>> sorted(["ABU1001", "ABU201"], key=number_of)
-    ['ABU201', 'ABU1001']
+    >>> number_of("ABU1001")
+    1001
     """
     return int(code.removeprefix("ABU"))
 
@@ -134,7 +148,7 @@ class Check:
     limit: float | None = None
     unit: str | None = None
     remedy: str | None = None
-    bound: Literal["most", "least"] = "most"
+    bound: Bound = "most"
     overrides: tuple[str, ...] = ()
     """Entries of the file that the action replaces, such as "machine.mass_kg=5.6"; `--set` takes each."""
 
@@ -144,6 +158,16 @@ class Check:
         numbers += [f"limit {self.limit:.5g}{unit}"] if self.limit is not None else []
         within = f" ({', '.join(numbers)})" if numbers else ""
         return f"<Check {self.code} {WORDS[self.status]}: {self.name}{within}>"
+
+    @property
+    def kind(self) -> CheckCode:
+        """The kind of its code."""
+        return CHECK_CODES[self.code]
+
+    @property
+    def key(self) -> str:
+        """The key of its kind."""
+        return self.kind.key
 
     @property
     def requested(self) -> bool:
@@ -174,32 +198,51 @@ def parts_of(action: Action | str | None) -> tuple[str | None, tuple[str, ...]]:
 
 
 class Finding(NamedTuple):
-    """What is found of a requirement, before the check with its code is made of it."""
+    """What is found of a requirement, in SI, before the check with its code is made of it."""
 
     status: Grade
     message: str
     value: float | None = None
     limit: float | None = None
-    unit: str | None = None
     action: Action | str | None = None
 
 
 def coded(
-    code: str, status: Grade, message: str, value: float | None = None, limit: float | None = None,
-    unit: str | None = None, remedy: Action | str | None = None, bound: Literal["most", "least"] = "most", *,
-    of: str = "", requested: bool = True,
+    code: str, status: Grade, message: str, value: float | EllipsisType | None = ..., limit: float | None = None,
+    remedy: Action | str | None = None, *, of: str = "", unit: str | None = None, bound: Bound | None = None,
+    requested: bool = True,
 ) -> Check:  # fmt: skip
-    """A check by its code, whose name stands in the table of codes; `of` names the one of several that it is of.
+    """A check by its code, with value and limit in SI; name, unit and bound are those of its kind in check_data/.
+
+    `value`: None if it is not known; without one the check has no number at all. `of`: the one of several things that
+    it is of. `unit` and `bound`: for the few kinds with several.
 
     >>> coded("ABU621", "pass", "…", of="6203").name
     'clearance left in the bearing, 6203'
+    >>> coded("ABU202", "pass", "…", 15.4e-6, 20e-6)
+    <Check ABU202 PASS: residual-displacement budget (15.4 µm, limit 20 µm)>
     """
-    name = CHECK_CODES[code].name
+    kind = CHECK_CODES[code]
     text, overrides = parts_of(remedy)
-    titled = f"{name}, {of}" if of else name
-    if not requested:
-        return OptionalCheck(code, titled, status, f"{message} (optional)", value, limit, unit, text, bound, overrides)
-    return Check(code, titled, status, message, value, limit, unit, text, bound, overrides)
+    unit = None if value is ... else unit or kind.unit
+    made = Check if requested else OptionalCheck
+    return made(
+        code, f"{kind.name}, {of}" if of else kind.name, status, message if requested else f"{message} (optional)",
+        _for_readers(value, unit), _for_readers(limit, unit), unit and SYMBOLS.get(unit, unit), text,
+        bound or kind.bound, overrides,
+    )  # fmt: skip
+
+
+def _for_readers(value: float | EllipsisType | None, unit: str | None) -> float | None:
+    """An SI number in a unit; unchanged if the unit is no SI one."""
+    if value is None or isinstance(value, EllipsisType):
+        return None
+    return from_si(value, unit) if unit in SI_PER_UNIT else value
+
+
+def first_of(checks: Iterable[Check], key: str) -> Check | None:
+    """The first check of the kind with this key."""
+    return next((check for check in checks if check.key == key), None)
 
 
 def overall(checks: Iterable[Check]) -> Status:
@@ -229,7 +272,7 @@ def worst(checks: Iterable[Check]) -> Grade:
 def verdict_words(status: Status, checks: Sequence[Check]) -> str:
     """The verdict with the counts of checks by grade.
 
-    >>> verdict_words("pass", [Check("ABU201", "capacity", "pass", "…"), Check("ABU401", "level", "warn", "…")])
+    >>> verdict_words("pass", [coded("ABU201", "pass", "…"), coded("ABU401", "warn", "…")])
     'PASS WITH WARNINGS: 1 of 2 checks passes, 1 warns, 0 fail'
     """
     count = Counter(check.status for check in checks if check.requested)
@@ -257,7 +300,7 @@ def verdict_word(status: Status, checks: Sequence[Check]) -> str:
 def verdict_codes(status: Status, checks: Sequence[Check]) -> str:
     """The verdict with the codes of the checks that decide it.
 
-    >>> verdict_codes("pass", [Check("ABU201", "capacity", "pass", "…"), Check("ABU401", "level", "warn", "…")])
+    >>> verdict_codes("pass", [coded("ABU201", "pass", "…"), coded("ABU401", "warn", "…")])
     'PASS WITH WARNINGS: ABU401'
     """
     grade = "warn" if status == "pass" else status

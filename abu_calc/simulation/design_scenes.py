@@ -70,7 +70,7 @@ def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -
         except TooMuchWorkError:
             return SceneRun(*simulate_chosen(ledger, accuracy, most_evaluations=MORE * WORK, progress=progress))
     except ChaoticError as error:
-        if error.ended is not None and error.ended.scene.effect("lift_off"):  # ABU506 judges a disk that bounces
+        if error.ended is not None and error.ended.scene.effect("lift_off"):  # the arm has its own check of that
             return SceneRun(ledger, error.ended)
         return SceneFailure(name, str(error).splitlines()[0])
     except NotTrustworthyError as error:
@@ -88,10 +88,10 @@ def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str 
     veto. `mean`: what a chaotic motion comes to on average, where that is known.
     """
     if mean is not None:
-        return coded(
-            "ABU703", "warn", mean, of=scene, remedy="Keep the wheel on the workpiece, see `abu grinding FILE`."
-        )
+        return coded("ABU703", "warn", mean, remedy="Keep the wheel on the workpiece, see `abu grinding FILE`.",
+            of=scene,
+        )  # fmt: skip
     status: Grade = "warn" if answered and scene in IDLE and not patience.over() else "not-done"
-    return coded("ABU703", status, f"No simulation of this scene can be trusted: {reason}", of=scene,
-                 remedy="Specify a drag rate nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).",
-                 )  # fmt: skip
+    return coded("ABU703", status, f"No simulation of this scene can be trusted: {reason}",
+        remedy="Specify a drag rate nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).", of=scene,
+    )  # fmt: skip

@@ -7,7 +7,7 @@ from typing import Annotated, Final
 from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.checks import Check, coded, overall, verdict
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.foundation.units import level_from_velocity
 from abu_calc.simulation.quiet import LAST
 from abu_calc.simulation.residual_criteria import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.simulation.response import Response
@@ -99,7 +99,7 @@ def one_run_checks(
         return ()
     ramp, limit = response.full_speed, design.case.table.limits.longest_quiet_time
     counted = f". It counts from full speed, after {ramp:.3g} s" if ramp else ""
-    motor = (check for check in design.checks if check.code == "ABU104")
+    motor = (check for check in design.checks if check.key == "motor_idle_speed")
     checks = (*motor, *_balancing(design, response, f"Start: {start}{counted}"), _level(design, response, error))
     if asked and LAST * response.duration < ramp + limit and overall(checks) == "fail":
         reason = f"The run ends after {response.duration:.3g} s, before the limit of the quiet time"
@@ -117,9 +117,8 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
     moved = design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
     if autobalancer.capacity < moved:
         reason = "The balls, side by side, cannot carry the imbalance"
-        return tuple(
-            coded(code, "not-done", reason, remedy="Add balls or specify larger ones.") for code in ("ABU701", "ABU702")
-        )
+        remedy = "Add balls or specify larger ones."
+        return coded("ABU701", "not-done", reason, remedy=remedy), coded("ABU702", "not-done", reason, remedy=remedy)
     left, allowed = response.residual_imbalance, allowed_imbalance(design, moved)
     slipping = slip(response, abs(response.final.rotor_speed) or design.case.speed)
     balanced = balances(left, allowed, slipping)
@@ -131,8 +130,7 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
         message = worse if left > moved else "The balls reduce the imbalance, but do not balance it"
     message += ". The value is the imbalance left"
     return (
-        coded("ABU701", verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm",
-              None if balanced else TRIES),
+        coded("ABU701", verdict(balanced), message, left, allowed, None if balanced else TRIES),
         _quiet(design, response, start),
     )  # fmt: skip
 
@@ -147,7 +145,8 @@ def _quiet(design: Design, response: Response, start: str) -> Check:
     message = f"{start}. {rested}" + ("" if longest is None else f" (limit {longest:g} s)")
     good = soon and rests
     return coded("ABU702", verdict(good, good and not response.creeping), message, quiet, limits.longest_quiet_time,
-                 "s", None if good else TRIES)  # fmt: skip
+        None if good else TRIES,
+    )  # fmt: skip
 
 
 def _seconds(time: float | None) -> str:
@@ -165,4 +164,4 @@ def _level(design: Design, response: Response, error: float) -> Check:
     if passed and not safe:
         message += f". The error of {error:.2g} leaves open whether the limit is kept"
     remedy = None if passed and safe else TRIES if not passed else "Specify more accuracy (--accuracy)."
-    return coded("ABU401", verdict(passed, safe), message, loudest.level, limit, "dB", remedy)
+    return coded("ABU401", verdict(passed, safe), message, loudest.level, limit, remedy)

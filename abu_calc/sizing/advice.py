@@ -22,14 +22,12 @@ def candidate_checks(case: Case, chosen: Candidate) -> tuple[Check, ...]:
 def _capacity(case: Case, candidate: Candidate) -> Check:
     margin = case.autobalancer.capacity_margin
     return coded("ABU201", verdict(enough(case, candidate)), f"{candidate.ball_count} balls side by side must carry "
-        f"the required capacity times the margin {margin:g}", from_si(candidate.capacity, "g_mm"),
-        _with_margin(case, candidate), "g·mm", bound="least",
+        f"the required capacity times the margin {margin:g}", candidate.capacity, _with_margin(case, candidate),
     )  # fmt: skip
 
 
 def _with_margin(case: Case, candidate: Candidate) -> float:
-    """Required capacity times its margin [g·mm]."""
-    return from_si(candidate.requirement.required * case.autobalancer.capacity_margin, "g_mm")
+    return candidate.requirement.required * case.autobalancer.capacity_margin
 
 
 def residual_check(candidate: Candidate) -> Check:
@@ -37,13 +35,13 @@ def residual_check(candidate: Candidate) -> Check:
     budget = candidate.budget
     speed = f"{from_si(budget.speed, 'rpm'):.6g} rpm"
     return coded("ABU202", verdict(budget.within), f"At {speed}, race eccentricity, dry friction and two-lobe ovality "
-        "leave this displacement, as expected", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
+        "leave this displacement, as expected", budget.residual, budget.permitted,
     )  # fmt: skip
 
 
 def _mass(case: Case, candidate: Candidate) -> Check:
     return coded("ABU203", verdict(light(case, candidate)), "The autobalancer with its balls takes this share of the "
-        "machine's mass", 100 * candidate.mass_fraction, 100 * case.autobalancer.max_mass_fraction, "%",
+        "machine's mass", candidate.mass_fraction, case.autobalancer.max_mass_fraction,
     )  # fmt: skip
 
 
@@ -57,13 +55,13 @@ def _plane(case: Case, candidate: Candidate) -> tuple[Check, ...]:
                   remedy=f"Specify {estimate_keys(case)} for an estimate, or machine.transverse_inertia_kg_m2 and "
                   "machine.center_of_mass_to_wheel_mm."),
         )  # fmt: skip
-    rest, permitted = from_si(candidate.budget.plane_offset, "um"), from_si(candidate.budget.permitted, "um")
+    rest, permitted = candidate.budget.plane_offset, candidate.budget.permitted
     near = rest <= permitted
     message = (
         f"The race is off the wheel's plane. The balls carry {candidate.requirement.plane_ratio:.3f} times the "
         "imbalance, and the loudest place keeps a motion as by this displacement of the race"
     )
-    return (coded("ABU205", verdict(near), message, rest, permitted, "µm"),)
+    return (coded("ABU205", verdict(near), message, rest, permitted),)
 
 
 def power_checks(case: Case) -> tuple[Check, ...]:
@@ -75,7 +73,7 @@ def power_checks(case: Case) -> tuple[Check, ...]:
     cutting = contact.cutting_coefficient * contact.press_force * rim
     message = "Cutting takes the power f·N·v at the rated speed, and the motor must give it"
     action = None if cutting <= power else f"The motor has the power for a normal force of {most_force(case):g} N."
-    return (coded("ABU403", verdict(cutting <= power), message, cutting, power, "W", action),)
+    return (coded("ABU403", verdict(cutting <= power), message, cutting, power, action),)
 
 
 def most_force(case: Case) -> float:

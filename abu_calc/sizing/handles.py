@@ -114,7 +114,7 @@ def handle_checks(case: Case, expected: HighestTotal | None, bands: BodyBands | 
         return ()
     if expected is None:
         reason = "Not known: the balls cannot balance, or W_h is not defined at one of the speeds (5.62 … 1413 Hz)"
-        return (coded("ABU404", "not-done", reason, None, limit, "m/s²"),)
+        return (coded("ABU404", "not-done", reason, None, limit),)
     high = band_end(expected, bands, case)
     notes = [f"{_place(expected)}: expected {_said(expected.total)} (limit {limit:g} m/s²)"]
     if high is not None:
@@ -127,7 +127,7 @@ def handle_checks(case: Case, expected: HighestTotal | None, bands: BodyBands | 
     sure = (case.body.is_rigid and bool(case.handles)) or UNCERTAIN * expected.total <= limit
     safe = sure and (high is None or high <= limit)
     action = missing_body(case) if kept and not safe else None
-    return (coded("ABU404", verdict(kept, safe), ". ".join(notes), expected.total, limit, "m/s²", action),)
+    return (coded("ABU404", verdict(kept, safe), ". ".join(notes), expected.total, limit, action),)
 
 
 def band_end(expected: HighestTotal, bands: BodyBands | None, case: Case) -> float | None:

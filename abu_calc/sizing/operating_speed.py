@@ -4,10 +4,10 @@ from typing import Literal
 
 from abu_calc.formulas.motor import working_speed
 from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
-from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.checks import Bound, Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.sizing.case import Case, working_speeds
 
@@ -124,7 +124,7 @@ def _recedes(case: Case, speed: float, mass: float) -> bool:
 
 
 def _check(possible: bool, in_between: bool, low: float, least: float, above: float) -> Check:
-    hertz, action = from_si(least, "hz"), None
+    action = None
     if possible:
         message = "The lowest speed is above the natural frequencies"
         if in_between:
@@ -133,7 +133,7 @@ def _check(possible: bool, in_between: bool, low: float, least: float, above: fl
     else:
         message = "At some speed of the range the support moves with the imbalance: the balls go to the heavy side"
         action = f"Keep all speeds above {from_si(above, 'rpm'):.0f} rpm, or hold the machine more softly."
-    return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", action, "least")
+    return coded("ABU101", verdict(possible), message, low, least, action)
 
 
 def motor_checks(case: Case) -> tuple[Check, ...]:
@@ -146,8 +146,9 @@ def motor_checks(case: Case) -> tuple[Check, ...]:
     """
     if case.idle_speed is None:
         return ()
-    (low, high), idle = case.table.machine.speed_range, from_si(case.idle_speed, "rpm")
-    bound: Literal["least", "most"] = "least" if idle < low else "most"
+    low, high = (to_si(speed, "rpm") for speed in case.table.machine.speed_range)
+    idle = case.idle_speed
+    bound: Bound = "least" if idle < low else "most"
     limit = low if bound == "least" else high
     kept = case.speed_range == working_speeds(case.table)
     messages, action = ["The motor idles at a working speed of the file"], None
@@ -163,7 +164,7 @@ def motor_checks(case: Case) -> tuple[Check, ...]:
     if loaded == 0:
         action = "Specify a motor.stall_torque_N_m above the cutting torque, or reduce grinding.press_force_N."
     return (
-        coded("ABU104", verdict(True, kept and loaded != 0), ". ".join(messages), idle, limit, "rpm", action, bound),
+        coded("ABU104", verdict(True, kept and loaded != 0), ". ".join(messages), idle, limit, action, bound=bound),
     )  # fmt: skip
 
 

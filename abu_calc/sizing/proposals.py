@@ -195,13 +195,13 @@ def easier(design: Design) -> Iterator[Entries]:
         yield from more_easily(design.case, estimate, design.eccentricity.least)
 
 
-def on_arm(code: str, design: Design) -> Iterator[Entries]:
+def on_arm(key: str, design: Design) -> Iterator[Entries]:
     """Entries of the swing arm that meet the bound of a check."""
     if design.swing_arm is not None:
         from abu_calc.sizing.swing_arm import changes  # its formulas are for machines on an arm alone
 
-        for values in changes(design.swing_arm, design.case, code):
-            yield {f"{ARM}{key}": value for key, value in values.items()}
+        for values in changes(design.swing_arm, design.case, key):
+            yield {f"{ARM}{name}": value for name, value in values.items()}
 
 
 class Proposed(NamedTuple):
@@ -211,23 +211,24 @@ class Proposed(NamedTuple):
     same: bool = False
 
 
-ON_ARM: Final = frozenset({"ABU501", "ABU502", "ABU503", "ABU504"})
-"""Codes of the checks of the bounds of a swing arm."""
+ON_ARM: Final = frozenset({"arm_stiffness", "arm_damping", "arm_pressed", "arm_stands"})
+"""Keys of the checks of the bounds of a swing arm."""
 
 PROPOSED: Final[Mapping[str, Proposed]] = {
-    "ABU101": Proposed(faster, same=True), "ABU102": Proposed(carrying_over, same=True),
-    "ABU104": Proposed(with_idle_speed, same=True),
-    "ABU201": Proposed(more_room), "ABU202": Proposed(truer, same=True), "ABU203": Proposed(lighter),
-    "ABU205": Proposed(nearer, same=True), "ABU206": Proposed(wider, same=True),
-    "ABU301": Proposed(harder), "ABU302": Proposed(hard, same=True), "ABU303": Proposed(stronger),
-    "ABU304": Proposed(rounder), "ABU305": Proposed(more_room), "ABU306": Proposed(stronger),
-    "ABU307": Proposed(other_closure, same=True), "ABU308": Proposed(more_clamping, same=True),
-    "ABU309": Proposed(stronger),
-    "ABU401": Proposed(truer, same=True), "ABU402": Proposed(truer, same=True),
-    "ABU403": Proposed(less_force, same=True), "ABU404": Proposed(truer, same=True), "ABU431": Proposed(easier),
-    **{code: Proposed(partial(on_arm, code)) for code in sorted(ON_ARM)},
+    "frequency_region": Proposed(faster, same=True), "carry_over": Proposed(carrying_over, same=True),
+    "motor_idle_speed": Proposed(with_idle_speed, same=True),
+    "capacity": Proposed(more_room), "residual_budget": Proposed(truer, same=True), "mass": Proposed(lighter),
+    "race_plane": Proposed(nearer, same=True), "eccentricity_budget": Proposed(wider, same=True),
+    "contact_pressure": Proposed(harder), "race_hardness": Proposed(hard, same=True),
+    "hoop_stress": Proposed(stronger), "race_roundness": Proposed(rounder), "filling": Proposed(more_room),
+    "overspeed_stress": Proposed(stronger), "cover": Proposed(other_closure, same=True),
+    "slip_torque": Proposed(more_clamping, same=True), "burst_speed": Proposed(stronger),
+    "idle_level": Proposed(truer, same=True), "level_lowered": Proposed(truer, same=True),
+    "cutting_power": Proposed(less_force, same=True), "handles": Proposed(truer, same=True),
+    "declared_value": Proposed(easier),
+    **{key: Proposed(partial(on_arm, key)) for key in sorted(ON_ARM)},
 }  # fmt: skip
-"""What is proposed for checks of sizing, in the order in which it is tried."""
+"""What is proposed for checks of sizing, by their keys, in the order in which it is tried."""
 
 
 def mended(design: Design) -> list[Entries]:
@@ -238,7 +239,7 @@ def mended(design: Design) -> list[Entries]:
     """
     now, steps, seen = design, [Entries()], set[str]()
     while bad := [check for check in now.checks if check.requested and check.status != "pass"
-                  and check.code in PROPOSED and check.code not in seen]:  # fmt: skip
+                  and check.key in PROPOSED and check.code not in seen]:  # fmt: skip
         check = min(bad, key=_rank)
         seen.add(check.code)
         if step := _first(now, check):
@@ -255,7 +256,7 @@ def _rank(check: Check) -> int:
 def _first(design: Design, check: Check) -> tuple[Entries, Design] | None:
     """The first change that mends a check of sizing, and the machine with it, as sized."""
     before, partly = {each.code: _rank(each) for each in design.checks}, None
-    proposed = PROPOSED[check.code]
+    proposed = PROPOSED[check.key]
     for change in proposed.changes(design):
         entries = {**change, **pins(design.autobalancer)} if proposed.same else change
         try:

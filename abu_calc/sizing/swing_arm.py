@@ -123,11 +123,9 @@ def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
     stiff, stiffness, lifted = arm.contact_stiffness < limit, arm_stiffness(arm), _lifted(bounds.lifted_contact_angles)
     return (
         coded("ABU501", verdict(stiff), "The arm must be supercritical at the lowest speed and the worst contact "
-              "angle (safer of two formulas). That is necessary, not sufficient",
-              arm.contact_stiffness, limit, "N/m"),
+              "angle (safer of two formulas). That is necessary, not sufficient", arm.contact_stiffness, limit),
         _damping_check(arm, bounds.damping_limit, bounds.damping_limit_bunched),
-        coded("ABU504", verdict(stiffness > 0), f"Static stiffness with the contact. {lifted}",
-              stiffness, 0.0, "N/m", bound="least"),
+        coded("ABU504", verdict(stiffness > 0), f"Static stiffness with the contact. {lifted}", stiffness, 0.0),
         _pressing(arm, bounds.pressed_angle),
     )  # fmt: skip
 
@@ -145,7 +143,7 @@ def _damping_check(arm: Arm, limit: float, bunched: float | None) -> Check:
     elif not safe:
         message += ". While the balls are together on the heavy side, as in a start, it does not"
         message += "" if bunched is None else f". That needs {bunched:.3g} N·s/m"
-    return coded("ABU502", verdict(enough, safe), message, arm.joint_damping, limit, "N·s/m", bound="least")
+    return coded("ABU502", verdict(enough, safe), message, arm.joint_damping, limit)
 
 
 def _lifted(angles: tuple[float, float] | None) -> str:
@@ -158,13 +156,14 @@ def _lifted(angles: tuple[float, float] | None) -> str:
 
 def _pressing(arm: Arm, angle: float | None) -> Check:
     """N = c_n·l·(φ − φ₀)·sin Z presses only when the arm stands and does not point along the normal."""
-    touch = from_si(arm.touch_angle, "deg")
     if angle is None or math.sin(arm.contact_angle) < LEAST_SINE:
         return coded("ABU503", "not-done", "The arm does not stand, or points along the normal, so that no force "
-                     "presses", None, touch, "°", bound="least")  # fmt: skip
+            "presses", None, arm.touch_angle,
+        )  # fmt: skip
     pressed = angle > arm.touch_angle
-    return coded("ABU503", verdict(pressed), "The resting angle must be beyond the touching angle",
-                 from_si(angle, "deg"), touch, "°", bound="least")  # fmt: skip
+    return coded("ABU503", verdict(pressed), "The resting angle must be beyond the touching angle", angle,
+        arm.touch_angle,
+    )  # fmt: skip
 
 
 MARGINS: Final = (1.05, 1.2, 1.5, 2.0, 3.0)
@@ -184,12 +183,13 @@ ANGLE, JOINT, CONTACT = "contact_angle_deg", "joint_stiffness_N_per_m", "contact
 """Keys of [swing_arm] that are changed."""
 
 
-def changes(bounds: SwingArmBounds, case: Case, code: str) -> Iterator[dict[str, float]]:
-    """Values by keys of [swing_arm] that meet the bound of a check, from near to far."""
+def changes(bounds: SwingArmBounds, case: Case, key: str) -> Iterator[dict[str, float]]:
+    """Values by keys of [swing_arm] that meet the bound of a check, by its key, from near to far."""
     ways: Mapping[str, Callable[[SwingArmBounds], Iterator[dict[str, float]]]] = {
-        "ABU501": partial(_supercritical, case), "ABU502": _damped, "ABU503": _pressed, "ABU504": _standing,
+        "arm_stiffness": partial(_supercritical, case), "arm_damping": _damped, "arm_pressed": _pressed,
+        "arm_stands": _standing,
     }  # fmt: skip
-    yield from ways[code](bounds)
+    yield from ways[key](bounds)
 
 
 def _supercritical(case: Case, bounds: SwingArmBounds) -> Iterator[dict[str, float]]:

@@ -6,7 +6,7 @@ from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_dr
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import GRAVITY, from_si
+from abu_calc.foundation.units import GRAVITY, from_si, shown
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual, permitted_displacement
 from abu_calc.sizing.case import Case
@@ -81,26 +81,22 @@ def track_checks(case: Case, candidate: Candidate, race: Track) -> tuple[Check, 
 def _pressure(candidate: Candidate, top: str) -> Check:
     """Check of the Hertz pressure against the pressure that leaves no dent."""
     pressure, permitted = candidate.strength.contact_pressure, candidate.strength.permitted_pressure
-    return coded(
-        "ABU301", verdict(pressure <= permitted), f"At {top}, a ball presses its race. Up to 5.2·HV no dent is left "
-        "(assumed rule)", from_si(pressure, "MPa"), from_si(permitted, "MPa"), "MPa",
+    return coded("ABU301", verdict(pressure <= permitted),
+        f"At {top}, a ball presses its race. Up to 5.2·HV no dent is left (assumed rule)", pressure, permitted,
     )  # fmt: skip
 
 
 def _hardness(case: Case) -> Check:
     hardness = case.autobalancer.race_hardness_HRC
-    return coded(
-        "ABU302", verdict(hardness >= LEAST_HARDNESS_HRC), "A soft race dents, and dents hold the balls. Machines with "
-        "soft races gained nothing", hardness, LEAST_HARDNESS_HRC, "HRC", bound="least",
+    return coded("ABU302", verdict(hardness >= LEAST_HARDNESS_HRC),
+        "A soft race dents, and dents hold the balls. Machines with soft races gained nothing",
+        hardness, LEAST_HARDNESS_HRC,
     )  # fmt: skip
 
 
 def _hoop(candidate: Candidate, top: str) -> Check:
     hoop, limit = candidate.strength.hoop_stress, candidate.strength.permitted_hoop
-    return coded(
-        "ABU303", verdict(hoop <= limit), f"The rim spins at {top} (the limit is assumed)", from_si(hoop, "MPa"),
-        from_si(limit, "MPa"), "MPa",
-    )  # fmt: skip
+    return coded("ABU303", verdict(hoop <= limit), f"The rim spins at {top} (the limit is assumed)", hoop, limit)
 
 
 def carries_over(case: Case, race: Track) -> bool:
@@ -109,9 +105,8 @@ def carries_over(case: Case, race: Track) -> bool:
 
 
 def _carried_over(case: Case, race: Track) -> Check:
-    lowest, needed = from_si(case.speed_range[0], "rpm"), from_si(race.carry_over, "rpm")
     message = "The lowest speed must carry the balls round the horizontal spindle"
-    return coded("ABU102", verdict(carries_over(case, race)), message, lowest, needed, "rpm", bound="least")
+    return coded("ABU102", verdict(carries_over(case, race)), message, case.speed_range[0], race.carry_over)
 
 
 def _roundness(case: Case, candidate: Candidate, top: str) -> Check:
@@ -119,10 +114,9 @@ def _roundness(case: Case, candidate: Candidate, top: str) -> Check:
 
     The value is compared with all that the level's limit permits.
     """
-    left = from_si(ovality_residual(candidate.roundness.unaided), "um")
-    permitted = from_si(permitted_displacement(case, candidate.mass, case.speed_range[1]), "um")
-    drawn = f"{from_si(ovality_residual(candidate.roundness.lobes), 'um'):.3g} µm"
-    return coded(
-        "ABU304", verdict(candidate.stays_round), f"At {top}, two opposite balls make the race oval. One web alone "
-        f"leaves this displacement; web and cover together leave {drawn}", left, permitted, "µm",
+    drawn = shown(ovality_residual(candidate.roundness.lobes), "um")
+    return coded("ABU304", verdict(candidate.stays_round), f"At {top}, two opposite balls make the race oval. One web "
+        f"alone leaves this displacement; web and cover together leave {drawn}",
+        ovality_residual(candidate.roundness.unaided),
+        permitted_displacement(case, candidate.mass, case.speed_range[1]),
     )  # fmt: skip

@@ -163,12 +163,12 @@ def weighted_speed(speed: float) -> bool:
 
 
 def declared_checks(case: Case, candidate: Candidate, possible: bool) -> Iterator[Check]:
-    """ABU431 for a rigid body in the hands; a point mass would be judged too hard, so nothing is said of one."""
+    """The check for a rigid body in the hands; a point mass would be judged too hard, so nothing is said of one."""
     wheel = chosen_wheel(case.table)
     if wheel is None or not case.body.is_rigid or case.table.swing_arm is not None or not weighted_speed(case.speed):
         return
     if not possible or not carried(case, candidate, wheel.imbalance):
-        return  # ABU101 and ABU201 say so, and `abu declare`
+        return  # other checks say so, and `abu declare`
     estimate = declared_estimate(case, candidate, wheel.imbalance)
     yield declared_check(estimate.without, estimate.declared, CALCULATED)
 
@@ -188,13 +188,13 @@ def required(case: Case, candidate: Candidate, imbalance: float, eccentricity: f
 def declared_check(
     without: float, declared: float, how: str, action: Callable[[], Action | str | None] = lambda: None
 ) -> Check:
-    """ABU431: passes if the declared value [m/s²] falls; `how` it is known, `action`: asked for if it does not."""
+    """Passes if the declared value [m/s²] falls; `how` it is known, `action`: asked for if it does not."""
     message = (
         f"Type test, highest handle ({how}): {without:.3g} m/s² without the autobalancer, {declared:.3g} m/s² with it, "
         f"the factor {balancing_factor():g} included"
     )
     lower = declared < without
-    return coded("ABU431", verdict(True, lower), message, declared, without, "m/s²", None if lower else action())
+    return coded("ABU431", verdict(True, lower), message, declared, without, None if lower else action())
 
 
 def more_easily(case: Case, estimate: DeclaredEstimate, least: float) -> Iterator[dict[str, object]]:

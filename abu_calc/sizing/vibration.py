@@ -288,7 +288,7 @@ def vibration_checks(
     limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None or levels is None:
         reason = "The level is not known: the balls cannot balance at these speeds"
-        unknown = Finding("not-done", reason, None, limit, "dB")
+        unknown = Finding("not-done", reason, None, limit)
         return unknown, coded("ABU402", *unknown._replace(limit=before))
     message = "The idle level with the autobalancer must be below the level without it"
     measurable, alike = measurably_lower(idle), before is not None and abs(after - before) < LEVEL_ERROR
@@ -297,7 +297,7 @@ def vibration_checks(
         message += f". It is {much}, which no measurement tells from none"
     return (
         _level(case, levels, loudest_place(idle), band),
-        coded("ABU402", verdict(idle.lowered or alike, measurable), message, after, before, "dB",
+        coded("ABU402", verdict(idle.lowered or alike, measurable), message, after, before,
               None if measurable or candidate.budget.capacity_shortfall else NOT_NEEDED),
     )  # fmt: skip
 
@@ -361,7 +361,7 @@ def _level(case: Case, levels: SpeedLevels, place: str, band: tuple[float, float
         message += f". The estimated inertia leaves {low.removesuffix(' dB')} … {high} as expected"
     if kept and not within:
         action = "Measure the inertia: the band of the estimate crosses the limit."
-    return Finding(verdict(kept, within), message, highest.level_after_db, limit, "dB", action)
+    return Finding(verdict(kept, within), message, highest.level_after_db, limit, action)
 
 
 def level_of(after: Followed) -> float:

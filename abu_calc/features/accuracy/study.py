@@ -17,7 +17,7 @@ from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.dynamics.trajectory import Sampling, Trajectory
-from abu_calc.foundation.checks import Check, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, Stage, silent
@@ -428,6 +428,6 @@ def accuracy(
 def _affordable(study: PriceList) -> Check:
     best = study.chosen
     message = "a way to compute was measured whose error is below the accuracy"
-    return Check("ABU811", "accuracy affordable", verdict(best is not None), message,
-                 None if best is None else best.error, study.accuracy, None,
-                 None if best else "More time (--time-budget, Python: budget_s=), or less accuracy.")  # fmt: skip
+    return coded("ABU811", verdict(best is not None), message, None if best is None else best.error, study.accuracy,
+        None if best else "More time (--time-budget, Python: budget_s=), or less accuracy.",
+    )  # fmt: skip

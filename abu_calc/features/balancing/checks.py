@@ -49,8 +49,7 @@ def _planes(balancing: Found) -> Iterator[Check]:
     if balancing.case.planes == 1:
         return
     value = balancing.solution.condition
-    yield coded(
-        "ABU1001", verdict(value <= CONDITION[1], value <= CONDITION[0]),
+    yield coded("ABU1001", verdict(value <= CONDITION[1], value <= CONDITION[0]),
         "condition number: errors of readings may grow by this factor", value, CONDITION[0],
     )  # fmt: skip
 
@@ -69,9 +68,9 @@ def _natural_frequencies(balancing: Found) -> Iterator[Check]:
             f"Measure at {from_si(speed, 'rpm'):.0f} rpm: the remaining vibration falls from "
             f"{100 * balancing.rest_share:.1f} to {100 * rest:.1f} % (calculated with the same errors)."
         )
-    yield coded(
-        "ABU1002", grade, f"relative distance of the speed from the natural frequency {from_si(omega, 'hz'):.2f} Hz",
-        value, OFF_RESONANCE[0], remedy=remedy, bound="least",
+    yield coded("ABU1002", grade,
+        f"relative distance of the speed from the natural frequency {from_si(omega, 'hz'):.2f} Hz", value,
+        OFF_RESONANCE[0], remedy,
     )  # fmt: skip
 
 
@@ -96,7 +95,7 @@ def _rigid(balancing: Found) -> Iterator[Check]:
             "Specify rotor.first_bending_speed_rpm." if balancing.bending_speed is None
             else "The roll bends: balance it in more planes, at more speeds (ISO 21940-12)."
         )  # fmt: skip
-    yield coded("ABU1003", grade, message, value, limit, remedy=remedy)
+    yield coded("ABU1003", grade, message, value, limit, remedy)
 
 
 def _rpm(speed: float) -> str:
@@ -112,9 +111,8 @@ def _sure(balancing: Found) -> Iterator[Check]:
             2 * rest > permitted
             for rest, permitted in zip(balancing.rest_in_tolerance_planes, tolerance.permitted, strict=True)
         ):
-            yield coded(
-                "ABU1004", "not-done", "the imbalance is below the errors of these runs: no correction can be trusted",
-                100 * share, 100 * SURE[0], "%",
+            yield coded("ABU1004", "not-done",
+                "the imbalance is below the errors of these runs: no correction can be trusted", share, SURE[0],
                 "Leave the rotor as it is, or measure with smaller errors. Specify tolerance.balance_grade.",
             )  # fmt: skip
         return
@@ -126,10 +124,8 @@ def _sure(balancing: Found) -> Iterator[Check]:
             "Measure and correct once more after this correction: the vibration that errors leave falls from "
             f"{100 * share:.1f} to {100 * share * balancing.rest_share:.1f} % (calculated with the same errors)."
         )
-    yield coded(
-        "ABU1004", verdict(share <= SURE[1], share <= SURE[0]),
-        "vibration that errors of readings, rig and correction leave, rms, of that taken away", 100 * share,
-        100 * SURE[0], "%", remedy,
+    yield coded("ABU1004", verdict(share <= SURE[1], share <= SURE[0]),
+        "vibration that errors of readings, rig and correction leave, rms, of that taken away", share, SURE[0], remedy,
     )  # fmt: skip
 
 
@@ -160,11 +156,9 @@ def _permitted(balancing: Found) -> Iterator[Check]:
                 "Correct in more planes: the vibration that remains (ABU1013) may be of imbalance elsewhere, which "
                 "this number leaves out."
             )
-        yield coded(
-            "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted and not few),
-            f"imbalance of the {kind} expected after the correction; PASS asks that twice that is permitted, too",
-            from_si(rest, "g_mm"), from_si(permitted, "g_mm"), "g·mm", remedy,
-            of=f"{name} plane" if name != "single" else "",
+        yield coded("ABU1005", verdict(rest <= permitted, 2 * rest <= permitted and not few),
+            f"imbalance of the {kind} expected after the correction; PASS asks that twice that is permitted, too", rest,
+            permitted, remedy, of=f"{name} plane" if name != "single" else "",
         )  # fmt: skip
 
 
@@ -175,9 +169,8 @@ def _agree(balancing: Found) -> Iterator[Check]:
     remedy = None
     if value > AGREE[0]:
         remedy = "Repeat the runs. Check speeds, fastening and the data of the rig, and whether the roll bends."
-    yield coded(
-        "ABU1006", verdict(value <= AGREE[1], value <= AGREE[0]),
-        "largest misfit of a run, in standard deviations of the errors given", value, AGREE[0], None, remedy,
+    yield coded("ABU1006", verdict(value <= AGREE[1], value <= AGREE[0]),
+        "largest misfit of a run, in standard deviations of the errors given", value, AGREE[0], remedy,
     )  # fmt: skip
 
 
@@ -194,10 +187,8 @@ def _trials(balancing: Found) -> Iterator[Check]:
         if value >= TELLS[0]
         else f"Use trial masses {max(2, math.ceil(TELLS[0] / value)) if value else 2} times as heavy."
     )
-    yield coded(
-        "ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),
-        "vector change of a reading by the weaker trial mass, of that reading without it",
-        value, TELLS[0], None, remedy, "least",
+    yield coded("ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),
+        "vector change of a reading by the weaker trial mass, of that reading without it", value, TELLS[0], remedy,
     )  # fmt: skip
 
 
@@ -221,9 +212,7 @@ def _metal(balancing: Found) -> Iterator[Check]:
     if limit is None:
         return
     value = max(map(removed, balancing.shares))
-    yield coded(
-        "ABU1008", verdict(value <= limit * (1 + 1e-9)), "mass to remove in a plane",
-        from_si(value, "g"), from_si(limit, "g"), "g",
+    yield coded("ABU1008", verdict(value <= limit * (1 + 1e-9)), "mass to remove in a plane", value, limit,
         None if value <= limit else "Specify more places, so that mass can be added opposite.",
     )  # fmt: skip
 
@@ -233,9 +222,7 @@ def _room(balancing: Found) -> Iterator[Check]:
     if limit is None:
         return
     value = max(map(added, balancing.shares))
-    yield coded(
-        "ABU1011", verdict(value <= limit * (1 + 1e-9)), "mass to add in a plane",
-        from_si(value, "g"), from_si(limit, "g"), "g",
+    yield coded("ABU1011", verdict(value <= limit * (1 + 1e-9)), "mass to add in a plane", value, limit,
         None if value <= limit else "Use a larger correction radius, or remove metal at the heavy spot.",
     )  # fmt: skip
 
@@ -249,9 +236,8 @@ def _discrete(balancing: Found) -> Iterator[Check]:
     value = max(
         (abs(left) / abs(Q) for left, Q in zip(balancing.leftover, balancing.target, strict=True) if Q), default=0.0
     )
-    yield coded(
-        "ABU1012", verdict(value <= LEFT[1], value <= LEFT[0]),
-        "imbalance that limits of mass, places or stock leave, of that to correct", 100 * value, 100 * LEFT[0], "%",
+    yield coded("ABU1012", verdict(value <= LEFT[1], value <= LEFT[0]),
+        "imbalance that limits of mass, places or stock leave, of that to correct", value, LEFT[0],
         None if value <= LEFT[0] else "Allow more places, more mass at each place, or lighter weights.",
     )  # fmt: skip
 
@@ -267,8 +253,7 @@ def _convention(taken: Sequence[RunReadings]) -> Iterator[Check]:
         message = f"runs that do not name the convention of their phases; lag is assumed, A·cos(ωt − phase): {silent}"
     else:
         message = f"phases {' in some runs and '.join(names)}{' in others' if len(names) > 1 else ''}, as the runs say"
-    yield coded(
-        "ABU1009", verdict(True, not silent and len(names) == 1), message,
+    yield coded("ABU1009", verdict(True, not silent and len(names) == 1), message,
         remedy='Add phase = "lag" or phase = "lead" to each run, as the manual of the instrument says.'
         if silent or len(names) > 1 else None,
     )  # fmt: skip
@@ -281,11 +266,10 @@ def _few_planes(balancing: Found) -> Iterator[Check]:
         return
     planes = "one plane" if balancing.case.planes == 1 else "two planes"
     best = f"This is the best that {planes} can do: no other correction there leaves less vibration in all. "
-    yield coded(
-        "ABU1013", verdict(True, share <= FEW_PLANES), f"vibration that {planes} cannot take away, rms, of that now",
-        100 * share, 100 * FEW_PLANES, "%",
-        f"{'' if any(balancing.leftover) else best}To reduce it further, correct in more planes."
-        if share > FEW_PLANES else None,
+    yield coded("ABU1013", verdict(True, share <= FEW_PLANES),
+        f"vibration that {planes} cannot take away, rms, of that now", share, FEW_PLANES,
+        f"{'' if any(balancing.leftover) else best}To reduce it further, correct in more planes." if share > FEW_PLANES
+        else None,
     )  # fmt: skip
 
 
@@ -299,14 +283,12 @@ def _coefficients(balancing: Found) -> Iterator[Check]:
     case, value = balancing.case, balancing.disagreement
     unlike = any(len({case.runs[index].placed for index in group}) > 1 for group in case.speed_groups)
     if value is None or not (unlike or (len(case.speed_groups) > 1 and not balancing.planes_share)):
-        yield coded(
-            "ABU1010", "warn", "these runs cannot show whether the stored coefficients still fit",
+        yield coded("ABU1010", "warn", "these runs cannot show whether the stored coefficients still fit",
             remedy="After the correction run again. Add that run with the correction as its trial.",
         )  # fmt: skip
         return
-    yield coded(
-        "ABU1010", verdict(value <= AGREE[1], value <= AGREE[0]),
-        "largest misfit of a run with the stored coefficients, in standard deviations", value, AGREE[0], None,
+    yield coded("ABU1010", verdict(value <= AGREE[1], value <= AGREE[0]),
+        "largest misfit of a run with the stored coefficients, in standard deviations", value, AGREE[0],
         None if value <= AGREE[0] else "Make trial runs and store the coefficients anew. The machine has changed.",
     )  # fmt: skip
 

@@ -48,8 +48,8 @@ def main_blocks(result: CompareResult) -> list[Block]:
     rows = (*result.differences, *result.alike)
     designs = {row.path: row.values for row in rows if row.part == "design" or row.path == DRAG}
     titles = (
-        (f"Vibration, dB re 5e-8 m/s{_one_limit(result, 'ABU401')}", _levels(result, designs)),
-        (f"Quiet time, s{_one_limit(result, 'ABU702')}", _settling(result, designs)),
+        (f"Vibration, dB re 5e-8 m/s{_one_limit(result, 'idle_level')}", _levels(result, designs)),
+        (f"Quiet time, s{_one_limit(result, 'quiet_time')}", _settling(result, designs)),
     )
     letters = tuple(file.letter for file in result.files)
     right = frozenset(range(1, len(letters) + 1))
@@ -65,7 +65,7 @@ def _levels(result: CompareResult, designs: Designs) -> list[_NumbersLine]:
         _NumbersLine(label, tuple(map(_level, designs[path]))) for path, label in DECIBELS if _known(designs, path)
     ]
     if lines:
-        lines += _limit(result, "ABU401")
+        lines += _limit(result, "idle_level")
     bounds = designs.get(BOUND, [None] * len(result.files))
     for path, label in LOADED:
         if _known(designs, path):
@@ -93,7 +93,7 @@ def _settling(result: CompareResult, designs: Designs) -> list[_NumbersLine]:
         line("Median of the start cases", designs[MEDIAN]),
         line("Slowest start case, drag rate in force", given),
         line("Slowest listed start case, any oil", designs[SLOWEST]),
-        *_limit(result, "ABU702"),
+        *_limit(result, "quiet_time"),
     ]
 
 
@@ -110,19 +110,19 @@ def _slowest_as_given(designs: Designs, machine: int) -> float | None:
     return None if math.isinf(longest) else longest
 
 
-def _limits(result: CompareResult, code: str) -> list[float | None]:
-    return [None if check is None else check.limit for check in checks_named(result, code)]
+def _limits(result: CompareResult, key: str) -> list[float | None]:
+    return [None if check is None else check.limit for check in checks_named(result, key)]
 
 
-def _one_limit(result: CompareResult, code: str) -> str:
+def _one_limit(result: CompareResult, key: str) -> str:
     """Limit that all machines have, for the head of a table."""
-    limits = set(_limits(result, code)) - {None}
+    limits = set(_limits(result, key)) - {None}
     return f" (limit {number(limit, 3)})" if len(limits) == 1 and (limit := limits.pop()) is not None else ""
 
 
-def _limit(result: CompareResult, code: str) -> list[_NumbersLine]:
+def _limit(result: CompareResult, key: str) -> list[_NumbersLine]:
     """Limits that differ, as a line of the table."""
-    limits = _limits(result, code)
+    limits = _limits(result, key)
     if len(set(limits) - {None}) <= 1:
         return []
     return [_NumbersLine("  limit", tuple("–" if limit is None else number(limit, 3) for limit in limits))]

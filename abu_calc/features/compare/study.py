@@ -152,11 +152,11 @@ class CompareResult(Result):
 
 
 def checks_named(result: CompareResult, name: str) -> list[Check | None]:
-    """The check of each machine with this code, or with this code and name; None: it is not asked there."""
+    """The check of each machine with this code or key, or with this code and name; None: it is not asked there."""
     by_letter: dict[str, Check] = {}
     for check in result.checks:
         own, _, letter = check.name.rpartition(", ")
-        if name in (check.code, f"{check.code} {own}"):
+        if name in (check.code, check.key, f"{check.code} {own}"):
             by_letter.setdefault(letter, check)
     return [by_letter.get(file.letter) for file in result.files]
 

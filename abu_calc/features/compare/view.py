@@ -213,14 +213,14 @@ SERIES: Final = {"without": 2, "slowest": 3, "measured": 3}
 
 
 class _Compared(NamedTuple):
-    """A figure: paths of designs with what they are called, and a check whose limit is drawn."""
+    """A figure: paths of designs with what they are called, and the key of a check whose limit is drawn."""
 
     name: str
     title: str
     axis: str
     paths: dict[str, str]
     caption: str
-    code: str = ""
+    key: str = ""
 
 
 FIGURES: Final = (
@@ -230,7 +230,7 @@ FIGURES: Final = (
          "measured_after.measured_level_db": "measured"},
         "Idle velocity level without (square) and expected with (round) the autobalancer; lozenge: measured with it. "
         "0 dB = 5e-8 m/s rms.",
-        "ABU401",
+        "idle_level",
     ),
     _Compared(
         "residual", "Residuals of the machines", "residual, 0–peak [µm]", {"accuracy_budget.residual_um": ""},
@@ -245,7 +245,7 @@ FIGURES: Final = (
         {"ensemble.quiet_time_s.typical": "median", "ensemble.quiet_time_s.worst": "slowest"},
         "Quiet time of the start cases: median and slowest, at any drag rate. A machine without a bar has a start case "
         "that is never quiet.",
-        "ABU702",
+        "quiet_time",
     ),
 )  # fmt: skip
 
@@ -268,7 +268,7 @@ def _figure(result: CompareResult, quantity: _Compared, rows: dict[str, Differen
     ]  # fmt: skip
     if len({bar.name[0] for bar in bars}) < 2:  # of one machine alone there is nothing to compare
         return
-    limit = _limit(result, quantity.code, unit)
+    limit = _limit(result, quantity.key, unit) if quantity.key else None
     values = [*(bar.value for bar in bars), *([limit[0]] if limit else [])]
     axis = Axis.around(quantity.axis, values) if unit == "dB" else Axis(quantity.axis, 0.0, max(values) or 1.0)
     text = "; ".join(f"{bar.name} {bar.text}" for bar in bars) + (f"; {limit[1]}" if limit else "")
@@ -279,9 +279,9 @@ def _told(value: Any, unit: str) -> str:
     return f"{value:.1f} dB" if unit == "dB" else f"{number(value, 3)} {unit}"
 
 
-def _limit(result: CompareResult, code: str, unit: str) -> tuple[float, str] | None:
+def _limit(result: CompareResult, key: str, unit: str) -> tuple[float, str] | None:
     """Limit of a check with its text; None unless all machines have the same limit."""
-    limits: Sequence[float | None] = list({check.limit for check in result.checks if check.code == code})
+    limits: Sequence[float | None] = list({check.limit for check in result.checks if check.key == key})
     if len(limits) != 1 or limits[0] is None:
         return None
     return limits[0], f"limit {number(limits[0])} {unit}"

@@ -308,7 +308,7 @@ def _spread(series: Sequence[MeasuredSeries]) -> Iterator[Check]:
         known = [each for each in series if each.handle == handle and each.coefficient_of_variation is not None]
         if len(known) < sum(each.handle == handle for each in series):
             reason = "A series has a single run, or a value is not known"
-            yield coded("ABU441", "not-done", reason, None, rules.variation, "", of=handle)
+            yield coded("ABU441", "not-done", reason, None, rules.variation, of=handle)
             continue
         failing = [each for each in known if not _scatters_little(each)]
         worst = max(failing or known, key=_variation)
@@ -318,7 +318,7 @@ def _spread(series: Sequence[MeasuredSeries]) -> Iterator[Check]:
         )
         if not failing and _variation(worst) >= rules.variation:
             message += f". The standard deviation is below {rules.deviation:g} m/s², which suffices"
-        yield coded("ABU441", verdict(not failing), message, _variation(worst), rules.variation, "", of=handle)
+        yield coded("ABU441", verdict(not failing), message, _variation(worst), rules.variation, of=handle)
 
 
 def _variation(series: MeasuredSeries) -> float:
@@ -360,7 +360,7 @@ def _calibrated(channels: Sequence[MeasuredChannel]) -> Iterator[Check]:
     unknown = [channel for channel in channels if channel.ratio is None]
     if unknown:
         message = f"{unknown[0].file}, {unknown[0].name}: too short, or sampled too slowly"
-        yield coded("ABU443", "not-done", message, None, 100 * CALIBRATED, "%")
+        yield coded("ABU443", "not-done", message, None, CALIBRATED)
         return
     off = max(channels, key=lambda channel: abs((channel.ratio or 1.0) - 1))
     error = abs((off.ratio or 1.0) - 1)
@@ -368,7 +368,7 @@ def _calibrated(channels: Sequence[MeasuredChannel]) -> Iterator[Check]:
     remedy = None
     if error > CALIBRATED:
         remedy = f"Multiply the sensitivity of this channel by {off.ratio:.4g}, or mend sensor and cable."
-    yield coded("ABU443", verdict(error <= CALIBRATED), message, 100 * error, 100 * CALIBRATED, "%", remedy)
+    yield coded("ABU443", verdict(error <= CALIBRATED), message, error, CALIBRATED, remedy)
 
 
 def _overload(runs: Iterable[MeasuredRun], calibration: Iterable[MeasuredChannel]) -> Check:

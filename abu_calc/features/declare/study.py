@@ -34,7 +34,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
@@ -171,21 +171,19 @@ def _wheel(tables: MachineFile) -> TestWheel:
 
 
 def _balancing(design: Design, wheel: TestWheel) -> Check:
-    """ABU433: the region of the speed, and the capacity."""
+    """The region of the speed, and the capacity."""
     case, candidate = design.case, design.autobalancer
-    need = from_si(required(case, candidate, wheel.imbalance), "g_mm")
-    capacity = from_si(candidate.capacity, "g_mm")
+    need, capacity = required(case, candidate, wheel.imbalance), candidate.capacity
     if not design.frequency.balancing_possible:
         message = "Balls do not balance at the rated speed: it is not above the natural frequencies of the suspension"
-        return coded("ABU433", "fail", message, capacity, need, "g·mm", "See ABU101 of `abu size`.", "least")
+        return coded("ABU433", "fail", message, capacity, need, "See ABU101 of `abu size`.")
     enough = carried(case, candidate, wheel.imbalance)
-    message = (
-        f"The test wheel requires {need:.4g} g·mm, race eccentricity included; the balls carry {capacity:.4g} g·mm"
-    )
+    requires, carry = shown(need, "g_mm", ".4g"), shown(capacity, "g_mm", ".4g")
+    message = f"The test wheel requires {requires}, race eccentricity included; the balls carry {carry}"
     remedy = None
     if not enough:
-        remedy = f"Specify more or larger balls, so that their capacity rises to {need:.4g} g·mm or more."
-    return coded("ABU433", verdict(enough), message, capacity, need, "g·mm", remedy, "least")
+        remedy = f"Specify more or larger balls, so that their capacity rises to {requires} or more."
+    return coded("ABU433", verdict(enough), message, capacity, need, remedy)
 
 
 def _tested(design: Design, spindle: Spindle, wheel: TestWheel, starts: int, progress: Progress) -> _Tested:
@@ -364,11 +362,10 @@ def _comparison(
     machine: Machine, design: Design, wheel: TestWheel, without: float, uncertainty: float, tested: _Tested | None,
     with_: WithAutobalancer | None,
 ) -> Iterator[Check]:  # fmt: skip
-    """ABU431 and ABU432."""
     if tested is None or with_ is None:
         reason = "The balls cannot balance the test wheel"
-        yield coded("ABU431", "not-done", reason, None, without, "m/s²")
-        yield coded("ABU432", "not-done", reason, None, uncertainty, "m/s²", bound="least")
+        yield coded("ABU431", "not-done", reason, None, without)
+        yield coded("ABU432", "not-done", reason, None, uncertainty)
         return
     declared = tested.test.declared
 
@@ -376,7 +373,7 @@ def _comparison(
     yield declared_check(without, declared, SIMULATED, lambda: _lower(machine, design, wheel, declared, starts))
     change, K = abs(without - declared), max(uncertainty, with_.K_m_per_s2)
     message = f"The declared value {'falls' if declared < without else 'rises'} by {change:.3g} m/s²; K is {K:.3g} m/s²"
-    yield coded("ABU432", verdict(True, change > K), message, change, K, "m/s²", bound="least")
+    yield coded("ABU432", verdict(True, change > K), message, change, K)
 
 
 def _lower(machine: Machine, design: Design, wheel: TestWheel, present: float, starts: int) -> Action | str:

@@ -13,6 +13,7 @@ from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.summary import size_summary
 from abu_calc.features.design.tables import balls
 from abu_calc.features.seats.figures import seat_figures
+from abu_calc.foundation.checks import first_of
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si, velocity_from_level
 from abu_calc.reporting.blocks import capitalised, number
@@ -99,7 +100,7 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     known = [Bar(name, _mm_per_s(level), db(level), series) for name, level, series in rows if level is not None]
     if not known:
         return
-    bound = _limit(result, "ABU401")
+    bound = _limit(result, "idle_level")
     limit = (_mm_per_s(bound[0]), bound[1]) if bound else None
     most = max(*(bar.value for bar in known), limit[0] if limit else 0.0)
     axis = Axis("velocity, rms, idle [mm/s]", 0.0, 1.05 * most)
@@ -120,7 +121,7 @@ def _over_speed(result: SizeResult) -> Iterator[Figure]:
     if len({speed_level.speed_rpm for speed_level in levels}) < 2:
         return
     curve = sorted((speed_level.speed_rpm, speed_level.level_after_db) for speed_level in levels)
-    limit = _limit(result, "ABU401")
+    limit = _limit(result, "idle_level")
     bands = _forbidden(result)
     points = [*(MarkedPoint(*pair) for pair in curve), *_measured(result)]
     across = Axis.around("speed [rpm]", (point.x for point in points))
@@ -272,7 +273,8 @@ def _idle_label(result: SizeResult) -> str:
 def _settling(result: SizeResult) -> Iterator[Figure]:
     if result.idle_run is None:
         return
-    limit = next((check.limit for check in result.checks if check.code == "ABU701"), None)
+    check = first_of(result.checks, "balance")
+    limit = None if check is None else check.limit
     bound = " It should fall below the dashed line and stay there." if limit is not None else ""
     caption = f"Imbalance that rotor and balls leave together, idle, {idle_case(result)}.{bound}"
     yield Figure("settling", "simulation-idle", settling(result.idle_run, limit), caption)
@@ -282,7 +284,7 @@ def _over_time(result: SizeResult) -> Iterator[Figure]:
     """Levels of the simulated runs: idle with the limit and the measured level, grinding without them."""
     where = "at the loudest place, dB re 5e-8 m/s rms"
     if result.idle_run is not None:
-        bound, measured = _limit(result, "ABU401"), result.measured_after
+        bound, measured = _limit(result, "idle_level"), result.measured_after
         limit = None if bound is None else bound[0]
         shown = None if measured is None else measured.measured_level_db
         caption = f"Velocity level over each revolution, idle, {idle_case(result)}, {where}."
@@ -354,8 +356,8 @@ def _costs(result: SizeResult) -> Iterator[Figure]:
     yield Figure("costs", "for-the-drawing", Bars("Cost of each tolerance", text, axis, rows), caption)
 
 
-def _limit(result: SizeResult, code: str) -> tuple[float, str] | None:
-    limit = next((check.limit for check in result.checks if check.code == code and check.limit is not None), None)
+def _limit(result: SizeResult, key: str) -> tuple[float, str] | None:
+    limit = next((check.limit for check in result.checks if check.key == key and check.limit is not None), None)
     return None if limit is None else (limit, f"limit {number(limit)} dB")
 
 

@@ -271,8 +271,8 @@ def _on_work(design: Design, runs: Sequence[SceneRun]) -> tuple[Check, ...]:
 
     There is none for machines without an arm, or with one that does not press.
     """
-    bounds = design.swing_arm
-    if bounds is None or any(check.status != "pass" for check in bounds.checks if check.code in ("ABU503", "ABU504")):
+    bounds, presses = design.swing_arm, ("arm_pressed", "arm_stands")
+    if bounds is None or any(check.status != "pass" for check in bounds.checks if check.key in presses):
         return ()
     from abu_calc.features.swing_arm.scenes import on_work
 

@@ -50,8 +50,8 @@ NEAR: Final = 0.4
 """Nearness of a start case to its limits above which a run at a tighter tolerance may find that it keeps them."""
 PROMISING: Final = 4_000_000
 """Evaluations that a trial may take if the start cases that fail as the file is hold with the change."""
-STABLE: Final = "ABU103"
-"""Check of stability."""
+STABLE: Final = "stability"
+"""Key of the check of stability."""
 REPEATED: Final = 6
 """Start cases that fail as the file is, which run first with a change, the worst ones."""
 
@@ -173,7 +173,7 @@ class ChangeWatcher(NoWorse):
         self.judge, self.most, self.best, self.probe = judge, most, best or before, probe
         self.refuting = [] if refuting is None else refuting
         self.work, self.held = 0, 0.0
-        self.stable = all(check.status == "pass" for check in before.checks if check.code == STABLE)
+        self.stable = all(check.status == "pass" for check in before.checks if check.key == STABLE)
         self.every = worse_than == RANK.index("warn")
 
     def seen(self, design: Any, outcome: StartOutcome | Lost) -> None:
@@ -366,32 +366,32 @@ def _number(value: Callable[[Candidate], float | None]) -> Callable[[Judged], fl
 
 
 NUMBERS: Final[Mapping[str, tuple[Number, ...]]] = {
-    "ABU201": (
+    "capacity": (
         Number("autobalancer.capacity_g_mm", "the capacity", "g·mm",
                _number(lambda candidate: from_si(candidate.capacity, "g_mm"))),
     ),
-    "ABU203": (
+    "mass": (
         Number("autobalancer.mass_fraction", "the share of the mass", "%", _number(attrgetter("mass_fraction")), 100.0),
     ),
-    "ABU401": (
+    "idle_level": (
         Number("vibration.level_after_db", "the expected level", "dB", attrgetter("level_after")),
         Number("ensemble.level_db.worst", "the loudest listed start case", "dB", _of_starts(attrgetter("level"))),
         Number("ensemble.further_starts.level_db", "the loudest further start case", "dB",
                _of_starts(loudness, further=True)),
     ),
-    "ABU702": (
+    "quiet_time": (
         Number("ensemble.quiet_time_s.worst", "the slowest listed start case", "s", _of_starts(slowness)),
         Number("ensemble.further_starts.quiet_time_s", "the slowest further start case", "s",
                _of_starts(slowness, further=True)),
         Number("ensemble.further_starts.rare_quiet_time_s", "the quiet time of one start in 1000", "s", _rare),
     ),
 }  # fmt: skip
-"""Numbers by which checks are decided."""
+"""Numbers by which checks are decided, by their keys."""
 
 
 def _moved(check: Check, before: Judged, after: Judged) -> tuple[Number, float | None, float] | None:
     """The number that breaks the limit of a check and keeps it with a change, before and after; None: there is none."""
-    for number in NUMBERS.get(check.code, ()):
+    for number in NUMBERS.get(check.key, ()):
         old, new = number.of(before), number.of(after)
         limit, sign = (check.limit or 0.0) / number.per, 1 if check.bound == "most" else -1
         kept = [value is not None and sign * value <= sign * limit for value in (old, new)]
@@ -421,15 +421,15 @@ SEATS: Final = "6"
 
 def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     """The checks with their actions: the change that was tried where it helps; no other change is proposed."""
-    codes = SEARCHED if _of_one(before) else OF_STARTS
+    keys = SEARCHED if _of_one(before) else OF_STARTS
     bad = [check for check in before.checks
-           if check.requested and check.status != "pass" and (_searched(check, codes) or not check.remedy)]  # fmt: skip
+           if check.requested and check.status != "pass" and (_searched(check, keys) or not check.remedy)]  # fmt: skip
     first, checks = min(bad, key=lambda check: RANK.index(check.status), default=None), list[Check]()
     for check in before.checks:
         if check.status == "pass" or not check.requested:
             checks.append(check)
             continue
-        known = bool(check.remedy) and not _searched(check, codes)
+        known = bool(check.remedy) and not _searched(check, keys)
         action: Action | str | None = Action(check.remedy or "", check.overrides) if known else None
         if step.best is not None:
             after = next((each for each in step.best.after.checks if _key(each) == _key(check)), None)
@@ -442,16 +442,16 @@ def actions(before: Judged, step: NextStep) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def _searched(check: Check, codes: Collection[str]) -> bool:
-    """True if changes are tried for a check that is beyond its limit, by its code: then no other one is proposed."""
+def _searched(check: Check, keys: Collection[str]) -> bool:
+    """True if changes are tried for a check that is beyond its limit, by its key: then no other one is proposed."""
     if check.code[3] == SEATS:
         return False
-    return bool(check.overrides) or (check.code in codes and check.value is not None and check.limit is not None)
+    return bool(check.overrides) or (check.key in keys and check.value is not None and check.limit is not None)
 
 
-OF_STARTS: Final = frozenset(rule.code for rule in RULES)
-SEARCHED: Final = (PROPOSED.keys() - ON_ARM) | OF_STARTS | {"ABU103"}
-"""Codes of the checks for which changes are tried; those of an arm have a remedy for example data alone."""
+OF_STARTS: Final = frozenset(rule.key for rule in RULES)
+SEARCHED: Final = (PROPOSED.keys() - ON_ARM) | OF_STARTS | {STABLE}
+"""Keys of the checks for which changes are tried; those of an arm have a remedy for example data alone."""
 
 
 def _no_change(step: NextStep) -> str:
@@ -483,7 +483,7 @@ def _action(check: Check, before: Judged, best: Tried) -> Action:
         number, old, new = found
         from_, to = (math.inf if value is None else value * number.per for value in (old, new))
         text = Moved(number.name, from_, to, number.unit, check.limit).text
-    elif check.code not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
+    elif check.key not in OF_STARTS | NUMBERS.keys() and _apart(check.value, now.value):
         text = Moved(f'"{check.name}"', check.value or 0.0, now.value or 0.0, check.unit or "", now.limit).text
     own = _own(before)
     change = in_words(best.entries, before.facts.design.case.table, own)
@@ -522,18 +522,18 @@ def proposals(before: Judgement) -> Iterator[Entries]:
     bad = sorted((check for check in before.checks if check.requested and check.status != "pass"),
                  key=lambda check: RANK.index(check.status))  # fmt: skip
     design = before.facts.design
-    mending, codes = mended(design), {check.code for check in bad}
+    mending, keys = mended(design), {check.key for check in bad}
     outside = before.arm is not None and any(check.status in ("fail", "not-done") for check in before.arm.checks)
     on_arm = _changes_on_arm(before, mending[0] if mending and outside else {})
     arm = [*islice(on_arm, 1)]
     calculated = [overrides(entries) for entries in (*(arm if outside else ()), *mending)]
     others = dict.fromkeys(check.overrides for check in bad if check.overrides)
-    steady = steadier(design, before.region.boundaries or ()) if STABLE in codes else None
+    steady = steadier(design, before.region.boundaries or ()) if STABLE in keys else None
     first = {} if steady is None else {**steady, **pins(design.autobalancer)}
     others |= dict.fromkeys([overrides(first)] if first else ())
     of_starts: list[Mapping[str, object]] = []
-    if codes & OF_STARTS and design.frequency.balancing_possible:
-        of_starts = [*changes_for_starts(before.facts, loud=LEVEL.code in codes)]
+    if keys & OF_STARTS and design.frequency.balancing_possible:
+        of_starts = [*changes_for_starts(before.facts, loud=LEVEL.key in keys)]
     if outside and arm:  # nothing else helps without
         held = {key: value for key, value in arm[0].items() if key.startswith(ARM)}
         of_starts = [{**held, **entries} for entries in of_starts]

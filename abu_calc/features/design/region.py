@@ -139,7 +139,7 @@ def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
         if speeds is None:
             reason = "There is no balanced state: the balls cannot carry the imbalance"
             remedy = "Specify heavier or more balls, a larger race, or a better balanced wheel."
-            check = coded("ABU103", "fail", reason, unit="1/s", remedy=remedy)
+            check = coded("ABU103", "fail", reason, None, remedy=remedy)
             return TrueRegion(False, (), modes, hanging, check)
         check = _stable(design, speeds) if speeds.stable else _unstable(design, speeds, hanging, accuracy)
         whirling = unstable_speed(design) if speeds.stable else None
@@ -154,7 +154,7 @@ def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
     except NotTrustworthyError as error:
         reason = f"Stability is not known: {str(error).splitlines()[0]}"
         remedy = "Specify another oil, or springs in place of hands."
-        check = coded("ABU103", "not-done", reason, unit="1/s", remedy=remedy)
+        check = coded("ABU103", "not-done", reason, None, remedy=remedy)
         return TrueRegion(None, None, modes, hanging, check)
 
 
@@ -207,7 +207,7 @@ def _stable(design: Design, speeds: SpeedRange) -> Check:
     neutral = abs(speeds.growth) < NEUTRAL * speeds.worst_speed
     course = "No small disturbance grows" if neutral else f"Every small disturbance dies out{where}"
     message = f"{course}, in the least stable balanced arrangement of the balls"
-    return coded("ABU103", "pass", message, 0.0 if neutral else speeds.growth, 0.0, "1/s")
+    return coded("ABU103", "pass", message, 0.0 if neutral else speeds.growth, 0.0)
 
 
 def _whirls(speed: float) -> Check:
@@ -238,9 +238,9 @@ def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accura
         sentences.append(held.words)
         if not held.proves and patience.over():
             sentences.append("The others were not simulated in the time of --patience")
-            return coded("ABU103", "not-done", ". ".join(sentences), speeds.growth, 0.0, "1/s")
+            return coded("ABU103", "not-done", ". ".join(sentences), speeds.growth, 0.0)
     grade: Grade = "warn" if held.proves else "fail"
-    return coded("ABU103", grade, ". ".join(sentences), speeds.growth, 0.0, "1/s")
+    return coded("ABU103", grade, ". ".join(sentences), speeds.growth, 0.0)
 
 
 ABOVE: Final = 1.02

@@ -22,7 +22,7 @@ from abu_calc.features.design.tables import (
     unusual_values,
 )
 from abu_calc.features.design.verdict import STARTS_UNIT, Verdict, faults, in_capitals, keeps_limit
-from abu_calc.foundation.checks import RANK, Check, Grade, worst
+from abu_calc.foundation.checks import RANK, Check, Grade, first_of, worst
 from abu_calc.foundation.escaping import shell_word
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
 from abu_calc.reporting.parts import WORD, next_command, replaced_entries
@@ -41,7 +41,7 @@ MOST_FAULTS: Final = 3
 """Checks with a row of their own, beside those that the table shows."""
 MOST_OF_CHANGE: Final = 3
 """Lines of a change beyond which what it replaces is left out."""
-NOT_IN_BALANCE: Final = frozenset({"ABU101", "ABU103", "ABU201", "ABU402", "ABU701"})
+NOT_IN_BALANCE: Final = frozenset({"frequency_region", "stability", "capacity", "level_lowered", "balance"})
 """Checks without which no value of a table is a pass."""
 REPLACE: Final = {
     "autobalancer.race_eccentricity_mm": "Specify the run-out that the shop holds.",
@@ -126,7 +126,8 @@ def _make(result: SizeResult) -> list[str]:
 def _capacity(result: SizeResult) -> str:
     """What the balls carry and must carry, and why that is more than the imbalance."""
     bare, own, model = result.required_capacity_g_mm, result.autobalancer.capacity_g_mm, result.model
-    limit = next((check.limit for check in result.checks if check.code == "ABU201"), None) or bare
+    check = first_of(result.checks, "capacity")
+    limit = (None if check is None else check.limit) or bare
     if not bare:
         return f"carries {number(own, 4)} g·mm"
     named = ("imbalance", result.imbalance_g_mm), ("wheel run-out", model.runout_part_g_mm)
@@ -139,10 +140,11 @@ def _capacity(result: SizeResult) -> str:
 
 def numbers(result: SizeResult) -> Grid:
     """Levels, accelerations and times, each with its limit and grade; then checks that these do not show."""
-    checks = {check.code: check for check in result.checks}
+    checks = {check.key: check for check in result.checks}
     many_starts, rows = result.ensemble, {
-        "ABU401": [*_idle(result, checks.get("ABU401"))], "ABU404": [*_handles(result, checks.get("ABU404"))],
-        "ABU104": [*_motor_idle(result, checks.get("ABU104"))], "": [*_grinding(result)],
+        "idle_level": [*_idle(result, checks.get("idle_level"))],
+        "handles": [*_handles(result, checks.get("handles"))],
+        "motor_idle_speed": [*_motor_idle(result, checks.get("motor_idle_speed"))], "at work": [*_grinding(result)],
     }  # fmt: skip
     if many_starts is not None:
         further = many_starts.further_starts
@@ -150,17 +152,17 @@ def numbers(result: SizeResult) -> Grid:
         if further is not None:
             times, rests = [*times, further.quiet_time_s], [*rests, further.rest_time_s]
         rare = None if further is None else math.inf if further.rare_quiet_time_s is None else further.rare_quiet_time_s
-        rows["ABU702"] = time_rows(times, rests, rare, checks.get("ABU702"))
+        rows["quiet_time"] = time_rows(times, rests, rare, checks.get("quiet_time"))
     return number_table(rows, result.checks)
 
 
 def number_table(rows: Mapping[str, Sequence[Row]], checks: Sequence[Check]) -> Grid:
-    """Rows of levels and times, by the code of the check that limits them, none a pass where the balls do not balance;
+    """Rows of levels and times, by the key of the check that limits them, none a pass where the balls do not balance;
     then checks of which no row shows the grade.
     """
-    shown = {code for code, its in rows.items() if any(row[4] not in ("", "pass") for row in its)}
+    shown = {key for key, its in rows.items() if any(row[4] not in ("", "pass") for row in its)}
     every = _tightest(rows, bad=any(check.status in ("warn", "fail") for check in checks if check.requested))
-    failed = {check.code for check in checks if check.status == "fail"}
+    failed = {check.key for check in checks if check.status == "fail"}
     if failed:
         every = [row for row in every if row[0] != REST or row[4]]
     if failed & NOT_IN_BALANCE:
@@ -173,8 +175,8 @@ def _tightest(rows: Mapping[str, Sequence[Row]], *, bad: bool) -> list[Row]:
     """All rows; if no check is `bad`, that with the largest share of its limit is marked."""
     every = [row for its in rows.values() for row in its]
     shares = {
-        row: 10 ** ((float(row[2]) - float(row[3])) / 20) if code == "ABU401" else float(row[2]) / float(row[3])
-        for code, its in rows.items() for row in its if row[4] == "pass"
+        row: 10 ** ((float(row[2]) - float(row[3])) / 20) if key == "idle_level" else float(row[2]) / float(row[3])
+        for key, its in rows.items() for row in its if row[4] == "pass"
     }  # fmt: skip
     if bad or len(shares) < 2:
         return every
@@ -287,7 +289,7 @@ def _digits(value: float, limit: float | None) -> str:
 def _fault_rows(checks: Sequence[Check], shown: Collection[str]) -> list[Row]:
     """Checks that are not passed and not `shown`, each in a row with its value and limit."""
     grades: tuple[Grade, ...] = ("fail", "not-done", "warn")
-    bad = _once(check for grade in grades for check in faults(checks, grade) if check.code not in shown)
+    bad = _once(check for grade in grades for check in faults(checks, grade) if check.key not in shown)
     told = ([check for check in bad if check.status == "fail"] or bad)[:MOST_FAULTS]
     rows, more = [*map(_fault_row, told)], len(bad) - len(told)
     return rows + ([(f"{many(more, 'more check')}: --full", "", "", "", "")] if more > 0 else [])
@@ -349,7 +351,7 @@ def _assumed(result: SizeResult) -> list[Block]:
     gap = next((gap for gap in result.data_gaps if gap.key == DRAG or gap.level_db[0] != gap.level_db[1]), None)
     if gap is None:
         return []
-    limits = [check.limit for check in result.checks if check.code == "ABU401" and check.limit is not None]
+    limits = [check.limit for check in result.checks if check.key == "idle_level" and check.limit is not None]
     known = result.starts.of is None or result.starts.of[0].case.table.run_up is not None
     plan = next_command("abu measure-plan", result.provenance, (), *([] if known else ["--run-up 1"]))
     note, plan = "" if known else " (1: your run-up in s)", f"`{plan}`".replace(" ", TIE)

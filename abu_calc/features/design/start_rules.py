@@ -10,7 +10,7 @@ from typing import Any, Final, NamedTuple
 
 from abu_calc.features.design.start_search import RARE, SearchResult, fails, loudness, slowness
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Action, Check, Finding, Grade, coded, verdict
+from abu_calc.foundation.checks import CHECK_CODES, Action, Check, Finding, Grade, coded, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
@@ -101,6 +101,11 @@ class StartRule(NamedTuple):
     foresees: bool = False
     """Whether the time that one of 1000 start cases exceeds counts, too."""
 
+    @property
+    def key(self) -> str:
+        """The key of the check."""
+        return CHECK_CODES[self.code].key
+
     def finding(self, facts: StartFacts, unsimulated: Finding) -> Finding:
         """What the listed start cases say."""
 
@@ -184,7 +189,7 @@ def _level(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     if limit is None or closed.value is None:
         return closed
     if patience.over() and ensemble.lost and closed.status != "fail":
-        return Finding("not-done", "Not all start cases were simulated in the time of --patience", None, limit, "dB")
+        return Finding("not-done", "Not all start cases were simulated in the time of --patience", None, limit)
     if given is None or loudest is None:
         return closed
     message = f"{closed.message}. Loudest start case: {_of_limit(given, ensemble, limit)}"
@@ -192,13 +197,13 @@ def _level(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
     if given.level > limit and given.level > closed.value:
         # A truer race helps where the closed form fails, too; what helps a start that does not balance was tried.
         advice = closed.action if closed.status == "fail" and given.balanced else quieter
-        return Finding("fail", message, value, limit, "dB", advice)
+        return Finding("fail", message, value, limit, advice)
     if closed.status == "pass" and loudest.level + SLACK > limit:
         if loudest is not given:
             message += f". Loudest start case at another drag rate: {_of_limit(loudest, ensemble, limit)}"
         if loudest.level <= limit:
             message += f". The error of its simulation, {SLACK:g} dB, leaves open whether the limit is kept"
-        return Finding("warn", message, loudest.level, limit, "dB", quieter)
+        return Finding("warn", message, loudest.level, limit, quieter)
     return closed._replace(message=message, value=value)
 
 
@@ -220,8 +225,8 @@ def _balances(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
                   for lost in ensemble.lost[:1]]  # fmt: skip
     if worst:
         sentences.append("The value is the largest imbalance left at the given drag rate")
-    value, limit = (LEFT.value(worst), from_si(worst.allowed, "g_mm")) if worst else (None, None)
-    return Finding(status, ". ".join(sentences), value, limit, "g·mm", advise(status))
+    value, limit = (worst.imbalance, worst.allowed) if worst else (None, None)
+    return Finding(status, ". ".join(sentences), value, limit, advise(status))
 
 
 def _settles(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
@@ -246,7 +251,7 @@ def _settles(facts: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
         sentences.append(f"The balls rest after {rested.rest_time:#.3g} s at the latest{allowed}")
     decides = latest if status == "warn" and latest and latest.quiet_time_or_inf > limit else late
     value = None if decides is None else decides.quiet_time
-    return Finding(status, ". ".join(sentences), value, limit, "s", advise(status))
+    return Finding(status, ". ".join(sentences), value, limit, advise(status))
 
 
 def _none_stalls(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
@@ -257,7 +262,7 @@ def _none_stalls(_: StartFacts, ensemble: Ensemble, advise: Advise) -> Finding:
         message = f"Balls stall in {count}: {_first(ensemble.hanging, ensemble)}"
     for lost in ensemble.lost[:1]:
         message += f". No answer from {_words(lost.member.name, lost.member.drag, ensemble)}"
-    return Finding(status, message, float(len(ensemble.hanging)), 0.0, "start cases", advise(status))
+    return Finding(status, message, float(len(ensemble.hanging)), 0.0, advise(status))
 
 
 def _grade(ensemble: Ensemble, good: Callable[[StartOutcome], bool]) -> Grade:
@@ -331,7 +336,7 @@ LEVEL: Final = StartRule(
     surely=lambda design, start: fails(design, start) and start.loudest > design.case.level_limit + SLACK,
 )  # fmt: skip
 BALANCES: Final = StartRule(
-    "ABU701", LEFT, "one with the largest imbalance left", _balances, _unbalanced, LEFT.value,
+    "ABU701", LEFT, "one with the largest imbalance left", _balances, _unbalanced, attrgetter("imbalance"),
     lambda _: "do not balance",
 )  # fmt: skip
 SETTLES: Final = StartRule("ABU702", SLOWEST, "slowest", _settles, _late, slowness, _time_in_words, foresees=True)

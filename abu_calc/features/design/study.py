@@ -343,7 +343,7 @@ def _verdict(judged: Judgement, checks: Sequence[Check], step: NextStep, reading
     """The verdict with what the autobalancer does at the loudest place, and the change that mends the machine."""
     design = judged.design
     levels, quiet = design.idle.worst, finite(max((run.quiet_time_or_inf for run in judged.outcomes), default=math.inf))
-    if any(check.code == "ABU702" and check.status != "pass" for check in checks):
+    if any(check.key == "quiet_time" and check.status != "pass" for check in checks):
         quiet = None  # the sentence tells it otherwise
     told = benefit(design.idle.judged, levels.before, levels.after, design.case.level_limit, quiet)
     return verdict_of(judged, checks, step, told, reading)

@@ -10,7 +10,7 @@ from abu_calc.features.design.section_drawing import legend, section_lines
 from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_line
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Check, first_of
 from abu_calc.reporting.blocks import Block, Grid, Paragraph, Picture, level_text, number
 from abu_calc.reporting.parts import WORD, SaidSentences, paste_lines, unlike, value_and_limit
 from abu_calc.reporting.screen import BLANK, many
@@ -95,7 +95,7 @@ def make(result: SizeResult) -> list[Block]:
         ),
         TableCase("Eccentricity", _eccentricity(result)),
         TableCase("Capacity", f"{number(abu.capacity_g_mm, 5)} g·mm ({capacity})"),
-        TableCase("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
+        TableCase("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'mass')}"),
     )  # fmt: skip
     return [Grid((title, ""), tuple((row.label, row.value) for row in rows))]
 
@@ -108,20 +108,20 @@ def _required(result: SizeResult) -> str:
 
 
 def _needed(result: SizeResult) -> float:
-    """Required capacity times its margin [g·mm], as ABU201 judges it."""
-    check = next((check for check in result.checks if check.code == "ABU201"), None)
+    """Required capacity times its margin [g·mm], as its check has it."""
+    check = first_of(result.checks, "capacity")
     return result.required_capacity_g_mm if check is None or check.limit is None else check.limit
 
 
-def _most(result: SizeResult, code: str) -> str:
-    check = next((check for check in result.checks if check.code == code), None)
+def _most(result: SizeResult, key: str) -> str:
+    check = first_of(result.checks, key)
     return "" if check is None or check.limit is None else f" (limit {check.limit:g} {check.unit or ''})"
 
 
 def numbers_that_matter(result: SizeResult) -> list[Block]:
     """Levels and quiet times, case by case, with limit and grade."""
     numbers = {check.code: k for k, alike in enumerate(unlike(result.checks), 1) for check in alike}
-    checks = {check.code: check for check in result.checks}
+    checks = {check.key: check for check in result.checks}
     levels, settling = _levels(result, checks, numbers), _settling(result, checks, numbers)
     place = _place(result.vibration)
     vibration = _table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels)
@@ -154,7 +154,7 @@ def handle_tables(result: SizeResult, numbers: Mapping[str, int], most: int = MO
     `most`: how many handles are shown, those with the highest vector total.
     """
     shown, more = highest_first(result, most)
-    check = next((check for check in result.checks if check.code == "ABU404"), None)
+    check = first_of(result.checks, "handles")
     rows = [row for handle in shown for row in _handle_rows(handle, check, numbers)]
     title = f"{len(shown)} of {len(shown) + more} handles" if more else "Handles, idle"
     head: tuple[str, ...] = (title, "x, dB", "a_h", "y, dB", "a_h", "z, dB", "a_h", "a_hv, m/s²")
@@ -238,7 +238,7 @@ def _graded(value: float | None, check: Check | None, numbers: Mapping[str, int]
 
 
 def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[TableCase]:
-    vibration, many_starts, check = result.vibration, result.ensemble, checks.get("ABU401")
+    vibration, many_starts, check = result.vibration, result.ensemble, checks.get("idle_level")
     cases = [TableCase(WITHOUT, _db(vibration.level_before_db))]
 
     def judged(label: str, level: float | None, *, decides: bool) -> TableCase:
@@ -323,7 +323,7 @@ def louder(level: float | None, before: float | None) -> str:
 
 
 def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[TableCase]:
-    many_starts, check = result.ensemble, checks.get("ABU702")
+    many_starts, check = result.ensemble, checks.get("quiet_time")
     if many_starts is None:
         return []
     given = result.model.drag_per_s

@@ -22,14 +22,10 @@ BEGINNINGS: Final[dict[Grade, str]] = {
 """How the sentence begins."""
 MOST_REASONS: Final = 2
 """Most reasons in the sentence; the screen has a line for each."""
-STARTS: Final = ("ABU401", "ABU402", "ABU404", "ABU701", "ABU702", "ABU703", "ABU704")
-FOLLOW: Final[Mapping[str, tuple[str, ...]]] = {
-    "ABU101": ("ABU103", *STARTS), "ABU103": STARTS, "ABU201": ("ABU103", "ABU202", *STARTS),
-    "ABU701": ("ABU401", "ABU402", "ABU404", "ABU702"), "ABU401": ("ABU702",),
-}  # fmt: skip
-"""Checks that fail because another one does: one fault counts once."""
-OF_BALANCING: Final = frozenset((*FOLLOW, *STARTS, "ABU102", "ABU202"))
-"""Checks that say whether the balls help; a seat, a strength or a cutter that fails is no reason to leave them out."""
+OF_BALANCING: Final = frozenset({"frequency_region", "carry_over", "capacity"})
+"""Checks that say whether the balls help, with all that follow from another one; a seat, a strength or a cutter that
+fails is no reason to leave them out.
+"""
 LEAST_BENEFIT: Final = 3.0
 """Reduction of the idle level [dB] below which the sentence says how little it is."""
 
@@ -83,7 +79,9 @@ class Verdict(Record):
         if in_vain:
             sentence += " No change of the file was found that mends it."
         step = next_command("abu size", reading, entries) if entries else None
-        useless = incurable and any(check.status == "fail" and check.code in OF_BALANCING for check in checks)
+        useless = incurable and any(
+            check.status == "fail" and (check.key in OF_BALANCING or check.kind.follows) for check in checks
+        )
         return cls(word=WORDS[grade], sentence=sentence, next=step, promise=promise, leave_out=useless, change=change,
                    in_vain=in_vain)  # fmt: skip
 
@@ -100,9 +98,8 @@ def in_capitals(word: str) -> str:
 def faults(checks: Sequence[Check], grade: Grade) -> list[Check]:
     """The checks of a grade, without those that follow from another one as bad."""
     bad = [check for check in checks if check.requested and check.status != "pass"]
-    causes = (check for check in bad if RANK.index(check.status) <= RANK.index(grade))
-    following = {code for check in causes for code in FOLLOW.get(check.code, ())}
-    return [check for check in bad if check.status == grade and check.code not in following]
+    causes = {check.key for check in bad if RANK.index(check.status) <= RANK.index(grade)}
+    return [check for check in bad if check.status == grade and causes.isdisjoint(check.kind.follows)]
 
 
 def _following(checks: Sequence[Check], grade: Grade) -> list[str]:

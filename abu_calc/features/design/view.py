@@ -21,7 +21,7 @@ from abu_calc.features.design.tables import (
 )
 from abu_calc.features.grinding.view import start_blocks
 from abu_calc.features.swing_arm.view import arm_facts, motion_blocks, printed_otherwise
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Check, first_of
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.characters import pictured
 from abu_calc.reporting.parts import (
@@ -124,8 +124,8 @@ def _checks(checks: Sequence[Check]) -> list[Block]:
 
 
 def _design(result: SizeResult) -> list[Block]:
-    """The chosen autobalancer; the speed that carries balls over concerns horizontal spindles, which ABU102 judges."""
-    design, horizontal = result.autobalancer, any(check.code == "ABU102" for check in result.checks)
+    """The chosen autobalancer; the speed that carries balls over concerns horizontal spindles alone."""
+    design, horizontal = result.autobalancer, first_of(result.checks, "carry_over")
     names = (
         *("ball_mass_g", "race_radius_mm", "pitch_radius_mm", "groove_radius_mm", "outer_diameter_mm", "width_mm"),
         *("mass_g", "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa"),

@@ -14,7 +14,6 @@ from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
 from abu_calc.simulation.durations import free_rates
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.advice import power_checks
@@ -79,20 +78,15 @@ def _lowered(work: Work, remedy: str | None) -> Check:
         missing = " and ".join(side for side, level in sides.items() if level is None)
         if not missing:
             why = "levels with and without the autobalancer differ by less than runs of chaotic bouncing do"
-            return coded(
-                "ABU421",
-                "not-done",
-                why,
-                after,
-                before,
-                "dB",
+            return coded("ABU421", "not-done", why, after, before,
                 remedy or "Keep the wheel on the workpiece: smaller runout, softer contact, larger normal force.",
-            )
+            )  # fmt: skip
         usual = (
             'Set grinding.contact = "compliant" and its stiffness: a simulation then gives the level while bouncing.'
         )
-        return coded("ABU421", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
-                     remedy or usual)  # fmt: skip
+        return coded("ABU421", "not-done", f"the level {missing} the autobalancer is not known", after, before,
+            remedy or usual,
+        )  # fmt: skip
     message = "level with the autobalancer, pressed after the balls settled, against the level without"
     if work.fitted.scatter or work.without.scatter:
         message += (
@@ -101,7 +95,7 @@ def _lowered(work: Work, remedy: str | None) -> Check:
     if work.lowered and not work.always:
         hasty = "not known" if work.level_at_once is None else f"{work.level_at_once:.1f} dB"
         message += f". Pressed before: {hasty}{', and it stays so' if work.stays_loud else ''}"
-    return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
+    return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, remedy)
 
 
 def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: GrindingOutcomes) -> Check:
@@ -124,18 +118,19 @@ def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Grindin
             f"not lower than without the autobalancer in {len(louder)} of {count} start cases pressed after the balls "
             f"settled; the loudest is {louder[-1].start.name}"
         )
-        return coded("ABU421", "fail", message, after, before, "dB", remedy)
+        return coded("ABU421", "fail", message, after, before, remedy)
     if settled is None:
         missing = loads.ensemble.without_answer("settled")
         message = "start cases pressed after the balls settled differ from the level without by less than they scatter"
         if missing:
             message = f"{len(missing)} of {loads.count('settled')} start cases gave no result: {missing[0].reason}"
-        return coded("ABU421", "not-done", message, after, before, "dB",
-                     remedy or "Permit a larger error (--accuracy), or raise the viscous drag rate.")  # fmt: skip
+        return coded("ABU421", "not-done", message, after, before,
+            remedy or "Permit a larger error (--accuracy), or raise the viscous drag rate.",
+        )  # fmt: skip
     if early is True:
-        return coded("ABU421", usual.status, usual.message, after, before, "dB", remedy)
+        return coded("ABU421", usual.status, usual.message, after, before, remedy)
     message = f"{usual.message}. {_early_starts(loads)}"
-    return coded("ABU421", "warn", message, after, before, "dB", remedy)
+    return coded("ABU421", "warn", message, after, before, remedy)
 
 
 def _early_starts(loads: GrindingOutcomes) -> str:
@@ -155,9 +150,9 @@ def _carried(work: Work) -> Check:
     needed = abs(balls.needed) if balls else 0.0
     enough = needed <= autobalancer.capacity
     return coded("ABU422", verdict(enough), "capacity, balls side by side, against the one required by this contact",
-                 from_si(autobalancer.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm",
-                 None if enough else "Specify larger balls, less runout, a better balanced wheel or a softer contact.",
-                 "least")  # fmt: skip
+        autobalancer.capacity, needed,
+        None if enough else "Specify larger balls, less runout, a better balanced wheel or a softer contact.",
+    )  # fmt: skip
 
 
 def flutter_limits(work: Work) -> tuple[float, float] | None:
@@ -178,13 +173,13 @@ def _still(work: Work) -> Check:
         status: Grade = "not-done" if short else "fail"
         why = "the capacity is below that required at the workpiece" if short else (
             "at this contact stiffness and speed balls go where they add to the imbalance")  # fmt: skip
-        return coded("ABU423", status, why, drag, None, "1/s", None, "least")
+        return coded("ABU423", status, why, drag)
     here, cross = limits
     if balls.places == "restless":
         why = "their motion in the race has no damping" if drag == 0 else (
                "cutting friction feeds their flutter below the limit of the viscous drag rate" if drag < here else
                "the machine on its contact has a natural frequency too near the speed for these balls")  # fmt: skip
-        return coded("ABU423", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
+        return coded("ABU423", "fail", f"balls do not stay where they balance: {why}", drag, here)
     loose = [line for line in _lines(work) if leaving(work.design.case, work.fitted.steady.contact,
                                                       work.design.autobalancer, line)]  # fmt: skip
     message = "small disturbances die out; viscous drag rate against flutter fed by cutting friction"
@@ -192,7 +187,7 @@ def _still(work: Work) -> Check:
         message += f". Balls in a cross, as with other wheels, require {cross:.3g} 1/s"
     elif loose:
         message += ". In another arrangement that balances they would not die out"
-    return coded("ABU423", verdict(True, drag >= cross and not loose), message, drag, here, "1/s", None, "least")
+    return coded("ABU423", verdict(True, drag >= cross and not loose), message, drag, here)
 
 
 def _lines(work: Work) -> tuple[float, ...]:
@@ -220,7 +215,7 @@ def _kept(work: Work, remedy: str | None, loads: GrindingOutcomes | None) -> tup
     if loads is not None and bouncing:
         message += f". They bounce in {len(bouncing)} of {loads.ensemble.count} start cases"
     warned = parts or work.at_once.parts or bool(bouncing)
-    return (coded("ABU424", "warn" if warned else "pass", message, amplitude, press, "N",
+    return (coded("ABU424", "warn" if warned else "pass", message, amplitude, press,
                   remedy if warned else None),)  # fmt: skip
 
 
@@ -228,7 +223,7 @@ def _agrees(compared: Comparison | None) -> tuple[Check, ...]:
     if compared is None:
         return ()
     if compared.apart is None:
-        return (coded("ABU425", "not-done", f"no simulation is valid: {compared.failure}", None, 100 * AGREES, "%",
+        return (coded("ABU425", "not-done", f"no simulation is valid: {compared.failure}", None, AGREES,
                       "Set the drag rate nearer to its optimum, or permit a larger error (--accuracy)."),)  # fmt: skip
     near = compared.apart <= AGREES
     remedy = (
@@ -239,8 +234,7 @@ def _agrees(compared: Comparison | None) -> tuple[Check, ...]:
     message = "simulated contact, ideal race, against the closed form"
     if not compared.from_idle:
         message += "; the balls start at their places, since from those at idle they do not arrive in time"
-    return (coded("ABU425", verdict(True, near and compared.from_idle), message,
-                  100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip
+    return (coded("ABU425", verdict(True, near and compared.from_idle), message, compared.apart, AGREES, remedy),)
 
 
 def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Comparison | None:

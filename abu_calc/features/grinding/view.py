@@ -9,7 +9,7 @@ from abu_calc.features.grinding.records import AxisMotion, Simulated
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
-from abu_calc.foundation.checks import Status
+from abu_calc.foundation.checks import Status, first_of
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
 from abu_calc.reporting.parts import check_blocks, facts, measured_after_blocks, notices, provenance_blocks, value_of
 from abu_calc.reporting.screen import shortened, verdict_line
@@ -48,8 +48,8 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
 
 def _mark(result: GrindingResult) -> Status:
     """Mark of the usual case, unless a start case fails."""
-    lowered = next(check.status for check in result.checks if check.code == "ABU421")
-    return "fail" if lowered == "fail" else MARKS[result.helps]
+    lowered = first_of(result.checks, "level_under_load")
+    return "fail" if lowered is not None and lowered.status == "fail" else MARKS[result.helps]
 
 
 def numbers_that_matter(result: GrindingResult) -> Grid:

@@ -39,10 +39,10 @@ def _octave(places: Sequence[PlaceLevels], index: int) -> Check:
     place, band = max(((point, point.loudest[index]) for point in places), key=lambda pair: pair[1].velocity or -1.0)
     name, limit = f"{band.octave.nominal:g} Hz", band.octave.limit.level
     if band.velocity is None:
-        return coded("ABU411", "not-done", band.reason or "not known", None, limit, "dB", LONGER, of=name)
+        return coded("ABU411", "not-done", band.reason or "not known", None, limit, LONGER, of=name)
     actual = level(band.velocity)
     kept = actual is None or actual <= limit
-    return coded("ABU411", verdict(kept), f"rms velocity, {_axis_of(place, band, index)}", actual, limit, "dB", of=name)
+    return coded("ABU411", verdict(kept), f"rms velocity, {_axis_of(place, band, index)}", actual, limit, of=name)
 
 
 def _axis_of(place: PlaceLevels, band: Band[Octave], index: int) -> str:
@@ -54,10 +54,10 @@ def _corrected(places: Sequence[PlaceLevels]) -> Check:
     """A total that lacks octaves is at least so high: it can fail, not pass."""
     limit, total_level = corrected_limit().level, level(largest(place.corrected for place in places))
     if total_level is not None and total_level > limit:
-        return coded("ABU412", "fail", "all octaves together, 8 Hz at half its velocity", total_level, limit, "dB")
+        return coded("ABU412", "fail", "all octaves together, 8 Hz at half its velocity", total_level, limit)
     if not all(place.complete for place in places):
-        return coded("ABU412", "not-done", "octaves are missing", total_level, limit, "dB", LONGER)
-    return coded("ABU412", "pass", "all octaves together, 8 Hz at half its velocity", total_level, limit, "dB")
+        return coded("ABU412", "not-done", "octaves are missing", total_level, limit, LONGER)
+    return coded("ABU412", "pass", "all octaves together, 8 Hz at half its velocity", total_level, limit)
 
 
 def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
@@ -67,7 +67,7 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     largest_total = largest(totals)
     if largest_total is None or None in totals:
         reason = next(axis.reason for place in places for axis in place.axes if axis.weighted_acceleration is None)
-        return coded("ABU413", "not-done", reason or "not known", None, limit, "m/s²", LONGER)
+        return coded("ABU413", "not-done", reason or "not known", None, limit, LONGER)
     exposure = daily_exposure(largest_total, 60 * minutes)
     highest = daily_exposure(max(map(_highest_total, places)), 60 * minutes)
     message = f"A(8) of {minutes:g} minutes a day; the action value is {action:g} m/s²"
@@ -79,7 +79,7 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     if exposure > action:
         remedy = f"Limit the use to {reach:.3g} minutes a day: A(8) falls from {exposure:.3g} to {action:g} m/s² "
         remedy += "(calculated)."
-    return coded("ABU413", verdict(passed, safe), message, exposure, limit, "m/s²", remedy)
+    return coded("ABU413", verdict(passed, safe), message, exposure, limit, remedy)
 
 
 def _highest_total(place: PlaceLevels) -> float:

@@ -149,34 +149,35 @@ def _undecided(race: CandidateRace, best: int) -> int:
 def _share_check(target: float, fresh: SampledShare | None, proven: bool) -> Check:
     if fresh is None:
         message = "the seconds of --patience were over before fresh samples were computed"
-        return coded("ABU831", "not-done", message, None, 100 * target, "%", "Raise --patience.", "least")
+        return coded("ABU831", "not-done", message, None, target, "Raise --patience.")
     message = (
         f"{round(fresh.value * fresh.of)} of {fresh.of} fresh samples meet all limits, by 95 % confidence "
         f"{100 * fresh.low:.4g} to {100 * fresh.high:.4g} %"
     )
     if fresh.low >= target:
-        return coded("ABU831", "pass", message, 100 * fresh.value, 100 * target, "%", None, "least")
+        return coded("ABU831", "pass", message, fresh.value, target)
     if fresh.value >= target:
         more = "More fresh samples (--runs) narrow the interval."
-        return coded("ABU831", "warn", message, 100 * fresh.value, 100 * target, "%", more, "least")
+        return coded("ABU831", "warn", message, fresh.value, target, more)
     if not proven:
         message = f"no design reaches it; the highest share found: {message}"
     more = "Permit better values (--choose), or narrow the scatter: `abu sweep FILE` names what fails."
-    return coded("ABU831", "fail", message, 100 * fresh.value, 100 * target, "%", more, "least")
+    return coded("ABU831", "fail", message, fresh.value, target, more)
 
 
 def _least_cost_check(race: CandidateRace, best: int, proven: bool, undecided: int, impatient: bool) -> Check:
     if impatient:
-        return coded("ABU832", "not-done", "the seconds of --patience were over before the race was decided", None,
-                     None, None, "Raise --patience. A store goes on with --resume.")  # fmt: skip
+        return coded("ABU832", "not-done", "the seconds of --patience were over before the race was decided",
+            remedy="Raise --patience. A store goes on with --resume.",
+        )  # fmt: skip
     if not proven:
         possible = int(race.possible().sum())
         message = f"no share is proven; that of {possible} of {len(race.costs)} candidates may reach it"
         more = "More samples (--samples) decide more." if possible else None
-        return coded("ABU832", "warn", message, None, None, None, more)
+        return coded("ABU832", "warn", message, remedy=more)
     if undecided:
         message = f"the share of {undecided} cheaper candidates lies too near the wanted one to tell"
-        return coded("ABU832", "warn", message, None, None, None, "More samples (--samples) decide more.")
+        return coded("ABU832", "warn", message, remedy="More samples (--samples) decide more.")
     cheaper = int((race.costs < race.costs[best]).sum())
     return coded("ABU832", "pass", f"the shares of all {cheaper} cheaper candidates lie below the wanted one")
 

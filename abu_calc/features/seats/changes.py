@@ -38,7 +38,8 @@ def actions(
     """
     known, best = dict[str, Sequence[Check]](), dict[str, tuple[int, Action]]()
     for check in checks:
-        if not check.requested or check.status not in ("warn", "fail") or not (_seat(check) or check.code == "ABU621"):
+        changeable = _seat(check) or check.key == "clearance_left"
+        if not check.requested or check.status not in ("warn", "fail") or not changeable:
             continue
         for entries in _proposed(check, classes, groups):
             words = _words(entries)

@@ -13,7 +13,7 @@ from abu_calc.features.seats.joints import ROOM, USUAL_RISE, assumes_warmth
 from abu_calc.features.seats.notes import selective_groups
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
 from abu_calc.foundation.checks import Action, Check, coded, verdict
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.catalogue import ROLLERS
 from abu_calc.standards.internal_clearance import groups_of, preload_limits
@@ -31,6 +31,8 @@ _LIKE_STEEL: Final = 3e-6
 _KEPT: Final = 0.995
 _SHOWN: Final = 0.05
 """Losses [µm] below it are not named: they would read 0.0."""
+_TENTH_HOUR: Final = 360.0
+"""Step [s] to which lives are rounded."""
 _SMALL: Final = 0.006
 """Bores [m] of rings that are bonded rather than pressed."""
 _ROLLER_SAFETY: Final = 1.5
@@ -62,14 +64,13 @@ def life_checks(bearing: SeatedBearing, life: RatingLife) -> tuple[Check, ...]:
     missing = "no radial load is given" if service.radial_load is None else unknown
     wanted = "Specify radial_load_kN." if service.radial_load is None else "Specify designation or bearing_type."
     checks = [_static(bearing, life)] if life.static_safety is not None else [
-        coded("ABU631", "not-done", missing, None, 1.0, "", wanted, "least", of=of, requested=False)
+        coded("ABU631", "not-done", missing, None, 1.0, wanted, of=of, requested=False)
     ]  # fmt: skip
     if life.basic is None:
         speed = "no speed is given" if not service.speed else missing
         action = "Specify speed_rpm." if not service.speed else wanted
         checks += [
-            coded(code, "not-done", speed, None, None, "h", action, "least", of=of, requested=False)
-            for code in ("ABU632", "ABU633")
+            coded(code, "not-done", speed, None, remedy=action, of=of, requested=False) for code in ("ABU632", "ABU633")
         ]
     else:
         checks += [_basic(bearing, life), _modified(bearing, life)]
@@ -81,11 +82,10 @@ def _static(bearing: SeatedBearing, life: RatingLife) -> Check:
     least = _ROLLER_SAFETY if bearing.kind in ROLLERS else 1.0
     C0 = from_si(bearing.ratings.static if bearing.ratings else 0.0, "kN")
     bearable = "" if safety >= 1 else ". The load leaves permanent dents, whatever the tolerance class"
-    return coded(
-        "ABU631", verdict(safety >= 1, safety >= least),
+    return coded("ABU631", verdict(safety >= 1, safety >= least),
         f"C0/P0 = {C0:.3g} kN/{load:.3g} kN{_axial_remark(bearing)}{bearable}", round(safety, 6),
-        least if safety >= 1 else 1.0, "", None if safety >= least else "Specify a larger bearing or reduce the load.",
-        "least", of=bearing.name,
+        least if safety >= 1 else 1.0, None if safety >= least else "Specify a larger bearing or reduce the load.",
+        of=bearing.name,
     )  # fmt: skip
 
 
@@ -100,9 +100,8 @@ def life_check(
     required = bearing.service.required_life
     least = GUIDE_LIFE if required is None else required
     passed = life >= least or required is None
-    return coded(
-        code, verdict(passed, life >= least), message, round(from_si(life, "h"), 1), from_si(least, "h"), "h",
-        None if life >= least else action, "least", of=bearing.name,
+    return coded(code, verdict(passed, life >= least), message, _TENTH_HOUR * round(life / _TENTH_HOUR), least,
+        None if life >= least else action, of=bearing.name,
     )  # fmt: skip
 
 
@@ -116,9 +115,8 @@ def _basic(bearing: SeatedBearing, life: RatingLife) -> Check:
 
 def _modified(bearing: SeatedBearing, life: RatingLife) -> Check:
     if life.modified is None or life.kappa is None or life.a_iso is None:
-        return coded(
-            "ABU633", "not-done", "no viscosity is given", None, None, "h", "Specify lubricant_viscosity_mm2_per_s.",
-            "least", of=bearing.name, requested=False,
+        return coded("ABU633", "not-done", "no viscosity is given", None,
+            remedy="Specify lubricant_viscosity_mm2_per_s.", of=bearing.name, requested=False,
         )  # fmt: skip
     message = (
         f"basic rating life times a_ISO = {life.a_iso:.3g} (κ = {life.kappa:.3g}, e_C = "
@@ -132,15 +130,14 @@ def _speed(bearing: SeatedBearing, life: RatingLife) -> Check:
     if not speed or most is None:
         why = "no speed is given" if not speed else "no catalogue bearing gives a limiting speed"
         action = "Specify speed_rpm." if not speed else "Specify designation."
-        return coded("ABU634", "not-done", why, None, None, "rpm", action, of=bearing.name, requested=False)
+        return coded("ABU634", "not-done", why, None, remedy=action, of=bearing.name, requested=False)
     entry = bearing.entry
     where = (
         f"limit of {entry.designation}{' with grease' if entry.with_grease else ''} ({entry.source})" if entry else ""
     )
     passed = speed <= most * (1 + 1e-9)
-    return coded(
-        "ABU634", verdict(passed), f"speed of the shaft against the {where}", round(from_si(speed, "rpm"), 3),
-        round(from_si(most, "rpm"), 3), "rpm", None if passed else "Specify a bearing for this speed.", of=bearing.name,
+    return coded("ABU634", verdict(passed), f"speed of the shaft against the {where}", speed, most,
+        None if passed else "Specify a bearing for this speed.", of=bearing.name,
     )  # fmt: skip
 
 
@@ -149,7 +146,7 @@ def _axial(bearing: SeatedBearing, life: RatingLife) -> Check:
     if axial is None or ratings is None or not ratings.static:
         why = "no axial load is given" if axial is None else "C0 is not known"
         action = "Specify axial_load_kN." if axial is None else "Specify static_load_rating_kN."
-        return coded("ABU635", "not-done", why, None, None, "kN", action, of=bearing.name, requested=False)
+        return coded("ABU635", "not-done", why, None, remedy=action, of=bearing.name, requested=False)
     most = ratings.static / 2 if life.carries_axial else 0.0
     passed = axial <= 0 or life.carries_axial
     action = "Specify an angular contact or tapered bearing."
@@ -166,8 +163,7 @@ def _axial(bearing: SeatedBearing, life: RatingLife) -> Check:
     else:
         message = "the bearing carries no axial load"
     rough = "" if life.axial_factors_known else ". Its factors e, X and Y are those of a usual bearing of its type"
-    return coded(
-        "ABU635", verdict(passed, axial <= most), f"{message}{rough}", from_si(axial, "kN"), from_si(most, "kN"), "kN",
+    return coded("ABU635", verdict(passed, axial <= most), f"{message}{rough}", axial, most,
         None if passed and axial <= most else action, of=bearing.name,
     )  # fmt: skip
 
@@ -182,26 +178,23 @@ def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tu
         key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
         why = f"no {missing} is given, so the interference that the ring needs is not known"
         action = f"Specify {key}."  # ABU601 is not evaluated for the same reason, and decides
-        return (coded(code, "not-done", why, None, 100 * warn, "%", action, of=bearing, requested=False),)
+        return (coded(code, "not-done", why, None, warn, action, of=bearing, requested=False),)
     grade, share, demand = joint.short_grade, joint.short_pairs, _um(joint.demand.value)
     limit = fail if grade == "fail" else warn
     least = f"less than the {demand:.3g} µm" if demand >= 0 else f"more clearance than the {-demand:.2g} µm"
-    return (coded(
-        code, grade,
-        f"{of_all(share)} in {joint.class_text} have {least} demanded by {joint.demand.by}{_losses(joint)}",
-        round(100 * share, 6), round(100 * limit, 6), "%",
-        None if grade == "pass" else _no_class(joint, recommended), of=bearing,
-    ),)  # fmt: skip
+    return (coded(code, grade,
+                  f"{of_all(share)} in {joint.class_text} have {least} demanded by {joint.demand.by}{_losses(joint)}",
+                  round(share, 8), limit,
+                  None if grade == "pass" else _no_class(joint, recommended), of=bearing),)  # fmt: skip
 
 
 def _raceway(bearing: SeatedBearing, joint: Joint) -> Check:
     """The shaft of a bearing without inner ring: the needles run on it with clearance."""
-    least = _um(-joint.interference.largest)
+    least = _rounded(-joint.interference.largest)
     passed = least >= 0
-    return coded(
-        _CODES[joint.seat][0], verdict(passed), f"least operating clearance of the needles on {joint.class_text}. The "
-        "shaft is the raceway: ground, at least 58 HRC", least, 0.0, "µm", None, "least",
-        of=bearing.name,
+    return coded(_CODES[joint.seat][0], verdict(passed),
+        f"least operating clearance of the needles on {joint.class_text}. The "
+        "shaft is the raceway: ground, at least 58 HRC", least, 0.0, of=bearing.name,
     )  # fmt: skip
 
 
@@ -217,13 +210,11 @@ def start_checks(
     code = _CODES[joint.seat][2]
     if creep.friction_moment is None:
         why = "no chamfer is given, so the length of the seat is not known"
-        return (coded(code, "not-done", why, None, torque, "N·m", "Specify chamfer_mm.", "least", of=bearing),)
+        return (coded(code, "not-done", why, None, torque, "Specify chamfer_mm.", of=bearing),)
     passed = bool(creep.holds_at_start)
-    return (coded(
-        code, verdict(passed), f"slip torque of {joint.class_text} at its least "
-        "interference after losses, against the starting torque", creep.friction_moment[0], torque, "N·m",
-        None if passed else _no_class(joint, recommended), "least", of=bearing,
-    ),)  # fmt: skip
+    return (coded(code, verdict(passed), f"slip torque of {joint.class_text} at its least "
+                  "interference after losses, against the starting torque", creep.friction_moment[0], torque,
+                  None if passed else _no_class(joint, recommended), of=bearing),)  # fmt: skip
 
 
 def clearance_checks(bearing: SeatedBearing, left: "Clearance | None", few: float) -> tuple[Check, ...]:
@@ -244,10 +235,8 @@ def clearance_checks(bearing: SeatedBearing, left: "Clearance | None", few: floa
         f"{direction} clearance of group {left.group} after mounting: {of_all(share, things)} have none left, and "
     )
     message += f"the least probable is {_um(left.probable.smallest):.3g} µm"
-    return (coded(
-        "ABU621", verdict(passed, safe), message, round(100 * share, 6),
-        100 * (few if passed else MOST), "%", None if safe else NO_GROUP, of=bearing.name,
-    ),)  # fmt: skip
+    return (coded("ABU621", verdict(passed, safe), message, round(share, 8), few if passed else MOST,
+                  None if safe else NO_GROUP, of=bearing.name),)  # fmt: skip
 
 
 NO_GROUP: Final = "No clearance group suits these tolerance classes. Specify a larger bearing or reduce the load."
@@ -258,26 +247,27 @@ def _preload(bearing: SeatedBearing, left: "Clearance") -> Check:
     heavier, most = groups_of("angular-contact"), left.preload[1] if left.preload else None
     place, limits = heavier.index(left.group), preload_limits(left.group, bearing.inner.diameter)
     if most is None or limits is None:
-        return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, None, "N", of=bearing.name)
+        return coded("ABU621", "not-done", "no preload is tabulated for this bore", None, of=bearing.name,
+            unit="N",
+        )  # fmt: skip
     safe_most, heaviest = limits
     passed, safe = most <= heaviest, most <= safe_most
-    return coded(
-        "ABU621", verdict(passed, safe), f"largest probable preload of a pair of group {left.group} after mounting. "
+    return coded("ABU621", verdict(passed, safe),
+        f"largest probable preload of a pair of group {left.group} after mounting. "
         f"The limit is {'the' if passed else 'twice the'} most of group {heavier[max(place - 1, 0) if passed else 0]} "
-        "before mounting", round(most, 1), round(safe_most if passed else heaviest, 1), "N",
-        None if safe else NO_GROUP, of=bearing.name,
+        "before mounting", round(most, 1), round(safe_most if passed else heaviest, 1), None if safe else NO_GROUP,
+        of=bearing.name, unit="N",
     )  # fmt: skip
 
 
 def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: str | None) -> Check:
     code = _CODES[joint.seat][0]
-    smallest, required, short = _um(joint.interference.smallest), joint.required, joint.short
+    smallest, required, short = _rounded(joint.interference.smallest), joint.required, joint.short
     if required is None or short is None:
         missing = "radial load" if joint.radial_load is None else "chamfer"
         key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
-        return coded(
-            code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
-            "known", smallest, None, "µm", f"Specify {key}.", of=bearing.name,
+        return coded(code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
+            "known", smallest, remedy=f"Specify {key}.", of=bearing.name, bound="most",
         )  # fmt: skip
     normal = f" of {from_si(joint.radial_load or 0.0, 'kN'):.3g} kN (normal, assumed)" if joint.load_assumed else ""
     limit = f"the interference required under {ARTICLE[joint.ring.load]} load{normal} by {required.by}{_losses(joint)}"
@@ -286,11 +276,10 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
     if joint.loosens_hot:
         hot = _um(joint.mean - max(case.loss for case in joint.thermal_cases))
         remark = f". Hot, {ROOM + USUAL_RISE:g} °C assumed, the mean is {hot:.3g} µm"
-    return coded(
-        code, joint.grip, f"least interference of {joint.class_text} against {limit}{remark}{_makers(bearing, joint)}"
-        f"{_other_class(joint, rule)}", smallest, _um(required.value), "µm",
-        _no_class(joint, recommended) if joint.grip == "fail" else None,
-        "least", of=bearing.name,
+    return coded(code, joint.grip,
+        f"least interference of {joint.class_text} against {limit}{remark}{_makers(bearing, joint)}"
+        f"{_other_class(joint, rule)}", smallest, _rounded(required.value),
+        _no_class(joint, recommended) if joint.grip == "fail" else None, of=bearing.name,
     )  # fmt: skip
 
 
@@ -303,10 +292,9 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         low, high = (_um(end - tightest.loss) for end in joint.interference)
         when = "at work" if tightest.rise is None else f"at {ROOM + tightest.rise:g} °C"
         judgement = f"A load fixed in direction requires none, but the seat is {low:.3g} … {high:.3g} µm tight then"
-        return coded(
-            _CODES[joint.seat][0], "warn", f"largest interference of {joint.class_text} {when}. {judgement}",
-            high, None, "µm", _ways_out(joint) if joint.light_alloy else None, "least",
-            of=bearing.name,
+        return coded(_CODES[joint.seat][0], "warn", f"largest interference of {joint.class_text} {when}. {judgement}",
+            _rounded(joint.interference.largest - tightest.loss),
+            remedy=_ways_out(joint) if joint.light_alloy else None, of=bearing.name,
         )  # fmt: skip
     if joint.clearance_probability >= LOOSE_ENOUGH:
         judgement = f"A load fixed in direction requires none; {share}, so the ring can creep and be moved"
@@ -315,11 +303,9 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
             f"A load fixed in direction requires none. Only {share}: the ring hardly creeps, so its wear is not "
             "spread, and it is hard to move along its seat"
         )
-    return coded(
-        _CODES[joint.seat][0], "pass",
+    return coded(_CODES[joint.seat][0], "pass",
         f"least interference of {joint.class_text}. {judgement}{_makers(bearing, joint)}",
-        _um(joint.interference.smallest),
-        None, "µm", None, "least", of=bearing.name,
+        _rounded(joint.interference.smallest), of=bearing.name,
     )  # fmt: skip
 
 
@@ -345,9 +331,8 @@ def _cup(bearing: SeatedBearing, joint: Joint, recommended: str | None, share: s
         else ("A drawn cup gets its shape and hold from the housing, as the makers specify")
     )
     action = None if held or recommended else "Specify a one-piece housing."
-    return coded(
-        _CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.class_text}. {cup}",
-        _um(joint.interference.smallest), None, "µm", action, "least", of=bearing.name,
+    return coded(_CODES[joint.seat][0], verdict(True, held), f"least interference of {joint.class_text}. {cup}",
+        _rounded(joint.interference.smallest), remedy=action, of=bearing.name,
     )  # fmt: skip
 
 
@@ -375,10 +360,10 @@ def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     warm = " when warm" if joint.tightest > joint.interference.largest else ""
     remark = ". The halves of a split housing pinch a ring in a class tighter than J7" if joint.pinched else ""
     stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
-    return coded(
-        _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
+    return coded(_CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
         f"largest interference of {joint.class_text}{warm} against the limit by {limit.by}. Hoop stress of the "
-        f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}", _um(joint.tightest), _um(limit.value), "µm",
+        f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}",
+        _rounded(joint.tightest), _rounded(limit.value),
         _no_class(joint, recommended) if grade == "fail" else None, of=bearing,
     )  # fmt: skip
 
@@ -389,13 +374,12 @@ def _expansion(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
     more = seat_material(part.material).expansion - seat_material("steel").expansion
     if abs(more) < _LIKE_STEEL or not assumes_warmth(bearing):
         return ()
-    change = _um(more * joint.diameter * 10)
+    change = _rounded(more * joint.diameter * 10)
     verb = "gains" if joint.seat == "shaft" else "loses"
-    return (coded(
-        _CODES[joint.seat][3], "pass", f"the seat in {part.material} {verb} {change:.3g} µm of interference for every "
-        f"10 K. No temperature is given: {ROOM + USUAL_RISE:g} °C is assumed at work", change, None, "µm",
-        of=bearing.name,
-    ),)  # fmt: skip
+    return (coded(_CODES[joint.seat][3], "pass",
+                  f"the seat in {part.material} {verb} {shown(change, 'um')} of interference for every "
+                  f"10 K. No temperature is given: {ROOM + USUAL_RISE:g} °C is assumed at work", change,
+                  of=bearing.name),)  # fmt: skip
 
 
 def _losses(joint: Joint) -> str:
@@ -448,5 +432,9 @@ def no_better(check: Check, joint: Joint) -> Action:
 
 
 def _um(metres: float) -> float:
-    # freed of the noise of the conversion
-    return round(from_si(metres, "um"), 6)
+    return from_si(_rounded(metres), "um")
+
+
+def _rounded(metres: float) -> float:
+    """A length to a millionth of a micrometre."""
+    return round(metres, 12)

@@ -128,5 +128,5 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
 
 
 def _unknown(bearing: SeatedBearing, why: str, action: str) -> LifeInUse:
-    check = coded("ABU636", "not-done", why, None, None, "h", action, "least", of=bearing.name, requested=False)
+    check = coded("ABU636", "not-done", why, None, remedy=action, of=bearing.name, requested=False)
     return LifeInUse(None, (check,))

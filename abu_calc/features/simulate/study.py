@@ -15,7 +15,7 @@ from abu_calc.dynamics.effect import ACROSS
 from abu_calc.dynamics.integrators.choice import WANTED, refuse_removed
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.scene import Scene
-from abu_calc.foundation.checks import Check, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import ChaoticError, InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
@@ -309,16 +309,14 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
     message += f"; the effects left out change these by at most {spared:.2g}" if spared else ""
     error = run.error_estimate + spared
     if error <= accuracy:
-        return Check("ABU801", "accuracy reached", "pass", message, error, accuracy, None, None)
+        return coded("ABU801", "pass", message, error, accuracy)
     message = "the motion is chaotic: no two runs agree, but in all of them the balls come to rest and balance"
     remedy = "What makes it calm: see the warnings. A shorter run, or other places of the balls."
-    value = error if math.isfinite(error) else None
-    return Check("ABU801", "accuracy reached", "fail", message, value, accuracy, None, remedy)
+    return coded("ABU801", "fail", message, error if math.isfinite(error) else None, accuracy, remedy)
 
 
 def _left_out(audited: Audit, accuracy: float) -> Check:
     message = "with every effect in, amplitude, times and ball angles differ by no more than the accuracy"
     remedy = "Ask for more accuracy, or take effects in: --with EFFECT, Python: with_effects=."
     held = audited.difference <= accuracy
-    return Check("ABU803", "effects left out", verdict(held), message, audited.difference, accuracy, None,
-                 None if held else remedy)  # fmt: skip
+    return coded("ABU803", verdict(held), message, audited.difference, accuracy, None if held else remedy)

@@ -13,6 +13,7 @@ from abu_calc.features.design.figures import amplitude_figure
 from abu_calc.features.effects.view import effects_grid
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.features.simulate.study import SampledMotion, SimulateResult
+from abu_calc.foundation.checks import first_of
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.figure import Extras, Figure, RotorMotionFigure, level, run_up, settling
@@ -118,8 +119,8 @@ def _origin(result: SimulateResult) -> str:
 
 def _numbers(result: SimulateResult) -> Grid:
     """Amplitude, levels, times, error, each with its limit."""
-    limits = {check.code: limit_in_file(check) for check in result.checks}
-    bearings = result.bearing_amplitudes_mm is not None
+    limits = {check.key: limit_in_file(check) for check in result.checks}
+    limit, bearings = limits.get("idle_level", ""), result.bearing_amplitudes_mm is not None
     names = [hand.name for hand in result.handles or ()]
     held = [f"level, {name}" for name in ([WHEEL_PLANE] if WHEEL_PLANE in names else names)]
     before = value_of(result, "unbalanced_amplitude_mm")
@@ -127,10 +128,10 @@ def _numbers(result: SimulateResult) -> Grid:
     rows = (
         ("spindle amplitude", before, value_of(result, "axis_amplitude_mm"), ""),
         *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
-        *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
-        (f"quiet time{since}", "", _quiet(result), limits.get("ABU702", "")),
+        *((place, "", level, limit if place in held else "") for place, _, level in _levels(result)),
+        (f"quiet time{since}", "", _quiet(result), limits.get("quiet_time", "")),
         (f"rest time{since}", "", _rested(result), ""),
-        ("error estimate", "", value_of(result, "error_estimate"), limits.get("ABU801", "")),
+        ("error estimate", "", value_of(result, "error_estimate"), limits.get("accuracy", "")),
     )  # fmt: skip
     if _pressed(result):
         return Grid(("", "with balls", "limit"), tuple((name, *others) for name, _, *others in rows), frozenset({1}))
@@ -181,7 +182,7 @@ def _levels(result: SimulateResult) -> list[tuple[str, str, str]]:
 
 def _judged(result: SimulateResult) -> bool:
     """True if the limits of a file are for this scene."""
-    return any(check.code == "ABU401" for check in result.checks)
+    return first_of(result.checks, "idle_level") is not None
 
 
 def _informs(result: SimulateResult) -> bool:
@@ -256,7 +257,7 @@ def simulate_extras(result: SimulateResult) -> Extras:
 
 
 def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
-    limits = {check.code: check.limit for check in result.checks}
+    limits = {check.key: check.limit for check in result.checks}
     if view.pitch_radii_mm:
         whole = view.t_s[-1] > 0.9 * result.duration_s
         seen = "The run" if whole else "The beginning of the run"
@@ -265,10 +266,10 @@ def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
             "spindle moves, drift removed. The space bar plays, arrow keys step in time."
         )
         yield Figure("motion", SECTION, RotorMotionFigure(view), caption)
-        limit = limits.get("ABU701")
+        limit = limits.get("balance")
         below = ": it should fall below the dashed line, and stay there" if limit is not None else ""
         yield Figure("settling", SECTION, settling(view, limit), f"Imbalance of rotor and balls together{below}.")
-    limit = limits.get("ABU401")
+    limit = limits.get("idle_level")
     below = ", at the loudest place: it should end below the dashed line" if limit is not None else ""
     place = result.level_at if result.handles is None else "where the machine is held"
     caption = f"Velocity level over each revolution, {place}, 0 dB = 5e-8 m/s rms{below}."

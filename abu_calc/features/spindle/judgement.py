@@ -9,7 +9,7 @@ from typing import Final
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.judgement import TrialWatcher
 from abu_calc.features.design.next_step import Entries, together
-from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
+from abu_calc.features.design.start_rules import OF_STARTS, StartFacts, checks_of_starts
 from abu_calc.features.spindle.case import SpindleCase, SpindleDesign, size_races
 from abu_calc.features.spindle.records import OneRace, PlaceOnSpindleLevel, SpindleVibration
 from abu_calc.features.spindle.start_cases import (
@@ -191,7 +191,7 @@ def _one_race(design: SpindleDesign) -> OneRace | None:
 
 
 def region_check(design: SpindleDesign, one: OneRace | None) -> Check:
-    """ABU101: whether all working speeds lie above both critical speeds."""
+    """Whether all working speeds lie above both critical speeds."""
     case = design.case
     critical = max(case.rotor.critical_speeds(), default=0.0)
     balances = all(map(case.balances_at, case.speed_range))
@@ -202,14 +202,13 @@ def region_check(design: SpindleDesign, one: OneRace | None) -> Check:
         remedy = f"Raise the speed, soften the bearings, or use one race within {limit:.4g} mm of the centre of mass."
     else:
         remedy = "Raise the speed, or soften the bearings."
-    return coded(
-        "ABU101", verdict(balances), "Balls in two races balance above both critical speeds only",
-        from_si(min(case.speed_range), "hz"), from_si(critical, "hz"), "Hz", None if balances else remedy, "least",
+    return coded("ABU101", verdict(balances), "Balls in two races balance above both critical speeds only",
+        min(case.speed_range), critical, None if balances else remedy,
     )  # fmt: skip
 
 
 def stability_check(design: SpindleDesign, judged: Sequence[SpeedStability]) -> Iterator[Check]:
-    """ABU103: stability of the balanced state at the speeds judged."""
+    """Stability of the balanced state at the speeds judged."""
     if not judged:
         yield coded("ABU103", "not-done", "The speed is not above both critical speeds", remedy="See ABU101.")
         return
@@ -223,21 +222,19 @@ def stability_check(design: SpindleDesign, judged: Sequence[SpeedStability]) -> 
         return
     speed = f"{from_si(worst.speed, 'rpm'):.6g} rpm"
     passed = all(each.stable for each in judged)
-    yield coded(
-        "ABU103", verdict(passed), f"Fastest-growing disturbance of the balanced state, at {speed}", worst.growth, 0.0,
-        "1/s", None if passed else "Use a more viscous oil in both races, or damp the bearings.",
+    yield coded("ABU103", verdict(passed), f"Fastest-growing disturbance of the balanced state, at {speed}",
+        worst.growth, 0.0, None if passed else "Use a more viscous oil in both races, or damp the bearings.",
     )  # fmt: skip
 
 
 def capacity_checks(design: SpindleDesign) -> Iterator[Check]:
-    """ABU201 for each race: its balls carry the required capacity times the margin."""
+    """Whether the balls of each race carry the required capacity times the margin."""
     for number, race in enumerate(design.races, 1):
         made, margin = race.autobalancer, race.case.autobalancer.capacity_margin
         needed = race.need * margin
-        yield coded(
-            "ABU201", verdict(made.capacity >= needed * (1 - 1e-9)),
+        yield coded("ABU201", verdict(made.capacity >= needed * (1 - 1e-9)),
             f"{made.ball_count} balls must carry the required capacity of the worst phase times the margin {margin:g}",
-            from_si(made.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm", bound="least", of=f"race {number}",
+            made.capacity, needed, of=f"race {number}",
         )  # fmt: skip
 
 
@@ -249,18 +246,17 @@ def race_checks(design: SpindleDesign) -> Iterator[Check]:
 
 
 def mass_checks(design: SpindleDesign) -> Iterator[Check]:
-    """ABU203 for each autobalancer: its share of the mass of the machine."""
+    """The share of each autobalancer: of of the mass of the machine."""
     tables, machine = design.case.table.autobalancer, design.case.table.machine.mass_kg
     for number, (made, table) in enumerate(zip(design.autobalancers, tables, strict=True), 1):
         share, most = made.mass / machine, table.max_mass_fraction
-        yield coded(
-            "ABU203", verdict(share <= most), "The autobalancer with its balls takes this share of the machine's mass",
-            100 * share, 100 * most, "%", of=f"race {number}",
+        yield coded("ABU203", verdict(share <= most),
+            "The autobalancer with its balls takes this share of the machine's mass", share, most, of=f"race {number}",
         )  # fmt: skip
 
 
 def level_checks(design: SpindleDesign, vibration: SpindleVibration, ensemble: Ensemble | None) -> Iterator[Check]:
-    """ABU401 and ABU402: levels of the loudest place against the limit, and against those without autobalancers.
+    """Levels of the loudest place against the limit, and against those without autobalancers.
 
     Where start cases gave no answer, what would pass is not evaluated.
     """
@@ -275,18 +271,17 @@ def level_checks(design: SpindleDesign, vibration: SpindleVibration, ensemble: E
     if lost and passed:
         yield coded("ABU401", "not-done", partly, remedy="See ABU701.")
     else:
-        yield coded(
-            "ABU401", verdict(passed, safe),
+        yield coded("ABU401", verdict(passed, safe),
             "Level at the loudest place with the autobalancers, loudest start case at the given drag rate"
-            + ("" if safe else f"; in any oil {loudest:.1f} dB"), given, limit, "dB",
+            + ("" if safe else f"; in any oil {loudest:.1f} dB"), given, limit,
         )  # fmt: skip
     if lost:
         yield coded("ABU402", "not-done", partly, remedy="See ABU701.")
         return
     lowered = vibration.level_after_db < vibration.level_before_db
-    yield coded(
-        "ABU402", verdict(lowered), "Level at the loudest place, median of the start cases, against that without",
-        vibration.level_after_db, vibration.level_before_db, "dB",
+    yield coded("ABU402", verdict(lowered),
+        "Level at the loudest place, median of the start cases, against that without",
+        vibration.level_after_db, vibration.level_before_db,
         None if lowered else "The imbalances are too small for these races: use none, or races that run truer.",
     )  # fmt: skip
 
@@ -306,17 +301,19 @@ ROOMIER: Final = (1.25, 1.6)
 """Factors on the room of both autobalancers that are tried."""
 HEAVIER: Final = (0.08, 0.15)
 """Shares of the machine's mass that are tried for each autobalancer."""
+OF_BALLS: Final = frozenset(rule.key for rule in OF_STARTS)
+"""Keys of the checks for which larger balls are tried."""
 
 
 def proposals(before: SpindleJudgement) -> Iterator[Entries]:
     """Changes for what does not pass: races that are made, start cases that are too loud or too slow, and pairs."""
-    bad = {check.code for check in before.checks if check.requested and check.status != "pass"}
+    bad = {check.key for check in before.checks if check.requested and check.status != "pass"}
     design, of_starts = before.facts.design, list[dict[str, object]]()
-    if "ABU401" in bad:
+    if "idle_level" in bad:
         of_starts += _truer(design)
-    if bad & {"ABU701", "ABU702", "ABU704"}:
+    if bad & OF_BALLS:
         of_starts += ({"ball_diameter_mm": larger} for larger in _larger(design))
-    made = [*_sturdier(design)] if bad - {"ABU401", "ABU402", "ABU701", "ABU702", "ABU704"} else []
+    made = [*_sturdier(design)] if bad - OF_BALLS - {"idle_level", "level_lowered"} else []
     yield from together(*([_of_all(design, entries) for entries in kind] for kind in (made, of_starts)))
 
 

@@ -55,8 +55,8 @@ def _first_lines(result: SpindleSizeResult) -> tuple[Block, ...]:
 
 def _table(result: SpindleSizeResult) -> Grid:
     """Levels of all places and times, with limits and grades; then checks that these do not show."""
-    checks, vibration, many_starts = {check.code: check for check in result.checks}, result.vibration, result.ensemble
-    level, rows = checks.get("ABU401"), list[Row]()
+    checks, vibration, many_starts = {check.key: check for check in result.checks}, result.vibration, result.ensemble
+    level, rows = checks.get("idle_level"), list[Row]()
     for place in vibration.handles:
         before = place.level_before_db
         rows.append(level_row(f"{capitalised(place.name)}, median", before, place.level_after_db, level))
@@ -64,8 +64,9 @@ def _table(result: SpindleSizeResult) -> Grid:
             rows.append(level_row("  loudest start case", None, place.level_after_worst_db, level))
     times: list[Row] = []
     if many_starts is not None:
-        times = time_rows([many_starts.quiet_time_s.worst], [many_starts.rest_time_s.worst], None, checks.get("ABU702"))
-    return number_table({"ABU401": rows, "ABU702": times}, result.checks)
+        quiet, rest = [many_starts.quiet_time_s.worst], [many_starts.rest_time_s.worst]
+        times = time_rows(quiet, rest, None, checks.get("quiet_time"))
+    return number_table({"idle_level": rows, "quiet_time": times}, result.checks)
 
 
 def spindle_blocks(result: SpindleSizeResult) -> tuple[Block, ...]:

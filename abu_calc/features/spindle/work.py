@@ -35,7 +35,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import processors, side_by_side
 from abu_calc.foundation.progress import Progress, counted
-from abu_calc.foundation.units import from_si, wrapped_deg
+from abu_calc.foundation.units import wrapped_deg
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.result import Provenance
@@ -241,7 +241,7 @@ def _model(design: SpindleDesign) -> SpindleGrindingModel:
 
 
 def _checks(design: SpindleDesign, runs: WheelRuns, above: bool) -> Iterator[Check]:
-    """ABU421 … ABU425 of one wheel."""
+    """All checks of one wheel."""
     name = runs.wheel.name
     if not above:
         reason = "Balls do not balance at the rated speed: it is not above both critical speeds"
@@ -255,9 +255,8 @@ def _checks(design: SpindleDesign, runs: WheelRuns, above: bool) -> Iterator[Che
     if parted is not None and runs.wheel.presses:
         stays = parted.apart == 0
         text = "Wheel and workpiece stay together" if stays else _parting(runs.wheel)
-        yield coded(
-            "ABU424", verdict(True, stays), f"{text}: largest share of time apart in any run", 100 * parted.apart, 0.0,
-            "%", None if stays else "Press harder, or run the wheel truer.", of=name,
+        yield coded("ABU424", verdict(True, stays), f"{text}: largest share of time apart in any run", parted.apart,
+            0.0, None if stays else "Press harder, or run the wheel truer.", of=name, unit="percent",
         )  # fmt: skip
     yield from _agrees(runs)
 
@@ -276,7 +275,7 @@ NO_LEVEL: Final = "Press harder, or soften the contact (not tried)."
 
 
 def _lowered(runs: WheelRuns) -> Check:
-    """ABU421: quieter than without autobalancers at the same phases, in every run."""
+    """Quieter than without autobalancers at the same phases, in every run."""
     name, louder, early = runs.wheel.name, runs.louder("settled"), runs.louder("at once")
     before, after = runs.loudest("without"), runs.loudest("settled")
     given = [pair for pair in louder if pair[1].case.start.promised]
@@ -286,12 +285,12 @@ def _lowered(runs: WheelRuns) -> Check:
             f"{len(given)} of {len(runs.known('settled', True))} runs pressed after the balls settled are not quieter"
         )
         text += f": {run.case.start.name}, {change:+.1f} dB"
-        return coded("ABU421", "fail", text, after, before, "dB", LOUDER, of=name)
+        return coded("ABU421", "fail", text, after, before, LOUDER, of=name)
     missing = [*runs.lost("settled"), *runs.lost("without")]
     if missing or not runs.known("settled"):
         text = f"{len(missing)} runs gave no level: {missing[0]}" if missing else "No run gave a level"
         action = PULLS if any("pull" in reason for reason in missing) else NO_LEVEL
-        return coded("ABU421", "not-done", text, after, before, "dB", action, of=name)
+        return coded("ABU421", "not-done", text, after, before, action, of=name)
     stalled = (run for run in (*runs.known("settled"), *runs.known("at once")) if run.stalls)
     doubts = [
         *(f"balls stall, {run.case.start.name}" for run in stalled),
@@ -301,27 +300,26 @@ def _lowered(runs: WheelRuns) -> Check:
     text = f"Level at the loudest place, loudest of {len(runs.known('settled'))} runs pressed after the balls settled"
     if doubts:
         text += f". Not quieter or in doubt in hot or cold oil, or pressed at once: {doubts[-1]}"
-    return coded("ABU421", verdict(True, not doubts), text, after, before, "dB", LOUDER if doubts else None, of=name)
+    return coded("ABU421", verdict(True, not doubts), text, after, before, LOUDER if doubts else None, of=name)
 
 
 def _carried(design: SpindleDesign, runs: WheelRuns) -> Iterator[Check]:
-    """ABU422 for each race."""
     for number, (need, race) in enumerate(zip(runs.needs, design.races, strict=True), 1):
         capacity = race.autobalancer.capacity
         enough = capacity >= need
-        yield coded(
-            "ABU422", verdict(enough), "The balls must carry what imbalances, contact and eccentricity require",
-            from_si(capacity, "g_mm"), from_si(need, "g_mm"), "g·mm",
-            None if enough else "Use more or larger balls, run the wheel truer, or soften the contact.", "least",
+        yield coded("ABU422", verdict(enough), "The balls must carry what imbalances, contact and eccentricity require",
+            capacity, need, None if enough else "Use more or larger balls, run the wheel truer, or soften the contact.",
             of=f"{runs.wheel.name}, race {number}",
         )  # fmt: skip
 
 
 def _still(runs: WheelRuns) -> Check:
-    """ABU423: small motions of light balls about their places at work."""
+    """Small motions of light balls about their places at work."""
     name = runs.wheel.name
     if runs.growths is None:
-        return coded("ABU423", "not-done", "A race cannot carry what work requires", remedy="See ABU422.", of=name)
+        return coded("ABU423", "not-done", "A race cannot carry what work requires", remedy="See ABU422.", of=name,
+            bound="most",
+        )  # fmt: skip
     even, others = runs.growths[0], max(runs.growths[1:])
     passed, safe = even <= GROWS, others <= GROWS
     text = "Growth of a small disturbance, balls evenly spread (calculated for light balls, imbalances in phase)"
@@ -329,22 +327,22 @@ def _still(runs: WheelRuns) -> Check:
         text += f"; {others:.3g} 1/s in another arrangement"
     remedy = None if passed and safe else "Change the contact stiffness, or use a more viscous oil in both races."
     growth = even if abs(even) > GROWS else 0.0
-    return coded("ABU423", verdict(passed, safe), text, growth, 0.0, "1/s", remedy, of=name)
+    return coded("ABU423", verdict(passed, safe), text, growth, 0.0, remedy, of=name, bound="most")
 
 
 def _agrees(runs: WheelRuns) -> Iterator[Check]:
-    """ABU425: the force by closed form against a simulation with ideal races and balls."""
+    """The force by closed form against a simulation with ideal races and balls."""
     if runs.disagreement is None:
         return
     if isinstance(runs.disagreement, str):
         text = f"No comparison of closed form and simulation: {runs.disagreement}"
-        yield coded("ABU425", "not-done", text, remedy="Press harder, or run the wheel truer.",
-                    of=runs.wheel.name, requested=False)  # fmt: skip
+        yield coded("ABU425", "not-done", text, remedy="Press harder, or run the wheel truer.", of=runs.wheel.name,
+            requested=False,
+        )  # fmt: skip
         return
     close = runs.disagreement <= AGREES
-    yield coded(
-        "ABU425", verdict(True, close), "Force and resultants: closed form against a simulation with ideal races",
-        100 * runs.disagreement, 100 * AGREES, "%",
+    yield coded("ABU425", verdict(True, close),
+        "Force and resultants: closed form against a simulation with ideal races", runs.disagreement, AGREES,
         None if close else "Use the simulated levels; closed forms leave out something here.", of=runs.wheel.name,
     )  # fmt: skip
 

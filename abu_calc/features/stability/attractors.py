@@ -258,16 +258,16 @@ def _toml(value: object) -> str:
 
 
 def _check(found: FoundAttractors) -> Check:
-    """ABU804: do all decided starts end balanced?"""
+    """Do all decided starts end balanced?"""
     total = found.drawn + found.designed
     others = sum(len(group.ends) for group in found.groups if group.kind != "balanced")
     if found.hurried or not found.groups:
         lost = len(found.undecided)
-        return coded("ABU804", "not-done", f"{lost} of {total} starts have no decided end", unit="starts")
+        return coded("ABU804", "not-done", f"{lost} of {total} starts have no decided end", None)
     if not others and not found.undecided:
-        return coded("ABU804", "pass", f"all {total} starts end balanced", 0.0, 0.0, "starts")
+        return coded("ABU804", "pass", f"all {total} starts end balanced", 0.0, 0.0)
     message = f"{others} of {total} starts end elsewhere"
     if found.undecided:
         message += f", {len(found.undecided)} without a decided end"
     remedy = "Raise the viscous drag rate, or the damping of the support; the table lists where starts end."
-    return coded("ABU804", "warn", message, float(others + len(found.undecided)), 0.0, "starts", remedy)
+    return coded("ABU804", "warn", message, float(others + len(found.undecided)), 0.0, remedy)

@@ -17,7 +17,7 @@ from abu_calc.dynamics.stability.verdict import stability as judged
 from abu_calc.features.stability.attractors import Attractor, AttractorSearch, attractors_of
 from abu_calc.features.stability.disturbed import ArrangementEnd, consequence
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
-from abu_calc.foundation.checks import Check, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -290,7 +290,6 @@ def _pairs(values: tuple[complex, ...] | None) -> Pairs | None:
 
 
 def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
-    name = ("ABU802", "stability of the balanced state")
     if judgement.reason is not None:
         remedy = "Specify a second race in another plane, or bearings alike along x and y." if way != "start" else None
         if pressed:
@@ -298,10 +297,9 @@ def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
                 "`abu simulate FILE` shows the motion on the workpiece. Remove grinding_contact from the file to judge "
                 "the idle state."
             )
-        return Check(*name, "not-done", judgement.reason, unit="1/s", remedy=remedy)
+        return coded("ABU802", "not-done", judgement.reason, None, remedy=remedy)
     if judgement.angles is None:
-        return Check(
-            *name, "fail", "there is no balanced state: the balls cannot carry the imbalance", unit="1/s",
+        return coded("ABU802", "fail", "there is no balanced state: the balls cannot carry the imbalance", None,
             remedy="Specify heavier or more balls, a larger race, or a better balanced rotor.",
         )  # fmt: skip
     message = "every small disturbance of the balanced state dies out"
@@ -312,7 +310,7 @@ def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
         if judgement.stable
         else "Avoid the unstable speeds (--speeds finds them, Python: speeds_rpm=), or change drag rate and damping."
     )
-    return Check(*name, verdict(bool(judgement.stable)), message, finite(judgement.growth_rate), 0.0, "1/s", remedy)
+    return coded("ABU802", verdict(bool(judgement.stable)), message, finite(judgement.growth_rate), 0.0, remedy)
 
 
 BALANCED_TO_FIRST_ORDER: Final = frozenset({"gravity"})

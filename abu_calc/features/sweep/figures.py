@@ -19,6 +19,7 @@ from abu_calc.features.sweep.view import (
     side_kept,
     words_of,
 )
+from abu_calc.foundation.checks import first_of
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.blocks import capitalised, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, MarkedPoint, Plot, db
@@ -47,7 +48,7 @@ def sweep_extras(result: SweepResult) -> Extras:
 
 def _shares(result: SweepResult) -> Iterator[Figure]:
     """Figure of the share that meets each limit, and all limits, with the confidence interval."""
-    met, check = result.meets_limits, next(entry for entry in result.checks if entry.code == "ABU822")
+    met, check = result.meets_limits, first_of(result.checks, "share_within_limits")
     rows = [
         Bar(LIMITS[name], 100 * share.share, percent(share.share), 1, span=_hundredths(share.confidence_interval))
         for name, share in met.each.items()
@@ -55,7 +56,7 @@ def _shares(result: SweepResult) -> Iterator[Figure]:
     rows.append(
         Bar("meets all limits", 100 * met.share, percent(met.share), 2, span=_hundredths(met.confidence_interval))
     )
-    limit = None if check.limit is None else (check.limit, f"at least {number(check.limit, 3)} %")
+    limit = None if check is None or check.limit is None else (check.limit, f"at least {number(check.limit, 3)} %")
     summary = "; ".join(f"{bar.name} {bar.text}" for bar in rows) + (f"; {limit[1]}" if limit else "")
     caption = (
         f"Share of {met.of} members that keeps each limit; the thin line is the 95 % confidence interval of the share"

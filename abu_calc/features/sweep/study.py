@@ -239,14 +239,14 @@ def _numbers(failed: Failed, late: int, runs: int) -> Check:
     share = failed.members / runs
     if late:
         message = f"{late} of {runs} samples were not computed within --patience"
-        return coded("ABU821", "not-done", message, 100 * share, 100 * FEW, "%", MORE)
+        return coded("ABU821", "not-done", message, share, FEW, MORE)
     message = "every sample gave numbers"
     if failed.members:
         failure = failed.reasons[0]
         message = f"{failed.members} of {runs} samples gave none, {failure.members} of them: {failure.reason}"
     status = "pass" if not failed.members else "warn" if share <= FEW else "not-done"
     remedy = "Check the reasons. Narrow distributions that reach values no machine has." if failed.members else None
-    return coded("ABU821", status, message, 100 * share, 100 * FEW, "%", remedy)  # type: ignore[arg-type]
+    return coded("ABU821", status, message, share, FEW, remedy)  # type: ignore[arg-type]
 
 
 def _share(met: MeetsLimits, least: float | None) -> Check:
@@ -258,7 +258,7 @@ def _share(met: MeetsLimits, least: float | None) -> Check:
             if met.met == met.of
             else (f"{met.of - met.met} of {met.of} samples do not; [sweep] least_share sets how many must")
         )
-        return coded("ABU822", "pass" if met.met == met.of else "warn", message, 100 * met.share, None, "%")
+        return coded("ABU822", "pass" if met.met == met.of else "warn", message, met.share, bound="most")
     status = "pass" if low >= least else "warn" if met.share >= least else "fail"
     remedy = (
         None
@@ -267,7 +267,7 @@ def _share(met: MeetsLimits, least: float | None) -> Check:
         if status == "warn"
         else ("Tighten what the report names, or change the design: `abu size FILE` judges it.")
     )
-    return coded("ABU822", status, message, 100 * met.share, 100 * least, "%", remedy, "least")  # type: ignore[arg-type]
+    return coded("ABU822", status, message, met.share, least, remedy)  # type: ignore[arg-type]
 
 
 def _limits(plan: Plan) -> dict[str, float]:

@@ -25,22 +25,22 @@ def on_work(design: Design, runs: Sequence[SceneRun]) -> Check | None:
     run = next((run for run in runs if run.ledger.scene.name == CUTTING), None)
     effect = None if run is None else run.simulation.scene.effect("lift_off")
     if run is None:
-        return coded("ABU506", "not-done", "The scene on the workpiece gave no answer, see ABU703", unit="%")
+        return coded("ABU506", "not-done", "The scene on the workpiece gave no answer, see ABU703", None)
     if not isinstance(effect, LiftOffEffect):
         return None
     samples = run.simulation.trajectory
-    share, last = 100 * effect.share_apart(samples), effect.last_apart(samples)
+    share, last = effect.share_apart(samples), effect.last_apart(samples)
     if share:
         message = "Disk and workpiece lose contact again and again, so the bounds on the arm do not tell its motion"
-        return coded("ABU506", "fail", message, share, 0.0, "%")
+        return coded("ABU506", "fail", message, share, 0.0)
     if last is None:
-        return coded("ABU506", "pass", "The disk stays on its workpiece throughout", 0.0, 0.0, "%")
+        return coded("ABU506", "pass", "The disk stays on its workpiece throughout", 0.0, 0.0)
     time, limit = run.simulation.response.rest_time, design.case.table.limits.longest_quiet_time
     soon = time is not None and time <= limit
     message = f"The disk leaves its workpiece until {last:.3g} s. Then the bounds on the arm hold"
     if not soon:
         message += f". The balls need more than the permitted {limit:g} s to rest there"
-    return coded("ABU506", verdict(True, soon), message, 0.0, 0.0, "%")
+    return coded("ABU506", verdict(True, soon), message, 0.0, 0.0)
 
 
 INERTIA: Final = (1.0, 1.2, 1.5, 2.0, 3.0)

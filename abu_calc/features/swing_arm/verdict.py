@@ -59,29 +59,29 @@ def balanced_check(design: Design) -> Check:
     Judged are the ends of the speed range. The check warns if the balls do not stay at the worst contact
     angle. At that angle, evenly spread balls are judged at the lowest speed.
     """
-    code, unit = "ABU505", "1/s"
     if not _carries(design):
-        return coded(code, "not-done", "The balls cannot carry the imbalance, see ABU201", unit=unit,
-                     remedy="Specify heavier or more balls, or a better balanced wheel.")  # fmt: skip
+        return coded("ABU505", "not-done", "The balls cannot carry the imbalance, see ABU201", None,
+            remedy="Specify heavier or more balls, or a better balanced wheel.",
+        )  # fmt: skip
     try:
         rates, missing = _rates(design)
         worst = _worst_angle(design)
     except NotTrustworthyError as error:
         reason = f"Stability is not known: {str(error).splitlines()[0]}"
-        return coded(code, "not-done", reason, unit=unit)
+        return coded("ABU505", "not-done", reason, None)
     place = max(rates, key=lambda location: rates[location][0], default="")
     rate, stable = rates.get(place, (None, True))
     if stable and missing:
         grade: Grade = "warn" if rates else "not-done"
         message = f"{missing}. The balanced state is not judged there"
-        return coded(code, grade, message, rate, 0.0, unit)
+        return coded("ABU505", grade, message, rate, 0.0)
     message = f"Every small disturbance dies out, off the workpiece and on it, slowest {place}"
     if not stable:
         message = f"A small disturbance grows {place}"
     elif not worst:
         angle = from_si(_bounds(design).worst_contact_angle, "deg")
         message += f". At the worst contact angle, {angle:.3g}°, a disturbance grows"
-    return coded(code, verdict(stable, worst), message, rate, 0.0, unit)
+    return coded("ABU505", verdict(stable, worst), message, rate, 0.0)
 
 
 def _rates(design: Design) -> tuple[dict[str, tuple[float, bool]], str]:

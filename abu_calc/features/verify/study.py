@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Final
 
 from abu_calc.features.balancing.read import Readings
-from abu_calc.foundation.checks import Check, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, Stage, silent
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
@@ -217,4 +218,4 @@ def _check(file: VerifiedFile) -> Check:
     failed = len(file.failed)
     remedy = "If the change is meant, write it with --update." if failed else None
     message = f"{len(file.values)} values, {failed} differ"
-    return Check("ABU901", file.file, verdict(not failed), message, float(failed), 0.0, None, remedy)
+    return replace(coded("ABU901", verdict(not failed), message, float(failed), 0.0, remedy), name=file.file)

@@ -153,6 +153,6 @@ def ring_check(case: Case, race_radius: float) -> tuple[Check, ...]:
         f"{from_si(ring.width, 'mm'):g} mm. The radius of its sphere is {known}: {low:.2f} … {high:.2f} mm"
     )
     return (
-        coded("ABU312", verdict(True, safe=measured), message, from_si(race_radius, "mm"), None, "mm",
-              None if measured else "Measure the sphere of the ring, and specify it as autobalancer.race_radius_mm."),
+        coded("ABU312", verdict(True, safe=measured), message, race_radius, remedy=None if measured else
+              "Measure the sphere of the ring, and specify it as autobalancer.race_radius_mm."),
     )  # fmt: skip

@@ -6,7 +6,6 @@ from typing import Final
 from abu_calc.formulas.press_fit import MATERIALS, Ring, RingMaterial, spin_stress
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import LEAST_FILLING, balls_go_in, filling_gap, last_ball_passes
 from abu_calc.sizing.parts.housing_parts import HousingParts
@@ -37,8 +36,7 @@ def filling_check(parts: HousingParts) -> Check:
     message = (
         f"The balls go in one by one before the cover is {parts.closure}, between hub and edge of the race, {side}"
     )
-    return coded("ABU305", verdict(passed), message, from_si(filling_gap_of(parts), "mm"),
-                 from_si(LEAST_FILLING, "mm"), "mm", bound="least")  # fmt: skip
+    return coded("ABU305", verdict(passed), message, filling_gap_of(parts), LEAST_FILLING)
 
 
 @formula(
@@ -75,9 +73,8 @@ def overspeed_check(parts: HousingParts, force: float, top: float) -> Check:
     place, stress, material = overspeed_stress(parts, force, top)
     limit = PROOF_SHARE * material.strength
     passed = stress <= limit
-    return coded(
-        "ABU306", verdict(passed), f"Hoop and spin stress at 1.2 × the highest speed, largest at the {place} "
-        f"({material.name})", from_si(stress, "MPa"), from_si(limit, "MPa"), "MPa",
+    return coded("ABU306", verdict(passed), f"Hoop and spin stress at 1.2 × the highest speed, largest at the {place} "
+        f"({material.name})", stress, limit,
     )  # fmt: skip
 
 
@@ -107,9 +104,8 @@ def burst_check(parts: HousingParts, force: float, top: float) -> Check:
     """Check of the burst speed; the cover, which may be loose in its seat, pulls and does not hold."""
     ratio = burst_ratio(parts, force, top)
     passed = ratio >= BURST_RATIO
-    return coded(
-        "ABU309", verdict(passed), "Burst speed over the highest speed, by the mean hoop stress with all balls on one "
-        "side; the cover counts as load alone", ratio, BURST_RATIO, "", bound="least",
+    return coded("ABU309", verdict(passed), "Burst speed over the highest speed, by the mean hoop stress with all "
+        "balls on one side; the cover counts as load alone", ratio, BURST_RATIO,
     )  # fmt: skip
 
 
@@ -127,13 +123,13 @@ def containment_check(case: Case, parts: HousingParts, top: float) -> tuple[Chec
     """Check that the guard stops a ball; none if no guard is given."""
     energy = _ball_energy(parts, top)
     least = perforated_thickness(energy, parts.balls.diameter)
-    given = case.autobalancer.guard_thickness_mm
+    given = case.autobalancer.guard_thickness
     if given is None:
         return ()
     message = f"A ball that leaves the housing at 1.2 × the highest speed has {energy:.3g} J"
     passed = contained(case, parts, top)
-    return (coded("ABU310", verdict(passed), f"{message}, which the guard of mild steel must stop", given,
-                  from_si(least, "mm"), "mm", None if passed else "Specify a thicker guard.", "least"),)  # fmt: skip
+    return (coded("ABU310", verdict(passed), f"{message}, which the guard of mild steel must stop", given, least,
+                  None if passed else "Specify a thicker guard."),)  # fmt: skip
 
 
 @formula(

@@ -201,4 +201,4 @@ def cover_check(parts: HousingParts, hold: Cover) -> Check:
             f". Its fit stresses wall or cover with {from_si(hold.stress, 'MPa'):.3g} MPa, permitted "
             f"{from_si(hold.permitted, 'MPa'):.3g} MPa"
         )
-    return coded("ABU307", verdict(hold.holds), message, hold.held, hold.needed, "N", bound="least")  # fmt: skip
+    return coded("ABU307", verdict(hold.holds), message, hold.held, hold.needed)

@@ -213,12 +213,9 @@ def run_out(value: float) -> float:
 
 def eccentricity_check(case: Case, split: EccentricitySplit) -> Check:
     """Check that a standard fit and attainable run-outs hold the eccentricity that the file permits."""
-    total = from_si(split.total, "um")
     if split.fit is None:
-        return coded(
-            "ABU206", "not-done", f"No fit of ISO 286 is tabulated for a bore of "
-            f"{case.autobalancer.bore_diameter_mm:g} mm", None, total, "µm",
-            "Specify a bore from 0.6 to 500 mm.",
+        return coded("ABU206", "not-done", f"No fit of ISO 286 is tabulated for a bore of "
+            f"{case.autobalancer.bore_diameter_mm:g} mm", None, split.total, "Specify a bore from 0.6 to 500 mm.",
         )  # fmt: skip
     if split.holds:
         race, clearance, spindle, housing = (f"{from_si(part, 'um'):.3g}" for part in split.parts)
@@ -226,9 +223,9 @@ def eccentricity_check(case: Case, split: EccentricitySplit) -> Check:
             f"{split.rule} sum of race {race}, clearance of {split.fit.named} {clearance}, spindle {spindle}, "
             f"imbalance of the housing ({split.balance_grade}) {housing} µm, against autobalancer.race_eccentricity_mm"
         )
-        return coded("ABU206", verdict(True), message, from_si(split.sum, "um"), total, "µm")
+        return coded("ABU206", verdict(True), message, split.sum, split.total)
     message = (
         f"No standard fit of the bore holds autobalancer.race_eccentricity_mm. The least attainable {split.rule} sum "
         f"is that of {split.fit.named} and run-outs of grade IT{GRADES[-1]}"
     )
-    return coded("ABU206", verdict(False), message, from_si(split.least, "um"), total, "µm")
+    return coded("ABU206", verdict(False), message, split.least, split.total)

@@ -153,17 +153,19 @@ def torque_check(case: Case, parts: HousingParts, fit: Fit | None, torque: SlipT
     if torque.stress > torque.permitted:
         message += (f". The nut crushes the hub: {from_si(torque.stress, 'MPa'):.3g} MPa, permitted "
                     f"{from_si(torque.permitted, 'MPa'):.3g} MPa")  # fmt: skip
-    return (coded("ABU308", verdict(torque.holds), message, torque.held, torque.needed, "N·m", bound="least"),)
+    return (coded("ABU308", verdict(torque.holds), message, torque.held, torque.needed),)
 
 
 def _shrunk_check(fit: Fit | None, torque: SlipTorque | None, needed: float) -> Check:
     if fit is None or torque is None:
         return coded("ABU308", "not-done", "No interference fit of ISO 286 is tabulated for this bore", None, needed,
-                     "N·m", 'Specify autobalancer.fastening = "clamped".', "least")  # fmt: skip
+            'Specify autobalancer.fastening = "clamped".',
+        )  # fmt: skip
     message = (
         f"Slip torque of the shrunk housing ({fit.named}), least over the temperatures at 1.2 × the highest speed, "
         f"against twice the torque of the run-up. Hub: {from_si(torque.stress, 'MPa'):.3g} MPa, "
         f"permitted {from_si(torque.permitted, 'MPa'):.3g} MPa"
     )
-    return coded("ABU308", verdict(torque.holds), message, torque.held, needed, "N·m",
-                 None if torque.holds else 'Specify autobalancer.fastening = "clamped".', "least")  # fmt: skip
+    return coded("ABU308", verdict(torque.holds), message, torque.held, needed,
+        None if torque.holds else 'Specify autobalancer.fastening = "clamped".',
+    )  # fmt: skip

@@ -126,6 +126,5 @@ def seat_check(case: Case, parts: HousingParts, seat: RingSeat | None) -> tuple[
     passed = bears_ring(parts, seat)
     remedy = 'Narrow autobalancer.temperature_range_C, reduce the race, or specify design = "one-piece".'
     return (
-        coded("ABU311", verdict(passed), message, from_si(seat.stress, "MPa"), from_si(limit, "MPa"), "MPa",
-              None if passed else remedy),
+        coded("ABU311", verdict(passed), message, seat.stress, limit, None if passed else remedy),
     )  # fmt: skip
