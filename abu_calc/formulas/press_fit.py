@@ -29,7 +29,7 @@ class RingMaterial:
 
 STEEL_RING: Final = RingMaterial("steel", 206e9, 0.3, 7800.0, 12e-6, 600e6)
 ALUMINIUM_RING: Final = RingMaterial("aluminium", 70e9, 0.33, 2700.0, 23.5e-6, 240e6)
-"""Strengths are three times the permitted hoop stress of ABU303: quenched steel, 6082-T6 (assumed, low)."""
+"""Strengths are three times the permitted hoop stress of a rim: quenched steel, 6082-T6 (assumed, low)."""
 MATERIALS: Final = {material.density: material for material in (STEEL_RING, ALUMINIUM_RING)}
 
 

@@ -87,11 +87,7 @@ def _hundred(file: str) -> dict[str, CheckCode]:
 
 
 def number_of(code: str) -> int:
-    """Number of a code, by which checks are ordered.
-
-    >>> number_of("ABU1001")
-    1001
-    """
+    """Number of a code, by which checks are ordered."""
     return int(code.removeprefix("ABU"))
 
 
@@ -219,8 +215,9 @@ def coded(
 
     >>> coded("ABU621", "pass", "…", of="6203").name
     'clearance left in the bearing, 6203'
-    >>> coded("ABU202", "pass", "…", 15.4e-6, 20e-6)
-    <Check ABU202 PASS: residual-displacement budget (15.4 µm, limit 20 µm)>
+    >>> check = coded("ABU202", "pass", "…", 15.4e-6, 20e-6)
+    >>> f"{check.value:g} {check.unit}, at {check.bound} {check.limit:g}"
+    '15.4 µm, at most 20'
     """
     kind = CHECK_CODES[code]
     text, overrides = parts_of(remedy)

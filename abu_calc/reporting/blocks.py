@@ -41,8 +41,8 @@ def capitalised(text: str) -> str:
 def uncapitalised(text: str) -> str:
     """A sentence that goes on after other words; an abbreviation or a symbol keeps its capital.
 
-    >>> uncapitalised("At 154 rpm"), uncapitalised("ABU201"), uncapitalised("A small one")
-    ('at 154 rpm', 'ABU201', 'a small one')
+    >>> uncapitalised("At 154 rpm"), uncapitalised("ISO 281"), uncapitalised("A small one")
+    ('at 154 rpm', 'ISO 281', 'a small one')
     """
     return text[:1].lower() + text[1:] if re.match(r"[A-Z][a-z]*\b", text) else text
 

@@ -74,7 +74,7 @@ def test_a_code_that_nobody_gave_has_no_entry() -> None:
 
 
 def test_a_check_of_several_things_names_its_own() -> None:
-    assert coded("ABU621", "fail", "too tight", 1.0, 2.0, "µm", of="6203").name.endswith(", 6203")
+    assert coded("ABU621", "fail", "too tight", 1.0, 2.0, of="6203").name.endswith(", 6203")
     assert coded("ABU621", "fail", "too tight").name == CHECK_CODES["ABU621"].name
 
 

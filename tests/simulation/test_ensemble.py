@@ -266,8 +266,8 @@ def test_balls_that_carry_too_little_are_not_done() -> None:
 
 def test_the_level_check_keeps_the_worse() -> None:
     """Of the closed form and of the starts."""
-    closed = Finding("pass", "closed", 105.0, 109.0, "dB")
-    failed = Finding("fail", "closed", 111.0, 109.0, "dB")
+    closed = Finding("pass", "closed", 105.0, 109.0)
+    failed = Finding("fail", "closed", 111.0, 109.0)
 
     def value(one: Finding, loud: float) -> tuple[str, float | None]:
         found = level(one, Ensemble(10.0, (outcome(level=loud),), ()))

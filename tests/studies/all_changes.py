@@ -63,8 +63,8 @@ def pool_of(before: Judgement) -> Pool:
     sizing = [overrides(entries) for entries in mended(design)]
     sizing += [check.overrides for check in bad if check.overrides]
     for check in bad:
-        if check.code in PROPOSED and check.code not in TRUER:
-            changes, same = PROPOSED[check.code]
+        if check.key in PROPOSED and check.code not in TRUER:
+            changes, same = PROPOSED[check.key]
             sizing += [overrides({**entries, **own} if same else entries) for entries in changes(design)]
     oils = [entries for entries, _ in usual_oils(case, design.autobalancer)]
     starts = list(changes_for_starts(before.facts, loud=False))

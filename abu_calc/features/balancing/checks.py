@@ -12,7 +12,7 @@ from abu_calc.features.balancing.runs import ONE_SPEED
 from abu_calc.features.balancing.solution import BEYOND_ERRORS, Found, PlaneCorrection
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.checks import Check, coded, verdict
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 
 CONDITION: Final = (10.0, 30.0)
 """Condition numbers: a warning from the first on, failed above the second."""
@@ -69,7 +69,7 @@ def _natural_frequencies(balancing: Found) -> Iterator[Check]:
             f"{100 * balancing.rest_share:.1f} to {100 * rest:.1f} % (calculated with the same errors)."
         )
     yield coded("ABU1002", grade,
-        f"relative distance of the speed from the natural frequency {from_si(omega, 'hz'):.2f} Hz", value,
+        f"relative distance of the speed from the natural frequency {shown(omega, 'hz', '.2f')}", value,
         OFF_RESONANCE[0], remedy,
     )  # fmt: skip
 

@@ -302,7 +302,7 @@ def _remarks(runs: Iterable[MeasuredRun], factor: float) -> Iterator[str]:
 
 
 def _spread(series: Sequence[MeasuredSeries]) -> Iterator[Check]:
-    """ABU441, one for each handle: the series that scatters most."""
+    """One for each handle: the series that scatters most."""
     rules = series_rules()
     for handle in dict.fromkeys(each.handle for each in series):
         known = [each for each in series if each.handle == handle and each.coefficient_of_variation is not None]
@@ -331,7 +331,6 @@ def _scatters_little(series: MeasuredSeries) -> bool:
 
 
 def _whole(series: Sequence[MeasuredSeries], runs: Sequence[MeasuredRun]) -> Check:
-    """ABU442."""
     rules, faults = series_rules(), list[str]()
     for handle in dict.fromkeys(each.handle for each in series):
         operators = [each for each in series if each.handle == handle]
@@ -351,7 +350,7 @@ def _whole(series: Sequence[MeasuredSeries], runs: Sequence[MeasuredRun]) -> Che
 
 
 def _calibrated(channels: Sequence[MeasuredChannel]) -> Iterator[Check]:
-    """ABU443: the channel that is off most; nothing to check without a calibrator run."""
+    """The channel that is off most; nothing to check without a calibrator run."""
     if not channels:
         message = "No calibrator run is given, so the sensitivities are taken as they are"
         advice = "Record a calibrator with each channel, and list it as [[calibration]]."
@@ -372,7 +371,7 @@ def _calibrated(channels: Sequence[MeasuredChannel]) -> Iterator[Check]:
 
 
 def _overload(runs: Iterable[MeasuredRun], calibration: Iterable[MeasuredChannel]) -> Check:
-    """ABU444, of runs and calibrator runs."""
+    """Of runs and calibrator runs."""
     channels = [f"{run.name}, {axis.name}" for run in runs for axis in run.axes if axis.overload]
     channels += [f"calibrator run {channel.file}, {channel.name}" for channel in calibration if channel.overload]
     message = "No recording stays at its largest value"
@@ -382,7 +381,6 @@ def _overload(runs: Iterable[MeasuredRun], calibration: Iterable[MeasuredChannel
 
 
 def _weighted(runs: Iterable[MeasuredRun]) -> Check:
-    """ABU445."""
     unknown = [run for run in runs if run.why_not]
     if not unknown:
         return coded("ABU445", "pass", "W_h can be applied to every run")

@@ -12,8 +12,8 @@ from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, LOOSE_ENOUGH, TE
 from abu_calc.features.seats.joints import ROOM, USUAL_RISE, assumes_warmth
 from abu_calc.features.seats.notes import selective_groups
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
-from abu_calc.foundation.checks import Action, Check, coded, verdict
-from abu_calc.foundation.units import from_si, shown
+from abu_calc.foundation.checks import Action, Check, Finding, coded, verdict
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.catalogue import ROLLERS
 from abu_calc.standards.internal_clearance import groups_of, preload_limits
@@ -31,8 +31,9 @@ _LIKE_STEEL: Final = 3e-6
 _KEPT: Final = 0.995
 _SHOWN: Final = 0.05
 """Losses [µm] below it are not named: they would read 0.0."""
-_TENTH_HOUR: Final = 360.0
-"""Step [s] to which lives are rounded."""
+_LIFE_STEP: Final = 360.0
+_SPEED_STEP: Final = to_si(0.001, "rpm")
+"""Steps [s, rad/s] to which lives and speeds are rounded."""
 _SMALL: Final = 0.006
 """Bores [m] of rings that are bonded rather than pressed."""
 _ROLLER_SAFETY: Final = 1.5
@@ -93,16 +94,15 @@ def _axial_remark(bearing: SeatedBearing) -> str:
     return "" if bearing.service.axial_load is not None else " (no axial load given: none taken)"
 
 
-def life_check(
-    code: str, bearing: SeatedBearing, life: float, message: str, action: str = "Specify a larger bearing."
-) -> Check:
+def life_finding(
+    bearing: SeatedBearing, life: float, message: str, action: str = "Specify a larger bearing."
+) -> Finding:
     """A rating life [s] against the required one, or against the makers' guide."""
     required = bearing.service.required_life
     least = GUIDE_LIFE if required is None else required
     passed = life >= least or required is None
-    return coded(code, verdict(passed, life >= least), message, _TENTH_HOUR * round(life / _TENTH_HOUR), least,
-        None if life >= least else action, of=bearing.name,
-    )  # fmt: skip
+    grade, shown_life = verdict(passed, life >= least), _rounded(life, _LIFE_STEP)
+    return Finding(grade, message, shown_life, least, None if life >= least else action)
 
 
 def _basic(bearing: SeatedBearing, life: RatingLife) -> Check:
@@ -110,7 +110,7 @@ def _basic(bearing: SeatedBearing, life: RatingLife) -> Check:
     heavy = ". P is above C/2, where ISO 281 does not hold: the life is shorter" if 2 * P > C else ""
     guide = "" if bearing.service.required_life is not None else ". The limit is the makers' guide for hand-held tools"
     message = f"90 of 100 bearings reach it under P = {P:.3g} kN, C = {C:.3g} kN{_axial_remark(bearing)}{heavy}{guide}"
-    return life_check("ABU632", bearing, life.basic or 0.0, message)
+    return coded("ABU632", *life_finding(bearing, life.basic or 0.0, message), of=bearing.name)
 
 
 def _modified(bearing: SeatedBearing, life: RatingLife) -> Check:
@@ -122,7 +122,8 @@ def _modified(bearing: SeatedBearing, life: RatingLife) -> Check:
         f"basic rating life times a_ISO = {life.a_iso:.3g} (κ = {life.kappa:.3g}, e_C = "
         f"{bearing.service.contamination_factor:g})"
     )
-    return life_check("ABU633", bearing, life.modified, message, "Specify a lubricant of higher viscosity.")
+    found = life_finding(bearing, life.modified, message, "Specify a lubricant of higher viscosity.")
+    return coded("ABU633", *found, of=bearing.name)
 
 
 def _speed(bearing: SeatedBearing, life: RatingLife) -> Check:
@@ -136,8 +137,8 @@ def _speed(bearing: SeatedBearing, life: RatingLife) -> Check:
         f"limit of {entry.designation}{' with grease' if entry.with_grease else ''} ({entry.source})" if entry else ""
     )
     passed = speed <= most * (1 + 1e-9)
-    return coded("ABU634", verdict(passed), f"speed of the shaft against the {where}", speed, most,
-        None if passed else "Specify a bearing for this speed.", of=bearing.name,
+    return coded("ABU634", verdict(passed), f"speed of the shaft against the {where}",
+        _rounded(speed, _SPEED_STEP), most, None if passed else "Specify a bearing for this speed.", of=bearing.name,
     )  # fmt: skip
 
 
@@ -177,7 +178,7 @@ def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tu
         missing = "radial load" if joint.radial_load is None else "chamfer"
         key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
         why = f"no {missing} is given, so the interference that the ring needs is not known"
-        action = f"Specify {key}."  # ABU601 is not evaluated for the same reason, and decides
+        action = f"Specify {key}."  # the check of the seat itself is not evaluated for this, and decides
         return (coded(code, "not-done", why, None, warn, action, of=bearing, requested=False),)
     grade, share, demand = joint.short_grade, joint.short_pairs, _um(joint.demand.value)
     limit = fail if grade == "fail" else warn
@@ -435,6 +436,6 @@ def _um(metres: float) -> float:
     return from_si(_rounded(metres), "um")
 
 
-def _rounded(metres: float) -> float:
-    """A length to a millionth of a micrometre."""
-    return round(metres, 12)
+def _rounded(value: float, step: float = 1e-12) -> float:
+    """A value in whole steps, a length in those of a millionth of a micrometre."""
+    return step * round(value / step)

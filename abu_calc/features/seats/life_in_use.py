@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Annotated, ClassVar, Final, NamedTuple
 
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.checks import life_check
+from abu_calc.features.seats.checks import life_finding
 from abu_calc.features.seats.rating_life import exponent, life_at
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.formula import formula
@@ -124,7 +124,7 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
         f"{from_si(with_it, 'kN'):.3g} kN; the loads are imbalance, residual imbalance and the normal force at work"
     )
     both = SimulatedLife(load_without=without, load_with=with_it, life_without=lives[0], life_with=lives[1])
-    return LifeInUse(both, (life_check("ABU636", bearing, lives[1], message),))
+    return LifeInUse(both, (coded("ABU636", *life_finding(bearing, lives[1], message), of=bearing.name),))
 
 
 def _unknown(bearing: SeatedBearing, why: str, action: str) -> LifeInUse:

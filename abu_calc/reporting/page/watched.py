@@ -6,7 +6,7 @@ from html import escape, unescape
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from abu_calc.foundation.checks import WORDS
+from abu_calc.foundation.checks import CHECK_CODES, WORDS
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.page.assets import script, text
 from abu_calc.reporting.page.document import MAIN, SAFE, framed
@@ -14,8 +14,8 @@ from abu_calc.reporting.write import Target, write
 
 FOLLOWS: Final = SAFE + "; frame-src 'self' file:"
 """Security policy of a page that looks at its own file."""
-MAIN_CHECKS: Final = ("ABU401", "ABU702", "ABU201", "ABU203")
-"""Checks whose numbers stand first: level, quiet time, capacity, mass."""
+MAIN_CHECKS: Final = ("idle_level", "quiet_time", "capacity", "mass")
+"""Keys of the checks whose numbers stand first."""
 MOST_CHANGES: Final = 4
 """Most checks whose change is told."""
 
@@ -128,7 +128,8 @@ def changes(before: Shown, now: Shown) -> str:
 
 
 def _rank(code: str) -> int:
-    return MAIN_CHECKS.index(code) if code in MAIN_CHECKS else len(MAIN_CHECKS)
+    kind = CHECK_CODES.get(code)
+    return MAIN_CHECKS.index(kind.key) if kind and kind.key in MAIN_CHECKS else len(MAIN_CHECKS)
 
 
 def _change(old: dict[str, Any], new: dict[str, Any]) -> str:

@@ -89,7 +89,7 @@ def untrue(check: Check, machine: Machine, before: SizeResult, after: SizeResult
     if action["verb"] and action["verb"] != ("warns" if check.code in left else "passes"):
         yield "the check does not"
     if action["what"]:
-        places = {number.name: (number.path, number.per) for number in NUMBERS.get(check.code, ())}
+        places = {number.name: (number.path, number.per) for number in NUMBERS.get(check.key, ())}
         path, per = places.get(action["what"], ("", 1.0))
         for result, printed in ((before, action["before"]), (after, action["after"])):
             own = next(each for each in result.checks if (each.code, each.name) == (check.code, check.name))

@@ -14,7 +14,7 @@ from abu_calc.sizing.design import Design
 from tests.sizing.machines import PINNED, machine
 
 DRAG = 10.0
-CLOSED = Finding("pass", "closed", 105.0, 109.0, "dB")
+CLOSED = Finding("pass", "closed", 105.0, 109.0)
 
 
 @cache
@@ -135,7 +135,7 @@ def level(closed: Finding, ensemble: Ensemble | None, starts: str = "full") -> C
 
 def test_the_level_stays_as_it_is_without_starts_or_numbers() -> None:
     assert level(CLOSED, None) == coded("ABU401", *CLOSED)
-    undone = Finding("not-done", "not known", None, 109.0, "dB")
+    undone = Finding("not-done", "not known", None, 109.0)
     assert level(undone, Ensemble(DRAG, (outcome(level=120.0),), ())) == coded("ABU401", *undone)
 
 

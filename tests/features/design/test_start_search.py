@@ -111,7 +111,7 @@ def made(code: str, listed: Finding, searched: SearchResult | None, found: Desig
 
 def test_a_level_within_its_error_of_the_limit_warns() -> None:
     """A run below the limit by less than the error of a simulated level does not prove that the limit is kept."""
-    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 1.0, 2.0, "dB")
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 1.0, 2.0)
     limit = found.case.level_limit
     assert made("ABU401", listed, SearchResult((outcome(0.1, level=limit - 1.1 * SLACK),)), found).status == "pass"
     told = made("ABU401", listed, SearchResult((outcome(0.1, level=limit - 0.9 * SLACK),)), found)
@@ -187,7 +187,7 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
     """
     found, good = design("avtovaz-707-222"), outcome(0.1)
     for status in ("pass", "warn", "fail", "not-done"):
-        listed = Finding(status, "as listed", 1.0, 2.0, "s")
+        listed = Finding(status, "as listed", 1.0, 2.0)
         check = coded(code, *listed)
         assert made(code, listed, SearchResult((good,)), found) == check == made(code, listed, None, found)
         told = made(code, listed, SearchResult((good, bad)), found)
@@ -203,14 +203,14 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
                 of_usual = replace(of_usual, quiet_time=None)
             assert made(code, listed, SearchResult((good, of_usual)), found) == told
             assert code in [each.check for each in worst_further(SearchResult((good, bad)), found)]
-    passed = Finding("pass", "as listed", 1.0, 2.0, "s")
+    passed = Finding("pass", "as listed", 1.0, 2.0)
     assert made(code, passed, SearchResult((good,), lost=1), found).status == "warn"
     assert made(code, passed, SearchResult((good,), lost=1, hurried=True), found).status == "not-done"
 
 
 def test_further_balls_that_still_creep_warn() -> None:
     """Followed for ten times the limit they have no time of rest: that is no failure, but it is told."""
-    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0, "s")
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0)
     creeping = replace(outcome(0.1), creeping=True, rest_time=None, confirmed=True)
     told = made("ABU702", listed, SearchResult((outcome(0.2), creeping)), found)
     assert (
@@ -220,7 +220,7 @@ def test_further_balls_that_still_creep_warn() -> None:
 
 def test_a_long_tail_of_quiet_times_warns_before_one_is_too_late() -> None:
     """Balls that linger leave as e^{λt}: of 40 times with that tail the rare ones are foreseen within 25 %."""
-    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0, "s")
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0)
     quiet = SearchResult(tuple(outcome(0.1 + 0.01 * k) for k in range(24)))
     assert made("ABU702", listed, quiet, found).status == "pass"
     lingering = SearchResult(quiet.outcomes[:20], listed=tuple(outcome(time) for time in (0.5, 0.6, 0.7, 0.9)))
@@ -274,7 +274,7 @@ def test_starts_that_a_result_chose_do_not_tell_how_long_rare_ones_take() -> Non
     with_near = SearchResult((*drawn, *near), near=len(near))
     assert with_near.drawn == drawn and with_near.foreseen == SearchResult(drawn).foreseen < 1
     assert SearchResult((*drawn, *near)).foreseen > 1
-    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0, "s")
+    found, listed = design("avtovaz-707-222"), Finding("pass", "as listed", 0.2, 1.0)
     assert made("ABU702", listed, with_near, found).status == "pass"
     late = SearchResult((*drawn, outcome(1.1)), near=1)
     assert made("ABU702", listed, late, found).status == "warn"

@@ -132,23 +132,24 @@ def test_one_fault_counts_once() -> None:
         "ABU304": "fail",
         "ABU203": "warn",
     }
-    checks = [coded(code, grade, "why", 3.0, 2.0, "Hz") for code, grade in codes.items()]  # type: ignore[arg-type]
+    numbers = {"ABU101": (2.0, 3.0)}
+    checks = [coded(code, grade, "why", *numbers.get(code, (3.0, 2.0))) for code, grade in codes.items()]  # type: ignore[arg-type]
     assert [check.code for check in faults(checks, "fail")] == ["ABU101", "ABU304"]
     assert [check.code for check in faults(checks, "warn")] == ["ABU203"] and not faults(checks, "not-done")
     sentence = Verdict.of(checks, "", Provenance.today()).sentence
-    assert "balls go to the heavy side (3.00 Hz, at most 2.00); the race does not stay round (3" in sentence
+    assert "balls go to the heavy side (0.318 Hz, at least 0.477); the race does not stay round (3" in sentence
 
 
 @pytest.mark.parametrize(
     ("code", "useless"), [("ABU101", True), ("ABU401", True), ("ABU304", False), ("ABU601", False)]
 )
 def test_a_seat_or_a_strength_is_no_reason_to_leave_the_autobalancer_out(code: str, useless: bool) -> None:
-    checks = [coded(code, "fail", "why", 3.0, 2.0, "µm")]
+    checks = [coded(code, "fail", "why", 3.0, 2.0)]
     assert Verdict.of(checks, "", Provenance.today(), incurable=True).leave_out is useless
     assert not Verdict.of(checks, "", Provenance.today()).leave_out, "changes are left that were not tried"
 
 
 def test_a_benefit_that_is_not_known_is_not_told() -> None:
     assert benefit("spindle", 90.0, None, 109.0, 0.1) == ""
-    checks = [coded("ABU203", "warn", "why", 3.0, 2.0, "%")]
+    checks = [coded("ABU203", "warn", "why", 0.03, 0.02)]
     assert Verdict.of(checks, "", Provenance.today()).sentence.endswith("(3.00 %, at most 2.00).")
