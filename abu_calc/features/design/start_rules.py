@@ -124,8 +124,9 @@ class StartRule(NamedTuple):
     def check(self, facts: StartFacts, listed: Finding) -> Check:
         """The check, by what the listed start cases say and by what lies beyond them."""
         found = self._with_further(facts, listed)
-        numbers = () if found.value is None and found.limit is None else (found.value, found.limit)
-        return coded(self.code, found.status, found.message, *numbers, remedy=found.action)
+        if found.value is None and found.limit is None:
+            return coded(self.code, found.status, found.message, remedy=found.action)
+        return coded(self.code, *found)
 
     def _with_further(self, facts: StartFacts, listed: Finding) -> Finding:
         """The finding with start cases that were left out, gave no answer, or break the rule; promised ones fail it."""
