@@ -6,7 +6,13 @@ from itertools import combinations_with_replacement
 
 import pytest
 
+from abu_calc.features.design.next_step import NUMBERS
+from abu_calc.features.design.screen import NOT_IN_BALANCE
+from abu_calc.features.design.verdict import OF_BALANCING
 from abu_calc.foundation.checks import CHECK_CODES, HUNDREDS, Check, Grade, coded, overall, verdict, worst
+from abu_calc.foundation.units import UNIT_BY_SUFFIX
+from abu_calc.reporting.page.watched import MAIN_CHECKS
+from abu_calc.sizing.proposals import PROPOSED
 from tests.house.structure import ROOT
 from tests.rows import for_each
 
@@ -76,6 +82,30 @@ def test_a_code_that_nobody_gave_has_no_entry() -> None:
 def test_a_check_of_several_things_names_its_own() -> None:
     assert coded("ABU621", "fail", "too tight", 1.0, 2.0, of="6203").name.endswith(", 6203")
     assert coded("ABU621", "fail", "too tight").name == CHECK_CODES["ABU621"].name
+
+
+def test_what_a_kind_declares_is_known() -> None:
+    """Units have a suffix or are words, keys are unique, and every key by which a check is looked up is one of them."""
+    kinds = CHECK_CODES.values()
+    keys = [kind.key for kind in kinds if kind.key]
+    assert len(keys) == len(set(keys))
+    assert {kind.unit for kind in kinds} - UNIT_BY_SUFFIX.keys() == {None, "", "starts", "start cases"}
+    assert {kind.bound for kind in kinds} == {"most", "least"}
+    used = {key for kind in kinds for key in kind.follows} | PROPOSED.keys() | NUMBERS.keys() | OF_BALANCING
+    for file in (ROOT / "abu_calc").rglob("*.py"):
+        used |= set(re.findall(r'(?:first_of\([\w.]+, |check\.key == )"(\w+)"', file.read_text("utf-8")))
+    assert used | NOT_IN_BALANCE | {*MAIN_CHECKS} <= set(keys)
+
+
+def test_a_check_has_the_unit_and_the_bound_of_its_kind() -> None:
+    check = coded("ABU302", "pass", "hard", 60.0, 58.0)
+    assert (check.value, check.limit, check.unit, check.bound) == (60.0, 58.0, "HRC", "least")
+    check = coded("ABU206", "pass", "true", 8e-6, 10e-6)
+    assert (check.value, check.limit, check.unit) == (pytest.approx(8.0), pytest.approx(10.0), "µm")
+    unknown, none = coded("ABU206", "not-done", "not known", None), coded("ABU206", "not-done", "no number")
+    assert (unknown.value, unknown.unit, none.value, none.unit) == (None, "µm", None, None)
+    other = coded("ABU424", "warn", "apart", 0.25, 0.0, unit="percent", bound="least")
+    assert (other.value, other.unit, other.bound) == (25.0, "%", "least")
 
 
 def test_texts_are_short_sentences() -> None:
