@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.foundation.checks import coded
+from abu_calc.foundation.checks import CHECK_CODES, coded
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import with_entries
 from abu_calc.sizing.design import Design
@@ -63,7 +63,7 @@ def test_every_change_mends_its_check(code: str, changed: dict[str, float]) -> N
     """Each by itself, with few digits, the nearer before the farther."""
     design = on(**changed)
     assert check_of(design, code).status in ("fail", "not-done")
-    ways = list(on_arm(code, design))
+    ways = list(on_arm(CHECK_CODES[code].key, design))
     assert ways
     for entries in ways:
         assert check_of(size(with_entries(design.case.table, entries)), code).status in ("pass", "warn"), entries
