@@ -5,6 +5,7 @@ levels are 20 lg(v / 5e-8 m/s), v rms (GOST 12.1.012, ISO 5349 practice); amplit
 """
 
 import math
+from collections.abc import Iterable
 from typing import Final
 
 REFERENCE_VELOCITY: Final = 5e-8
@@ -120,13 +121,17 @@ def from_si(value: float, unit: str) -> float:
     return value / SI_PER_UNIT[unit]
 
 
-def shown(value: float, unit: str, style: str = ".3g") -> str:
-    """An SI value in `unit` with the unit's sign, as sentences have it.
+def shown(value: float | Iterable[float], unit: str, style: str = ".3g", between: str = " … ") -> str:
+    """An SI value in `unit` with the unit's sign, as sentences have it; of several values the sign stands once.
 
-    >>> shown(15.4e-6, "um"), shown(607.37461, "rpm", ".6g"), shown(0.0231, "mm", ".2f")
-    ('15.4 µm', '5800 rpm', '23.10 mm')
+    >>> shown(15.4e-6, "um"), shown(607.37461, "rpm", ".6g"), shown(0.0231, "mm", ".2f"), shown(math.pi, "deg")
+    ('15.4 µm', '5800 rpm', '23.10 mm', '180°')
+    >>> shown((0.0231, 0.0233), "mm"), shown((-4e-6, -2.1e-5), "um", "+.3g", "/")
+    ('23.1 … 23.3 mm', '-4/-21 µm')
     """
-    return f"{from_si(value, unit):{style}} {SYMBOLS.get(unit, unit)}"
+    values = value if isinstance(value, Iterable) else (value,)
+    sign = SYMBOLS.get(unit, unit)
+    return between.join(f"{from_si(each, unit):{style}}" for each in values) + ("" if sign == "°" else " ") + sign
 
 
 def level_from_velocity(velocity_rms: float) -> float:

@@ -13,7 +13,7 @@ from typing import Final
 from abu_calc.dynamics.scene import Scene
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import shown, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.document import FileReading
@@ -106,7 +106,7 @@ def _of_machine(machine: Machine, scene: str, start: str | None, race_centre: fl
     with machine.located():
         design = size(tables)
         full = scene_of_design(design, scene, chosen_start, race_centre)
-    off = f"; centre of the race {from_si(race_centre, 'deg'):.4g}° from the imbalance"
+    off = f"; centre of the race {shown(race_centre, 'deg', '.4g')} from the imbalance"
     return Subject(
         title=tables.machine.name,
         reading=machine,

@@ -12,7 +12,7 @@ from abu_calc.formulas.balls import best_count, capacity, corrector_mass, half_a
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.sizing.budget import (
     CandidateBalls,
     ResidualBudget,
@@ -460,7 +460,7 @@ def why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
     if not candidate.fillable:
         return "the balls do not go into the race"
     if not candidate.budget.within:
-        return f"expected residual {from_si(candidate.budget.residual, 'um'):.1f} µm, above the limit"
+        return f"expected residual {shown(candidate.budget.residual, 'um', '.1f')}, above the limit"
     if not light(case, candidate):
         return f"weighs {100 * candidate.mass_fraction:.1f} % of the machine"
     heavier = from_si(candidate.mass - best.mass, "g")

@@ -6,7 +6,7 @@ from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_dr
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import GRAVITY, from_si
+from abu_calc.foundation.units import GRAVITY, from_si, shown
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual, permitted_displacement
 from abu_calc.sizing.case import Case
@@ -71,7 +71,7 @@ def track_checks(case: Case, candidate: Candidate, race: Track) -> tuple[Check, 
 
     On a horizontal spindle also whether the lowest speed carries the balls over.
     """
-    top = f"{from_si(case.speed_range[1], 'rpm'):.6g} rpm"
+    top = shown(case.speed_range[1], "rpm", ".6g")
     checks = (_pressure(candidate, top), _hardness(case), _hoop(candidate, top), _roundness(case, candidate, top))
     if case.table.machine.spindle_axis != "horizontal":
         return checks
@@ -121,7 +121,7 @@ def _roundness(case: Case, candidate: Candidate, top: str) -> Check:
     """
     left = from_si(ovality_residual(candidate.roundness.unaided), "um")
     permitted = from_si(permitted_displacement(case, candidate.mass, case.speed_range[1]), "um")
-    drawn = f"{from_si(ovality_residual(candidate.roundness.lobes), 'um'):.3g} µm"
+    drawn = shown(ovality_residual(candidate.roundness.lobes), "um")
     return coded(
         "ABU304", verdict(candidate.stays_round), f"At {top}, two opposite balls make the race oval. One web alone "
         f"leaves this displacement; web and cover together leave {drawn}", left, permitted, "µm",

@@ -11,7 +11,7 @@ from typing import Any
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.tables import toml_table, unknown
 
@@ -81,7 +81,7 @@ def octave(frequency: float) -> Octave:
     low, high = from_si(octaves()[0].low, "hz"), from_si(octaves()[-1].high, "hz")
     raise RangeError(
         "no octave of the standard holds this frequency",
-        found=f"{from_si(frequency, 'hz'):g} Hz",
+        found=shown(frequency, "hz", "g"),
         allowed=f"{low:.4g} … {high:.4g} Hz",
         remedy="The standard says nothing outside; judge such a frequency by other means.",
     )
@@ -162,8 +162,8 @@ def hand_arm_weight(frequency: float) -> float:
     if not low <= frequency <= high:
         raise RangeError(
             "W_h is not defined at this frequency",
-            found=f"{from_si(frequency, 'hz'):g} Hz",
-            allowed=f"{from_si(low, 'hz'):.4g} … {from_si(high, 'hz'):.4g} Hz",
+            found=shown(frequency, "hz", "g"),
+            allowed=f"{from_si(low, 'hz'):.4g} … {shown(high, 'hz', '.4g')}",
             remedy="Give the acceleration without weighting.",
         )
     return float(abs(hand_arm_response(1j * frequency)))

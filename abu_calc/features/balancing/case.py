@@ -14,7 +14,7 @@ from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, 
 from abu_calc.features.balancing.tables import PLANES, ReadingsFile, Run, Trial
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+from abu_calc.foundation.units import shown, to_si, wrapped_deg
 
 WIDE_PULSE: Final = math.radians(1.0)
 UNSURE: Final = math.radians(0.5)
@@ -191,7 +191,7 @@ def record_warnings(taken: RunReadings) -> list[str]:
     if abs(record.drift) > DRIFT:
         lines.append(
             f"{file}: the speed drifts by {100 * record.drift:+.1f} % over the record; the readings are those of its "
-            f"mean, {from_si(record.speed, 'rpm'):.1f} rpm."
+            f"mean, {shown(record.speed, 'rpm', '.1f')}."
         )
     for name, tone in (("left", record.left), ("right", record.right)):
         if abs(tone.change) > CHANGE:

@@ -12,7 +12,7 @@ from abu_calc.features.balancing.runs import ONE_SPEED
 from abu_calc.features.balancing.solution import BEYOND_ERRORS, Found, PlaneCorrection
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.checks import Check, coded, verdict
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 
 CONDITION: Final = (10.0, 30.0)
 """Condition numbers: a warning from the first on, failed above the second."""
@@ -66,7 +66,7 @@ def _natural_frequencies(balancing: Found) -> Iterator[Check]:
     if balancing.farther is not None and grade != "pass":
         speed, rest = balancing.farther
         remedy = (
-            f"Measure at {from_si(speed, 'rpm'):.0f} rpm: the remaining vibration falls from "
+            f"Measure at {shown(speed, 'rpm', '.0f')}: the remaining vibration falls from "
             f"{100 * balancing.rest_share:.1f} to {100 * rest:.1f} % (calculated with the same errors)."
         )
     yield coded(
@@ -100,7 +100,7 @@ def _rigid(balancing: Found) -> Iterator[Check]:
 
 
 def _rpm(speed: float) -> str:
-    return f"{from_si(speed, 'rpm'):.0f} rpm"
+    return shown(speed, "rpm", ".0f")
 
 
 def _sure(balancing: Found) -> Iterator[Check]:

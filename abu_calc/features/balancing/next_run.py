@@ -19,7 +19,7 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import GRAVITY, from_si, to_si
+from abu_calc.foundation.units import GRAVITY, shown, to_si
 
 SAFE_SHARE: Final = 0.1
 """Largest centrifugal force of a trial mass over the load of a bearing at rest."""
@@ -179,7 +179,7 @@ def _wanted_without_phase(case: Balancing) -> Iterator[WantedRun]:
 
 
 def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[str]:
-    rpm = f"{from_si(wanted.speed, 'rpm'):.0f} rpm"
+    rpm = shown(wanted.speed, "rpm", ".0f")
     if wanted.plane is None:
         yield f"Next run: {rpm}, without a trial mass."
         return
@@ -188,7 +188,7 @@ def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[st
     angle = wanted.angle if file.rotor.angle_marks == "against" else -wanted.angle % 360
     at = f"at {angle:.0f}°"
     if wanted.before is not None:
-        yield f"Next run: {rpm}, {name}the trial mass of {from_si(wanted.before.mass, 'g'):.3g} g {at}."
+        yield f"Next run: {rpm}, {name}the trial mass of {shown(wanted.before.mass, 'g')} {at}."
         return
     own = [run for run in case.runs if run.speed == wanted.speed]
     matrix = influence(case.roll, case.runs[0].speed) if case.roll else None

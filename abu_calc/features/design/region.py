@@ -25,7 +25,7 @@ from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
 from abu_calc.simulation.scene_of_design import idle_scene
 from abu_calc.simulation.start_cases import Member, members
@@ -276,7 +276,7 @@ def _stable_over(design: Design, low: float, high: float) -> bool:
 
 
 def _rpm(speed: float) -> str:
-    return f"{from_si(speed, 'rpm'):.6g} rpm"
+    return shown(speed, "rpm", ".6g")
 
 
 def _modes(scene: Scene) -> tuple[Mode, ...]:

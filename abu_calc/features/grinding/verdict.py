@@ -7,7 +7,7 @@ from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.steady_contact import RestingBalls
 from abu_calc.features.grinding.work import LOUDER, Side, TriedRemedy, Work
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.reporting.blocks import capitalised
 
 
@@ -178,7 +178,7 @@ NO_METHOD = "no method of calculation is valid"
 
 
 def _um(length: float) -> str:
-    return f"{from_si(length, 'um'):.3g} µm"
+    return shown(length, "um")
 
 
 def _plain(stiffness: float) -> str:

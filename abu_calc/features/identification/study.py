@@ -43,7 +43,7 @@ from abu_calc.features.identification.tracks import (
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import shown, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.records import SceneModel
@@ -282,8 +282,8 @@ def _toml(starts: int, values: ExpectedValues) -> str | None:
 def _assumed(scene: Scene, measured: Measured) -> Iterator[str]:
     """What the values rest on."""
     yield (
-        f"Speed {from_si(scene.speed, 'rpm'):.0f} rpm, run-up {scene.full_speed:.3g} s, imbalance "
-        f"{from_si(scene.imbalance, 'g_mm'):.4g} g·mm, masses and springs are those of the file."
+        f"Speed {shown(scene.speed, 'rpm', '.0f')}, run-up {scene.full_speed:.3g} s, imbalance "
+        f"{shown(scene.imbalance, 'g_mm', '.4g')}, masses and springs are those of the file."
     )
     yield "A wrong run-up time or imbalance moves the values: half the run-up may double the drag rate."
     if not measured.reading.marked:

@@ -16,7 +16,7 @@ from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
 from abu_calc.features.seats.joints import makers_classes
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.quantity import Quantity, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.standards.internal_clearance import groups_of, internal_clearance, usual_group
 from abu_calc.standards.tolerance_classes import MakerFits, Seat, tolerance_classes
 
@@ -153,8 +153,7 @@ def _why_not(joint: Joint, start: Start) -> str | None:
     if joint.stress == "fail":
         limit = from_si(joint.stress_limit.value, "um")
         return (
-            f"largest interference {from_si(joint.tightest, 'um'):.3g} µm, {limit:.3g} µm permitted by "
-            f"{joint.stress_limit.by}"
+            f"largest interference {shown(joint.tightest, 'um')}, {limit:.3g} µm permitted by {joint.stress_limit.by}"
         )
     if holds_at_start(joint, *start) is False:
         return "the ring slips under the starting torque"

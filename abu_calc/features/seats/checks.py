@@ -13,7 +13,7 @@ from abu_calc.features.seats.joints import ROOM, USUAL_RISE, assumes_warmth
 from abu_calc.features.seats.notes import selective_groups
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
 from abu_calc.foundation.checks import Action, Check, coded, verdict
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.catalogue import ROLLERS
 from abu_calc.standards.internal_clearance import groups_of, preload_limits
@@ -279,7 +279,7 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
             code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
             "known", smallest, None, "µm", f"Specify {key}.", of=bearing.name,
         )  # fmt: skip
-    normal = f" of {from_si(joint.radial_load or 0.0, 'kN'):.3g} kN (normal, assumed)" if joint.load_assumed else ""
+    normal = f" of {shown(joint.radial_load or 0.0, 'kN')} (normal, assumed)" if joint.load_assumed else ""
     limit = f"the interference required under {ARTICLE[joint.ring.load]} load{normal} by {required.by}{_losses(joint)}"
     mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
@@ -374,7 +374,7 @@ def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     grade, limit = joint.stress, joint.stress_limit if joint.stress == "fail" else joint.permitted
     warm = " when warm" if joint.tightest > joint.interference.largest else ""
     remark = ". The halves of a split housing pinch a ring in a class tighter than J7" if joint.pinched else ""
-    stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
+    stresses = [shown(stress, "MPa", ".0f") for stress in (joint.hoop_stress, joint.part_stress)]
     return coded(
         _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
         f"largest interference of {joint.class_text}{warm} against the limit by {limit.by}. Hoop stress of the "

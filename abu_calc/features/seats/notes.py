@@ -16,7 +16,7 @@ from abu_calc.features.seats.joints import makers_classes
 from abu_calc.features.seats.requirement import catalogue_smoothing_loss
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.standards.tables import toml_table
 from abu_calc.standards.tolerance_classes import NORMAL_RATIO, DeviationLimits, Seat, source_of
 
@@ -251,7 +251,7 @@ def seat_notes(
 def _needs(joint: Joint) -> tuple[str, ...]:
     if not joint.must_grip or not joint.criteria:
         return ()
-    needs = " and ".join(f"{from_si(criterion.value, 'um'):.2f} µm by {criterion.by}" for criterion in joint.criteria)
+    needs = " and ".join(f"{shown(criterion.value, 'um', '.2f')} by {criterion.by}" for criterion in joint.criteria)
     larger = "; the larger counts" if len(joint.criteria) > 1 else ""
     return (f"Interference required under {ARTICLE[joint.ring.load]} load, without losses: {needs}{larger}.",)
 
@@ -287,7 +287,7 @@ def _differs(joint: Joint, own: "SeatAdvice", rule: str | None) -> tuple[str, ..
 
 def least_text(length: float) -> str:
     """A length in micrometres."""
-    return f"{from_si(length, 'um'):.3g} µm"
+    return shown(length, "um")
 
 
 def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
@@ -305,7 +305,7 @@ def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
     factors = f"k₁ {load:g} ({bearing.service.load_kind or 'shock'}), k₂ {part:g}, k₃ {rows:g}"
     return (
         f"k_B = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
-        f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m, {factors}: the handbook {table} (unverified).",
+        f"Load intensity {shown(intensity, 'kN_per_m', '.0f')}, {factors}: the handbook {table} (unverified).",
         *(("The load is above a quarter of C0: catalogues then give 0.02·F_r/B as its loss.",) if heavy else ()),
     )
 
@@ -322,7 +322,7 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
         notes.append(
             f"{source_of(bearing.kind)}: {joint.maker.classes[0]}{others} for a {bearing.kind} bearing, "
             f"P/C = {bearing.load_ratio:.2g}, load {joint.ring.load}, "
-            f"seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
+            f"seat of {shown(joint.diameter, 'mm', 'g')}{remark}."
         )
         if best not in (None, *joint.maker.classes, *joint.maker.special):
             notes.append(_moved(joint, best or ""))
@@ -362,7 +362,7 @@ def _moved(joint: Joint, best: str) -> str:
 def _sorting(joint: Joint, asked: Interval | None, selection: "Selection | None") -> tuple[str, ...]:
     if asked is None:
         return ()
-    band = f"{from_si(asked.smallest, 'um'):g} … {from_si(asked.largest, 'um'):g} µm"
+    band = f"{from_si(asked.smallest, 'um'):g} … {shown(asked.largest, 'um', 'g')}"
     if selection is None:
         male, female = joint.male_and_female
         ends = sorted((male.lower - female.lower, male.upper - female.upper))
@@ -388,6 +388,6 @@ def _after(joint: Joint, selection: "Selection") -> str:
         return ""
     least, needed = selection.interference.smallest, joint.required.value
     if least >= needed:
-        return f". Every pair has the required {from_si(needed, 'um'):.3g} µm"
+        return f". Every pair has the required {shown(needed, 'um')}"
     lack, all_of_it = from_si(needed - least, "um"), from_si(needed, "um")
     return f". The loosest pairs still lack {lack:.2g} of the required {all_of_it:.3g} µm"

@@ -29,7 +29,7 @@ from abu_calc.formulas.tilting_rotor import (
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.inputs.duty import Grinding
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
@@ -508,7 +508,7 @@ def _as_one_race(case: SpindleCase, race: int, need: float, ball_mm: float | Non
             f"race {race + 1} cannot be sized as a race of its own: {'.'.join(map(str, fault['loc']))} would be out of "
             "range",
             place=Place(key="autobalancer"),
-            found=f"it feels {felt_mass(case, race):.4g} kg and must carry {from_si(need, 'g_mm'):.4g} g·mm",
+            found=f"it feels {felt_mass(case, race):.4g} kg and must carry {shown(need, 'g_mm', '.4g')}",
             remedy="Check masses, inertias, places and imbalances. A flat disc takes one race.",
         ) from None
     return size_race(machine)

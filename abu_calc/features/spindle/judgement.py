@@ -29,7 +29,7 @@ from abu_calc.foundation.checks import Check, Finding, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing.actions import overrides
@@ -221,7 +221,7 @@ def stability_check(design: SpindleDesign, judged: Sequence[SpeedStability]) -> 
     if worst.growth is None:
         yield coded("ABU103", "pass", "A sufficient rule holds for both whirls at every speed judged")
         return
-    speed = f"{from_si(worst.speed, 'rpm'):.6g} rpm"
+    speed = shown(worst.speed, "rpm", ".6g")
     passed = all(each.stable for each in judged)
     yield coded(
         "ABU103", verdict(passed), f"Fastest-growing disturbance of the balanced state, at {speed}", worst.growth, 0.0,

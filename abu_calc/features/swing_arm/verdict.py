@@ -9,7 +9,7 @@ from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.inputs.duty import SwingArm
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.design import Design
@@ -97,7 +97,7 @@ def _rates(design: Design) -> tuple[dict[str, tuple[float, bool]], str]:
             missing = f"On the workpiece: {str(error).splitlines()[0]}"
             continue
         for speed in speeds:
-            rpm = f"{place}, at {from_si(speed, 'rpm'):.6g} rpm"
+            rpm = f"{place}, at {shown(speed, 'rpm', '.6g')}"
             rates[rpm] = _growth(design, replace(scene, speed=speed), "worst")
     return rates, missing
 

@@ -6,7 +6,7 @@ from typing import Final
 
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import (
     GROOVE_CLEARANCE,
@@ -126,7 +126,7 @@ def nearest_ring(case: Case, ball_diameter: float) -> str:
     ring = min(taking, key=excess)
     outer, width = (from_si(length, "mm") for length in _envelope(ring))
     return (
-        f"The nearest that fits is {ring.designation} (R {from_si(ring.sphere_radius, 'mm'):.2f} mm): specify "
+        f"The nearest that fits is {ring.designation} (R {shown(ring.sphere_radius, 'mm', '.2f')}): specify "
         f"max_outer_diameter_mm = {outer:g} and max_width_mm = {width:g} at least."
     )
 
@@ -150,7 +150,7 @@ def ring_check(case: Case, race_radius: float) -> tuple[Check, ...]:
     known = "as the file gives it; estimated" if measured else "estimated"
     message = (
         f"The race is the outer ring of bearing {ring.designation}, Ø{from_si(ring.outside_diameter, 'mm'):g} × "
-        f"{from_si(ring.width, 'mm'):g} mm. The radius of its sphere is {known}: {low:.2f} … {high:.2f} mm"
+        f"{shown(ring.width, 'mm', 'g')}. The radius of its sphere is {known}: {low:.2f} … {high:.2f} mm"
     )
     return (
         coded("ABU312", verdict(True, safe=measured), message, from_si(race_radius, "mm"), None, "mm",

@@ -18,7 +18,7 @@ from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import GRAVITY, from_si, to_si
+from abu_calc.foundation.units import GRAVITY, from_si, shown, to_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import GROOVE_CLEARANCE
 from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
@@ -197,8 +197,6 @@ def cover_check(parts: HousingParts, hold: Cover) -> Check:
         "1.2 × the highest speed"
     )
     if hold.stress > hold.permitted:
-        message += (
-            f". Its fit stresses wall or cover with {from_si(hold.stress, 'MPa'):.3g} MPa, permitted "
-            f"{from_si(hold.permitted, 'MPa'):.3g} MPa"
-        )
+        permitted = shown(hold.permitted, "MPa")
+        message += f". Its fit stresses wall or cover with {shown(hold.stress, 'MPa')}, permitted {permitted}"
     return coded("ABU307", verdict(hold.holds), message, hold.held, hold.needed, "N", bound="least")  # fmt: skip

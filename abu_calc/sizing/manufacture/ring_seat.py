@@ -16,7 +16,7 @@ from abu_calc.formulas.press_fit import (
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.parts.housing_parts import HousingParts
@@ -120,7 +120,7 @@ def seat_check(case: Case, parts: HousingParts, seat: RingSeat | None) -> tuple[
     upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
     message = (
         f"Hoop stress of the body by the ring's interference and overspeed, largest over {low:g} … {high:g} °C. The "
-        f"seat ({limits}{upper}/{lower} µm) keeps {from_si(seat.left, 'um'):.3g} µm at least. Join with the body at "
+        f"seat ({limits}{upper}/{lower} µm) keeps {shown(seat.left, 'um')} at least. Join with the body at "
         f"{seat.joining:.0f} °C"
     )
     passed = bears_ring(parts, seat)

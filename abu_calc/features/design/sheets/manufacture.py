@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.features.design.sheets.dimension_plan import limits_text
 from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.reporting.drawings.shapes import digits
 from abu_calc.sizing.manufacture.cover import seat_growth
 from abu_calc.sizing.parts.housing_parts import HousingParts, TurnedPart
@@ -239,6 +239,6 @@ def _balance(result: "SizeResult") -> Iterator[str]:
     permitted = float(grade_name.removeprefix("G")) / speed * mass
     yield (
         f"Balance (ISO 21940-11): assembled, without {abu.corrector}s and oil; mass {digits(mass, 1)} g; highest speed "
-        f"{from_si(speed, 'rpm'):.0f} rpm; grade {grade_name}; one tolerance plane, the middle of the race; "
+        f"{shown(speed, 'rpm', '.0f')}; grade {grade_name}; one tolerance plane, the middle of the race; "
         f"permissible residual imbalance {permitted:.3g} g·mm about the bore (A). {_correction(result)}."
     )
