@@ -121,6 +121,15 @@ def from_si(value: float, unit: str) -> float:
     return value / SI_PER_UNIT[unit]
 
 
+def in_file(key: str, value: float) -> tuple[str, float]:
+    """The entry of a file that has an SI value, in the unit of its key.
+
+    >>> in_file("autobalancer.race_radius_mm", 0.031)
+    ('autobalancer.race_radius_mm', 31.0)
+    """
+    return key, from_si(value, quantity_and_unit(key)[1])
+
+
 def shown(value: float | Iterable[float], unit: str, style: str = ".3g", between: str = " … ") -> str:
     """An SI value in `unit` with the unit's sign, as sentences have it; of several values the sign stands once.
 

@@ -146,7 +146,7 @@ def motor_checks(case: Case) -> tuple[Check, ...]:
     """
     if case.idle_speed is None:
         return ()
-    (low, high), idle = case.table.machine.speed_range, from_si(case.idle_speed, "rpm")
+    (low, high), idle = case.table.machine.speeds_rpm, from_si(case.idle_speed, "rpm")
     bound: Literal["least", "most"] = "least" if idle < low else "most"
     limit = low if bound == "least" else high
     kept = case.speed_range == working_speeds(case.table)

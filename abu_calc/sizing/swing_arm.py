@@ -29,7 +29,7 @@ from abu_calc.formulas.swing_arm import (
 )
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.inputs.duty import SwingArm
 from abu_calc.sizing.case import Case
 
@@ -152,8 +152,8 @@ def _lifted(angles: tuple[float, float] | None) -> str:
     """Contact angles at which the arm would not stand, in words."""
     if angles is None:
         return "The arm stands at every contact angle"
-    low, high = (from_si(angle, "deg") for angle in angles)
-    return f"From {low:.3g}° to {high:.3g}° friction lifts the wheel by itself (static divergence)"
+    low, high = (shown(angle, "deg") for angle in angles)
+    return f"From {low} to {high} friction lifts the wheel by itself (static divergence)"
 
 
 def _pressing(arm: Arm, angle: float | None) -> Check:

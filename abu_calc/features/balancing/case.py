@@ -14,7 +14,7 @@ from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, 
 from abu_calc.features.balancing.tables import PLANES, ReadingsFile, Run, Trial
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import shown, to_si, wrapped_deg
+from abu_calc.foundation.units import shown, wrapped_deg
 
 WIDE_PULSE: Final = math.radians(1.0)
 UNSURE: Final = math.radians(0.5)
@@ -129,9 +129,9 @@ def _as_taken(
 def mass_of(file: ReadingsFile, trial: Trial) -> TrialMass:
     """A trial mass, or one that is fitted, in SI; its angle behind the mark."""
     plane = 0 if trial.plane is None else PLANES.index(trial.plane)
-    radius = file.radii_mm[plane] if trial.radius_mm is None else trial.radius_mm
+    radius = file.radii[plane] if trial.radius is None else trial.radius
     angle = behind_the_mark(file, trial.angle_deg)
-    return TrialMass(plane, trial.mass, to_si(radius, "mm"), angle)
+    return TrialMass(plane, trial.mass, radius, angle)
 
 
 def behind_the_mark(file: ReadingsFile, angle_deg: float) -> float:

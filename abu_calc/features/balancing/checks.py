@@ -145,15 +145,15 @@ def _permitted(balancing: Found) -> Iterator[Check]:
         if 2 * rest > permitted and balancing.below:
             remedy = "Measure with smaller errors: no correction can be trusted with these."
         elif 2 * rest > permitted and any(balancing.leftover):
-            left = from_si(sum(map(abs, balancing.leftover)), "g_mm")
-            remedy = f"Allow places and weights that leave less: limits and stock leave {left:.4g} g·mm (ABU1012)."
+            left = shown(sum(map(abs, balancing.leftover)), "g_mm", ".4g")
+            remedy = f"Allow places and weights that leave less: limits and stock leave {left} (ABU1012)."
         elif 2 * rest > permitted and balancing.error_share >= 1:
             remedy = LIGHTER
         elif 2 * rest > permitted:
-            after = from_si(rest * min(balancing.rest_share, 1.0), "g_mm")
+            falls = shown((rest, rest * min(balancing.rest_share, 1.0)), "g_mm", between=" to ")
             remedy = (
                 "Measure and correct once more after this correction: the imbalance falls from "
-                f"{from_si(rest, 'g_mm'):.3g} to {after:.3g} g·mm (calculated with the same errors)."
+                f"{falls} (calculated with the same errors)."
             )
         elif few:
             remedy = (
@@ -331,8 +331,8 @@ def balance_warnings(
     yield from _directions(balancing, planes)
     yield from _within_grade(balancing)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
-        rpm = from_si(balancing.service_speed, "rpm")
-        yield f"tolerance.service_speed_rpm is not given: the grade is judged at the speed of the runs, {rpm:.0f} rpm."
+        rpm = _rpm(balancing.service_speed)
+        yield f"tolerance.service_speed_rpm is not given: the grade is judged at the speed of the runs, {rpm}."
     yield from _rig_and_trials(balancing)
     if balancing.case.roll is None and balancing.bending_speed is None:
         yield "It is not known whether the roll bends at these speeds. Specify rotor.first_bending_speed_rpm."

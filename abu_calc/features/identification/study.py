@@ -79,7 +79,7 @@ def identify(
     """
     if run_up_s is not None:
         RUN_UP.check(run_up_s)
-    ANGLE.check(mark_angle_deg)
+    mark_angle = to_si(ANGLE.check(mark_angle_deg), "deg")
     if not recordings:
         raise InputError("no recordings", place=Place(key="RECORDING"), remedy="Name the CSV files of the starts.")
     subject, starts = machine_subject(source), [recorded(file) for file in recordings]
@@ -88,10 +88,10 @@ def identify(
     with subject.located():
         scene = as_long(known_scene(subject.scene, run_up_s), starts)
     film = None if bench is None else bench_values(bench, scene)
-    measured = _measured(scene, starts, without, mark_angle_deg)
+    measured = _measured(scene, starts, without, mark_angle)
     _refuse_twins(starts)
     estimate = estimated(scene, measured, progress) if len(recordings) >= FEWEST else None
-    return _result(subject, scene, measured, estimate, mark_angle_deg, film)
+    return _result(subject, scene, measured, estimate, mark_angle, film)
 
 
 def machine_subject(source: Source) -> Subject:
@@ -193,7 +193,7 @@ def _measured(scene: Scene, signals: Sequence[Signal], without: str | None, mark
         )
     starts = [recorded_start(signal, scene, centres) for signal in signals]
     _refuse_other_sizes(starts, abs(without_balls(scene)))
-    turn = np.exp(1j * to_si(mark_angle, "deg"))
+    turn = np.exp(1j * mark_angle)
     tracks = [np.asarray(start.track * turn) for start in starts]
     background = None
     if without is not None:

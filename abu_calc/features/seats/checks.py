@@ -107,10 +107,11 @@ def life_check(
 
 
 def _basic(bearing: SeatedBearing, life: RatingLife) -> Check:
-    P, C = from_si(life.dynamic_load or 0.0, "kN"), from_si(bearing.ratings.dynamic if bearing.ratings else 0.0, "kN")
+    P, C = life.dynamic_load or 0.0, bearing.ratings.dynamic if bearing.ratings else 0.0
     heavy = ". P is above C/2, where ISO 281 does not hold: the life is shorter" if 2 * P > C else ""
     guide = "" if bearing.service.required_life is not None else ". The limit is the makers' guide for hand-held tools"
-    message = f"90 of 100 bearings reach it under P = {P:.3g} kN, C = {C:.3g} kN{_axial_remark(bearing)}{heavy}{guide}"
+    ratio = f"P = {shown(P, 'kN')}, C = {shown(C, 'kN')}"
+    message = f"90 of 100 bearings reach it under {ratio}{_axial_remark(bearing)}{heavy}{guide}"
     return life_check("ABU632", bearing, life.basic or 0.0, message)
 
 

@@ -11,7 +11,7 @@ from abu_calc.features.seats.rating_life import exponent, life_at
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, shown
+from abu_calc.foundation.units import in_file, shown
 
 _STEPS: Final = 180
 _SAME_PLACE: Final = 1e-6
@@ -110,7 +110,7 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
     turning = (
         bearing
         if bearing.service.speed
-        else replace(bearing, service=bearing.service.model_copy(update={"speed_rpm": from_si(speed, "rpm")}))
+        else replace(bearing, service=bearing.service.model_copy(update=dict([in_file("speed_rpm", speed)])))
     )
     without, with_it = (
         combined_load(share * loads.constant, share * rotating, power)

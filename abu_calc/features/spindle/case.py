@@ -29,7 +29,7 @@ from abu_calc.formulas.tilting_rotor import (
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, shown, to_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.inputs.duty import Grinding
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
@@ -160,7 +160,6 @@ def read_case(table: TwoRaceFile) -> SpindleCase:
         machine.mass_kg, machine.transverse_inertia_kg_m2, machine.rotor_polar_inertia_kg_m2, _bearings(table)
     )
     abu = table.autobalancer[0]
-    low, high = machine.speed_range
     case = SpindleCase(
         table=table,
         rotor=rotor,
@@ -168,7 +167,7 @@ def read_case(table: TwoRaceFile) -> SpindleCase:
         angles=angles,
         races=tuple(race.plane for race in table.autobalancer),
         speed=speed,
-        speed_range=(to_si(low, "rpm"), to_si(high, "rpm")),
+        speed_range=tuple(machine.speed_range or (machine.speed, machine.speed)),
         eccentricity=abu.race_eccentricity,
         friction_arm=abu.rolling_friction,
         inertia_factor=INERTIA_FACTORS[abu.corrector],
@@ -192,18 +191,18 @@ def _placed(case: SpindleCase) -> SpindleCase:
         needs, places = capacity_needs(replace(case, races=races)), [held.place for held in case.places]
         return round(arms(places if own else races, races) / ALIKE) * ALIKE, max(needs), sum(needs)
 
-    grids = (_grid(place, race.plane_range_mm) for place, race in zip(case.races, tables, strict=True))
+    grids = (_grid(place, race.plane_range) for place, race in zip(case.races, tables, strict=True))
     apart = (
         races for races in product(*grids) if all(abs(a - b) > LEAST_APART + ONE_PLANE for a, b in pairwise(races))
     )
     return case.with_races(min((case.races, *apart), key=rank))
 
 
-def _grid(place: float, stretch_mm: Sequence[float] | None) -> list[float]:
+def _grid(place: float, stretch: tuple[float, float] | None) -> list[float]:
     """Places [m] on a stretch; without one the place itself."""
-    if stretch_mm is None:
+    if stretch is None:
         return [place]
-    low, high = (to_si(end, "mm") for end in stretch_mm)
+    low, high = stretch
     return [low + (high - low) * step / STEPS for step in range(STEPS + 1)]
 
 
@@ -236,12 +235,12 @@ def _bearings(table: TwoRaceFile) -> tuple[Bearing, ...]:
     given, machine = table.suspension, table.machine
     if given.model == "bearings":
         rows = zip(
-            given.bearing_positions_mm or (), given.bearing_stiffness_N_per_m or (),
+            given.bearing_positions or (), given.bearing_stiffness_N_per_m or (),
             given.bearing_damping_N_s_per_m or (), strict=True,
         )  # fmt: skip
-        return tuple(Bearing(to_si(place, "mm"), stiffness, damping) for place, stiffness, damping in rows)
+        return tuple(Bearing(*row) for row in rows)
     place = math.sqrt(machine.transverse_inertia_kg_m2 / machine.mass_kg)
-    frequency = to_si(given.natural_frequencies_hz or 0.0, "hz")
+    frequency = given.natural_frequencies or 0.0
     stiffness = machine.mass_kg * frequency**2 / 2
     damping = (given.damping_ratios or 0.0) * machine.mass_kg * frequency
     return Bearing(place, stiffness, damping), Bearing(-place, stiffness, damping)
@@ -251,8 +250,8 @@ def _places(table: TwoRaceFile) -> tuple[LevelPlaceOnSpindle, ...]:
     if table.machine.handle:
         return tuple(LevelPlaceOnSpindle(handle.name, handle.position[2]) for handle in table.machine.handle)
     if table.suspension.model == "bearings":
-        positions = table.suspension.bearing_positions_mm or ()
-        return tuple(LevelPlaceOnSpindle(f"bearing {k}", to_si(z, "mm")) for k, z in enumerate(positions, 1))
+        positions = table.suspension.bearing_positions or ()
+        return tuple(LevelPlaceOnSpindle(f"bearing {k}", z) for k, z in enumerate(positions, 1))
     return tuple(LevelPlaceOnSpindle(f"race {k}", race.plane) for k, race in enumerate(table.autobalancer, 1))
 
 
@@ -382,7 +381,7 @@ def one_race_machine(case: SpindleCase, race: int, need: float, ball_mm: float |
         {
             "machine": {
                 "name": f"{machine.name}, race {race + 1}", "layout": machine.layout, "mass_kg": mass - wheel,
-                "speed_rpm": machine.speed_rpm, "speed_range_rpm": machine.speed_range,
+                "speed_rpm": machine.speed_rpm, "speed_range_rpm": machine.speeds_rpm,
                 "spindle_axis": machine.spindle_axis,
             },
             "suspension": {

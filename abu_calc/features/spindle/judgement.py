@@ -35,6 +35,7 @@ from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing.actions import overrides
 from abu_calc.sizing.vibration import truer_races
 from abu_calc.standards.balls import stock_diameters
+from abu_calc.standards.tables import millimetres
 
 ONE_RACE_PLACES: Final = 9
 """Places of a single race that are tried between both races."""
@@ -330,7 +331,7 @@ def _larger(design: SpindleDesign) -> Iterator[float]:
     diameter, stock = design.autobalancers[0].ball_diameter, stock_diameters(design.case.autobalancer.ball_sizes)
     for factor in LARGER:
         if larger := next((size for size in stock if size >= factor * diameter), None):
-            yield round(from_si(larger, "mm"), 6)
+            yield millimetres(larger)
 
 
 def _truer(design: SpindleDesign) -> list[dict[str, object]]:

@@ -457,7 +457,7 @@ def spindle_subject(
                 "one angle for each ball, those of the first race first, without speeds",
                 place=Place(key="start.angles_deg"), found=f"{len(placed.angles_deg)}", allowed=f"{balls}",
             )  # fmt: skip
-    angles = () if placed is None else tuple(to_si(angle, "deg") for angle in placed.angles_deg)
+    angles = () if placed is None else placed.angles
     notes = ("Imbalances of unknown phase are taken in phase; `abu size` simulates four phases",) if unknown else ()
     return Subject(
         title=table.machine.name,

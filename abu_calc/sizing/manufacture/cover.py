@@ -23,6 +23,7 @@ from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import GROOVE_CLEARANCE
 from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.manufacture.spindle_fit import Fit
+from abu_calc.sizing.parts.demands import thread_name
 from abu_calc.sizing.parts.housing_parts import HousingParts
 from abu_calc.standards.tolerance_classes import DeviationLimits, grade_tolerance, part_limits
 
@@ -177,17 +178,14 @@ def seat_growth(parts: HousingParts, interference: float) -> float:
 def seat_name(parts: HousingParts, hold: Cover) -> str:
     """The cover's fit or thread, as a drawing writes it."""
     if parts.closure == "screwed":
-        diameter = from_si(2 * parts.dimensions.seat_radius, "mm")
         none = "no thread lets the ring pass" if ring_fills_thread(parts) else "no thread of three turns"
-        return f"M{diameter:.6g}×{from_si(hold.pitch, 'mm'):g}" if hold.pitch else none
+        return thread_name(parts, hold.pitch) if hold.pitch else none
     fit = hold.fit
     assert fit is not None
     if fit.bore_class:
         return fit.named
-    seat, rim = (
-        f"{from_si(limits.upper, 'um'):+.3g}/{from_si(limits.lower, 'um'):+.3g}" for limits in (fit.bore, fit.spindle)
-    )
-    return f"seat {seat}, cover {rim} µm"
+    seat, rim = (shown((limits.upper, limits.lower), "um", "+.3g", "/") for limits in (fit.bore, fit.spindle))
+    return f"seat {seat.removesuffix(' µm')}, cover {rim}"
 
 
 def cover_check(parts: HousingParts, hold: Cover) -> Check:
