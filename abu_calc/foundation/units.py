@@ -5,8 +5,12 @@ levels are 20 lg(v / 5e-8 m/s), v rms (GOST 12.1.012, ISO 5349 practice); amplit
 """
 
 import math
-from collections.abc import Iterable
-from typing import Final
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 REFERENCE_VELOCITY: Final = 5e-8
 """Reference of vibration velocity levels [m/s rms]."""
@@ -130,6 +134,11 @@ def in_file(key: str, value: float) -> tuple[str, float]:
     return key, from_si(value, quantity_and_unit(key)[1])
 
 
+def in_units(columns: "Mapping[str, NDArray[np.float64]]") -> "dict[str, NDArray[np.float64]]":
+    """Arrays in SI as columns of a table, each in the unit that its name carries."""
+    return {name: from_si(1.0, quantity_and_unit(name)[1]) * values for name, values in columns.items()}
+
+
 def shown(value: float | Iterable[float], unit: str, style: str = ".3g", between: str = " … ") -> str:
     """An SI value in `unit` with the unit's sign, as sentences have it; of several values the sign stands once.
 
@@ -159,6 +168,11 @@ def velocity_from_level(level: float) -> float:
     0.0140919
     """
     return REFERENCE_VELOCITY * math.pow(10.0, level / 20)
+
+
+def turned_deg(angle: float) -> float:
+    """An angle [rad] in degrees in [0, 360)."""
+    return from_si(angle, "deg") % 360
 
 
 def wrapped_deg(angle: float) -> float:

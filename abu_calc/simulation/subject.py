@@ -73,6 +73,11 @@ class Subject:
             return chosen(self.scene, accuracy, with_effects, without_effects)
 
 
+def checked_centre(race_centre_deg: float | None, usual: float) -> float:
+    """Angle of the race's centre [rad]: the one asked for, else the usual one."""
+    return usual if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
+
+
 def subject_of(
     source: Source, scene: str | None = None, start: str | None = None, *, race_centre_deg: float | None = None,
     command: str = "simulate",
@@ -85,7 +90,7 @@ def subject_of(
     one_of("scene", scene, SCENES)
     one_of("start", start, STARTS)
     if isinstance(source, Machine):
-        centre = WORST if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
+        centre = checked_centre(race_centre_deg, WORST)
         return _of_machine(source, scene or "idle", start, centre, command)
     subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
     for argument, value in (("scene", scene), ("start", start), ("race_centre_deg", race_centre_deg)):

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, in_file
+from abu_calc.foundation.units import in_file, turned_deg
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.start_cases import Member, Variation, ball_speed_rpm
 from abu_calc.sizing.actions import set_options
@@ -32,7 +32,7 @@ def repeated(outcome: StartOutcome, design: Design) -> str:
 
 def places(angles: Iterable[float]) -> dict[str, str]:
     """The entry that places the balls at these angles [rad]."""
-    degrees = ", ".join(f"{from_si(angle, 'deg') % 360:.4f}" for angle in angles)
+    degrees = ", ".join(f"{turned_deg(angle):.4f}" for angle in angles)
     return {"start.angles_deg": f"[{degrees}]"}
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si, in_file, shown
+from abu_calc.foundation.units import in_file, shown
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.bearing_catalogue import Dimensions, all_of_size, of_size, read_designation
 from abu_calc.standards.catalogue import (
@@ -141,7 +141,7 @@ def _by_designation(table: "BearingTable") -> _Found:
     designation = read_designation(table.designation or "")
     size = designation.size
     for key, length in (("bore_mm", size.bore), ("outer_mm", size.outer), ("width_mm", size.inner_width)):
-        given, value = getattr(table, key), from_si(length, "mm")
+        given, (_, value) = getattr(table, key), in_file(key, length)
         if given is not None and abs(given - value) > 1e-6:
             raise InputError(
                 f"{key} contradicts the designation {table.designation}",

@@ -21,7 +21,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.rows import Columns
-from abu_calc.foundation.units import from_si, quantity_and_unit
+from abu_calc.foundation.units import from_si, in_units
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
@@ -72,12 +72,10 @@ class SampledMotion(Columns):
         """Motion of a run, sampled at these times."""
         scene, states = run.scene, run.trajectory.at(times)
         size, balls = len(scene.support.names), len(scene.ball_masses)
-        x, y = from_si(1.0, "mm") * scene.axis_place(states)
-        angles = from_si(1.0, "deg") * states[2 * size : 2 * size + balls]
-        further = _further(scene, times, states)
-        return cls(
-            times, x, y, angles, {name: from_si(1.0, quantity_and_unit(name)[1]) * each for name, each in further}
-        )  # fmt: skip
+        x, y = scene.axis_place(states)
+        angles = states[2 * size : 2 * size + balls]
+        axis_and_balls = in_units({"x_mm": x, "y_mm": y, "ball_angles_deg": angles})
+        return cls(t_s=times, **axis_and_balls, further=in_units(dict(_further(scene, times, states))))
 
     @property
     def columns(self) -> dict[str, Array]:

@@ -29,7 +29,7 @@ from abu_calc.formulas.tilting_rotor import (
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, shown
+from abu_calc.foundation.units import in_file, shown
 from abu_calc.inputs.duty import Grinding
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
@@ -366,8 +366,8 @@ def typical_needs(case: SpindleCase) -> tuple[float, ...]:
     return tuple(math.sqrt(sum(abs(part) ** 2 for part in own)) for own in zip(*parts, strict=True))
 
 
-def one_race_machine(case: SpindleCase, race: int, need: float, ball_mm: float | None = None) -> MachineFile:
-    """Machine with one race whose need is that of a race of two; `ball_mm` pins the diameter of its balls.
+def one_race_machine(case: SpindleCase, race: int, need: float, ball: float | None = None) -> MachineFile:
+    """Machine with one race whose need is that of a race of two; `ball` pins the diameter of its balls.
 
     Its mass is that which the race feels, without the autobalancer, since every autobalancer adds its own.
     """
@@ -376,7 +376,7 @@ def one_race_machine(case: SpindleCase, race: int, need: float, ball_mm: float |
     wheel = min(0.1 * mass, case.table.wheel[0].mass_kg)
     given = abu.model_dump(exclude={"plane_mm", "plane_offset_mm", "plane_range_mm"}, exclude_unset=True)
     share = abu.max_mass_fraction * machine.mass_kg / (mass - wheel)
-    frequency = max((*case.rotor.critical_speeds(), 1e-3))
+    frequencies, hertz = in_file("natural_frequencies_hz", max((*case.rotor.critical_speeds(), 1e-3)))
     return MachineFile.model_validate(
         {
             "machine": {
@@ -385,16 +385,15 @@ def one_race_machine(case: SpindleCase, race: int, need: float, ball_mm: float |
                 "spindle_axis": machine.spindle_axis,
             },
             "suspension": {
-                "model": "springs", "natural_frequencies_hz": [from_si(frequency, "hz")] * 2,
-                "damping_ratios": [0.1, 0.1],
+                "model": "springs", frequencies: [hertz] * 2, "damping_ratios": [0.1, 0.1],
             },
             "wheel": {
                 "mass_kg": wheel, "diameter_mm": max(wheel_.diameter_mm for wheel_ in case.table.wheel),
-                "imbalance_g_mm": from_si(max(need - mass * case.eccentricity, 0.0), "g_mm"),
+                **dict([in_file("imbalance_g_mm", max(need - mass * case.eccentricity, 0.0))]),
             },
             "autobalancer": {
                 **given, "max_mass_fraction": min(share, 1.0),
-                **({} if ball_mm is None else {"ball_diameter_mm": ball_mm}),
+                **({} if ball is None else dict([in_file("ball_diameter_mm", ball)])),
             },
             "limits": {"vibration_level_db": limits.vibration_level_db, "quiet_time_s": limits.longest_quiet_time},
         }
@@ -478,7 +477,7 @@ def choose_all(case: SpindleCase) -> SpindleDesign:
         races = _sized(loaded, ball)
         diameters = {race.autobalancer.ball_diameter for race in races}
         if len(diameters) > 1:
-            ball = from_si(max(diameters), "mm")
+            ball = max(diameters)
             races = _sized(loaded, ball)
         housings = tuple(race.autobalancer.housing.mass for race in races)
         if housings == masses:
@@ -487,20 +486,20 @@ def choose_all(case: SpindleCase) -> SpindleDesign:
     return SpindleDesign(case.carrying(masses), case, races)
 
 
-def _sized(case: SpindleCase, ball_mm: float | None) -> tuple[SizedRace, ...]:
+def _sized(case: SpindleCase, ball: float | None) -> tuple[SizedRace, ...]:
     shares = zip(*(lever_shares(case.races, wheel.place) for wheel in case.wheels), strict=True)
     each = zip(case.races, capacity_needs(case), typical_needs(case), shares, strict=True)
     return tuple(
-        SizedRace(**vars(_as_one_race(case, race, need, ball_mm)), place=place, need=need, typical=usual, shares=own)
+        SizedRace(**vars(_as_one_race(case, race, need, ball)), place=place, need=need, typical=usual, shares=own)
         for race, (place, need, usual, own) in enumerate(each)
     )
 
 
-def _as_one_race(case: SpindleCase, race: int, need: float, ball_mm: float | None) -> RaceDesign:
+def _as_one_race(case: SpindleCase, race: int, need: float, ball: float | None) -> RaceDesign:
     """Design of one race; checks that depend on the whole machine are left to it."""
     pinned = case.table.autobalancer[race].ball_diameter_mm is not None
     try:
-        machine = one_race_machine(case, race, need, None if pinned else ball_mm)
+        machine = one_race_machine(case, race, need, None if pinned else ball)
     except ValidationError as error:
         fault = error.errors()[0]
         raise InputError(

@@ -25,6 +25,7 @@ from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.demands import thread_name
 from abu_calc.sizing.parts.housing_parts import HousingParts
+from abu_calc.standards.tables import metres
 from abu_calc.standards.tolerance_classes import DeviationLimits, grade_tolerance, part_limits
 
 SHOCK: Final = 50 * GRAVITY
@@ -63,8 +64,8 @@ def choose_cover(case: Case, parts: HousingParts, ball_force: float, top: float)
     needed = COVER_FACTOR * _axial_load(parts, OVERSPEED**2 * ball_force)
     size = parts.dimensions
     if parts.closure == "screwed":
-        pitches = () if ring_fills_thread(parts) else THREAD_PITCHES_MM
-        pitch = next((to_si(p, "mm") for p in pitches if to_si(p, "mm") * LEAST_TURNS <= size.web), None)
+        pitches = metres(() if ring_fills_thread(parts) else THREAD_PITCHES_MM)
+        pitch = next((each for each in pitches if each * LEAST_TURNS <= size.web), None)
         strength = MATERIALS[parts.cover.density].strength
         shear = 0.5 * 2 * math.pi * size.seat_radius * size.web * 0.58 * strength * PROOF_SHARE
         return Cover(None, pitch, shear if pitch else 0.0, needed)
