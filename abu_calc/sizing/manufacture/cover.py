@@ -23,7 +23,6 @@ from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import GROOVE_CLEARANCE
 from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.manufacture.spindle_fit import Fit
-from abu_calc.sizing.parts.demands import thread_name
 from abu_calc.sizing.parts.housing_parts import HousingParts
 from abu_calc.standards.tables import metres
 from abu_calc.standards.tolerance_classes import DeviationLimits, grade_tolerance, part_limits
@@ -180,7 +179,7 @@ def seat_name(parts: HousingParts, hold: Cover) -> str:
     """The cover's fit or thread, as a drawing writes it."""
     if parts.closure == "screwed":
         none = "no thread lets the ring pass" if ring_fills_thread(parts) else "no thread of three turns"
-        return thread_name(parts, hold.pitch) if hold.pitch else none
+        return parts.thread_name(hold.pitch) if hold.pitch else none
     fit = hold.fit
     assert fit is not None
     if fit.bore_class:

@@ -3,7 +3,6 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.foundation.units import from_si
 from abu_calc.sizing.parts.housing_parts import HousingParts, TurnedPart
 from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Kind, Surface
 from abu_calc.standards.tolerance_classes import grade_tolerance
@@ -99,11 +98,6 @@ def _race(parts: HousingParts, split: "EccentricitySplit", quality: "RaceQuality
     )  # fmt: skip
 
 
-def thread_name(parts: HousingParts, pitch: float) -> str:
-    """The thread of the cover's seat, of a pitch [m]."""
-    return f"M{from_si(2 * parts.dimensions.seat_radius, 'mm'):g}×{from_si(pitch, 'mm'):g}"
-
-
 def _closure(parts: HousingParts, cover: "Cover", circularity: float) -> tuple[Surface, Surface]:
     """Seat of the cover, and the cover's rim: a fit or a thread.
 
@@ -111,7 +105,7 @@ def _closure(parts: HousingParts, cover: "Cover", circularity: float) -> tuple[S
     """
     diameter = 2 * parts.dimensions.seat_radius
     if parts.closure == "screwed":
-        thread = thread_name(parts, cover.pitch) if cover.pitch else ""
+        thread = parts.thread_name(cover.pitch) if cover.pitch else ""
         return Surface("cover seat", "thread", diameter, thread=thread), Surface(
             "outside", "thread", diameter, thread=thread
         )
