@@ -28,7 +28,7 @@ THROWN: Final = Range(
 CREEPING: Final = 10.0
 ROUGH: Final = 20_000.0
 """Reynolds numbers at which the branches of the drag coefficient meet."""
-GAP: Final = to_si(0.3, "um")
+GAP: Final = 0.3e-6
 """Least gap between ball and race: the roughness of both (assumed)."""
 INDEX_CURVES: Final = (
     (2.0, 1.14673, 1.7576, -0.109, 0.84155, 1.5521, -0.077),

@@ -5,7 +5,12 @@ levels are 20 lg(v / 5e-8 m/s), v rms (GOST 12.1.012, ISO 5349 practice); amplit
 """
 
 import math
-from typing import Final
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 REFERENCE_VELOCITY: Final = 5e-8
 """Reference of vibration velocity levels [m/s rms]."""
@@ -120,13 +125,31 @@ def from_si(value: float, unit: str) -> float:
     return value / SI_PER_UNIT[unit]
 
 
-def shown(value: float, unit: str, style: str = ".3g") -> str:
-    """An SI value in `unit` with the unit's sign, as sentences have it.
+def in_file(key: str, value: float) -> tuple[str, float]:
+    """The entry of a file that has an SI value, in the unit of its key.
 
-    >>> shown(15.4e-6, "um"), shown(607.37461, "rpm", ".6g"), shown(0.0231, "mm", ".2f")
-    ('15.4 µm', '5800 rpm', '23.10 mm')
+    >>> in_file("autobalancer.race_radius_mm", 0.031)
+    ('autobalancer.race_radius_mm', 31.0)
     """
-    return f"{from_si(value, unit):{style}} {SYMBOLS.get(unit, unit)}"
+    return key, from_si(value, quantity_and_unit(key)[1])
+
+
+def in_units(columns: "Mapping[str, NDArray[np.float64]]") -> "dict[str, NDArray[np.float64]]":
+    """Arrays in SI as columns of a table, each in the unit that its name carries."""
+    return {name: from_si(1.0, quantity_and_unit(name)[1]) * values for name, values in columns.items()}
+
+
+def shown(value: float | Iterable[float], unit: str, style: str = ".3g", between: str = " … ") -> str:
+    """An SI value in `unit` with the unit's sign, as sentences have it; of several values the sign stands once.
+
+    >>> shown(15.4e-6, "um"), shown(607.37461, "rpm", ".6g"), shown(0.0231, "mm", ".2f"), shown(math.pi, "deg")
+    ('15.4 µm', '5800 rpm', '23.10 mm', '180°')
+    >>> shown((0.0231, 0.0233), "mm"), shown((-4e-6, -2.1e-5), "um", "+.3g", "/")
+    ('23.1 … 23.3 mm', '-4/-21 µm')
+    """
+    values = value if isinstance(value, Iterable) else (value,)
+    sign = SYMBOLS.get(unit, unit)
+    return between.join(f"{from_si(each, unit):{style}}" for each in values) + ("" if sign == "°" else " ") + sign
 
 
 def level_from_velocity(velocity_rms: float) -> float:
@@ -145,6 +168,11 @@ def velocity_from_level(level: float) -> float:
     0.0140919
     """
     return REFERENCE_VELOCITY * math.pow(10.0, level / 20)
+
+
+def turned_deg(angle: float) -> float:
+    """An angle [rad] in degrees in [0, 360)."""
+    return from_si(angle, "deg") % 360
 
 
 def wrapped_deg(angle: float) -> float:

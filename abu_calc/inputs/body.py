@@ -140,19 +140,19 @@ class MachineTable(Table):
     )
 
     @property
-    def speed_range(self) -> tuple[float, float]:
+    def speeds_rpm(self) -> tuple[float, float]:
         """Lowest and highest working speed [rpm]."""
         low, high = self.speed_range_rpm or (self.speed_rpm, self.speed_rpm)
         return low, high
 
     def own_defaults(self) -> dict[str, object]:
         """The range of speeds is the one default that another key makes."""
-        derived = {} if self.speed_range_rpm else {"speed_range_rpm": self.speed_range}
+        derived = {} if self.speed_range_rpm else {"speed_range_rpm": self.speeds_rpm}
         return {**super().own_defaults(), **derived}
 
     @model_validator(mode="after")
     def _range_holds_rated_speed(self) -> Self:
-        low, high = self.speed_range
+        low, high = self.speeds_rpm
         if low > high:
             raise problem(
                 "the speeds must ascend",
@@ -291,12 +291,12 @@ class Suspension(Table):
     @property
     def frequencies(self) -> tuple[float, float] | None:
         """Natural frequencies along x and y [Hz]; None for hands."""
-        return _pair(self.natural_frequencies_hz)
+        return pair(self.natural_frequencies_hz)
 
     @property
     def dampings(self) -> tuple[float, float] | None:
         """Damping ratios along x and y; None for hands."""
-        return _pair(self.damping_ratios)
+        return pair(self.damping_ratios)
 
     @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
@@ -322,5 +322,6 @@ class Suspension(Table):
 _EXAMPLE = {"natural_frequencies_hz": "[2.5, 2.5]", "damping_ratios": "[0.5, 0.5]"}
 
 
-def _pair(values: tuple[float, ...] | None) -> tuple[float, float] | None:
+def pair(values: tuple[float, ...] | None) -> tuple[float, float] | None:
+    """Values along x and y of one or two."""
     return (values[0], values[-1]) if values else None

@@ -56,7 +56,7 @@ def rim_too_fast(
 ) -> Iterator[tuple[tuple[str, ...], str]]:
     """A rim that runs faster than wheels bear, at the highest working speed or at the motor's no-load speed."""
     key = "speed_rpm" if machine.speed_range_rpm is None else "speed_range_rpm"
-    path, speed = ("machine", key), machine.speed_range[1]
+    path, speed = ("machine", key), machine.speeds_rpm[1]
     if motor is not None and motor.no_load_speed_rpm > speed:
         path, speed = ("motor", "no_load_speed_rpm"), motor.no_load_speed_rpm
     rim = to_si(speed, "rpm") * wheel.diameter / 2
@@ -178,7 +178,7 @@ class MachineFile(Table):
         if self.motor is not None:
             raise problem("the motor decides the run-up", *place, found=f"{pause:g} rpm beside [motor]",
                           remedy="leave one of them out")  # fmt: skip
-        lowest = min(self.machine.speed_range)
+        lowest = min(self.machine.speeds_rpm)
         if pause >= lowest:
             raise problem("the temporary speed reduction must be below the working speeds", *place,
                           found=f"{pause:g} rpm",

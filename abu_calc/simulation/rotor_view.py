@@ -11,7 +11,7 @@ from abu_calc.dynamics.race import balls_of
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory, merged
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.foundation.units import from_si, in_units, level_from_velocity
 from abu_calc.simulation.response import beginning, settling_times
 
 Array = NDArray[np.float64]
@@ -68,17 +68,26 @@ class RotorView:
         angles = _angles(scene, states[:, index])
         changes = bool(scene.rotor.states) or scene.start_speed != scene.speed
         balls = balls_of(scene.races)
+        motion = in_units(
+            {
+                "ball_angles_deg": angles,
+                "residual_g_mm": np.abs(scene.total_imbalance(angles)),
+                "speed_rpm": np.broadcast_to(speed, inner.shape)[inner][index],
+            }
+        )
+        radii = in_units({"pitch_radii_mm": balls.radii, "ball_radii_mm": balls.sizes})
+        pitch, sizes = (tuple(each.tolist()) for each in radii.values())
         return cls(
             t_s=times[index],
             x_um=seen.real,
             y_um=seen.imag,
-            ball_angles_deg=from_si(1.0, "deg") * angles,
-            residual_g_mm=from_si(1.0, "g_mm") * np.abs(scene.total_imbalance(angles)),
+            ball_angles_deg=motion["ball_angles_deg"],
+            residual_g_mm=motion["residual_g_mm"],
             level_db=_levels(squares[:, index], level),
-            speed_rpm=from_si(1.0, "rpm") * np.broadcast_to(speed, inner.shape)[inner][index] if changes else None,
+            speed_rpm=motion["speed_rpm"] if changes else None,
             imbalance_angle_deg=from_si(scene.imbalance_angle, "deg"),
-            pitch_radii_mm=tuple((from_si(1.0, "mm") * balls.radii).tolist()),
-            ball_radii_mm=tuple((from_si(1.0, "mm") * balls.sizes).tolist()),
+            pitch_radii_mm=pitch,
+            ball_radii_mm=sizes,
         )
 
 

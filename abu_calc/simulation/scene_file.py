@@ -15,6 +15,7 @@ from abu_calc.dynamics.effects.registry import EFFECTS
 from abu_calc.dynamics.supports.planar import DampingPair, StiffnessPair
 from abu_calc.dynamics.supports.registry import SUPPORTS
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.read_machine import Machine, machine_from
 from abu_calc.inputs.reading.document import (
     Document,
@@ -149,10 +150,10 @@ class Effects(create_model("_Effects", __base__=Table, **_TABLES)):  # type: ign
         return tuple(name for name in type(self).model_fields if getattr(self, name) is not None)
 
     @property
-    def ball_radii_mm(self) -> dict[str, float]:
-        """The ball's radius [mm] as each effect that needs it gives it."""
+    def ball_radii(self) -> dict[str, float]:
+        """The ball's radius [m] as each effect that needs it gives it."""
         tables = {name: getattr(self, name) for name in self.names}
-        return {name: table.ball_radius_mm for name, table in tables.items() if hasattr(table, "ball_radius_mm")}
+        return {name: table.ball_radius for name, table in tables.items() if hasattr(table, "ball_radius_mm")}
 
     @property
     def rotor_inertias(self) -> dict[str, float]:
@@ -174,7 +175,7 @@ class Effects(create_model("_Effects", __base__=Table, **_TABLES)):  # type: ign
 
     @model_validator(mode="after")
     def _one_ball_radius(self) -> Self:
-        radii = self.ball_radii_mm
+        radii = self.ball_radii
         for name, radius in radii.items():
             first, value = next(iter(radii.items()))
             if radius != value:
@@ -182,7 +183,7 @@ class Effects(create_model("_Effects", __base__=Table, **_TABLES)):  # type: ign
                     "a ball has one radius",
                     name,
                     "ball_radius_mm",
-                    found=f"{radius:g} mm, and {value:g} mm in {first}",
+                    found=f"{shown(radius, 'mm', 'g')}, and {shown(value, 'mm', 'g')} in {first}",
                     remedy="write the same radius in all effects",
                 )
         return self
@@ -329,19 +330,19 @@ class SceneTable(create_model("_Scene", __base__=_SceneKeys, **_OF_SUPPORTS)):  
     @model_validator(mode="after")
     def _balls_fit_their_race(self) -> Self:
         for index, race in enumerate(self.race):
-            for name, radius in self.effects.ball_radii_mm.items():
-                if radius >= race.pitch_radius_mm:
+            for name, radius in self.effects.ball_radii.items():
+                if radius >= race.pitch_radius:
                     raise problem(
                         f"the balls are larger than race[{index}]",
                         *("effects", name, "ball_radius_mm"),
-                        found=f"{radius:g} mm",
+                        found=shown(radius, "mm", "g"),
                         allowed=f"below pitch_radius_mm, {race.pitch_radius_mm:g} mm",
                     )
-                if race.ball_radius_mm not in (None, radius):
+                if race.ball_radius not in (None, radius):
                     raise problem(
                         "a ball has one radius",
                         *("race", index, "ball_radius_mm"),
-                        found=f"{race.ball_radius_mm:g} mm, and {radius:g} mm in {name}",
+                        found=f"{race.ball_radius_mm:g} mm, and {shown(radius, 'mm', 'g')} in {name}",
                         remedy="write the same radius, or leave it out here",
                     )
             if contact := self.effects.ball_contact:

@@ -11,7 +11,6 @@ from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene, parted_angles, placed
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.formulas.balls import INERTIA_FACTORS, half_angle
-from abu_calc.foundation.units import to_si
 from abu_calc.simulation.scene_file import KINDS, SceneRace, SceneTable
 
 POINT_MASS = 1.0
@@ -50,7 +49,6 @@ def scene_from(table: SceneTable) -> Scene:
 
 
 def _race(table: SceneTable, race: SceneRace) -> Race:
-    radius = race.ball_radius_mm or next(iter(table.effects.ball_radii_mm.values()), 0.0)
     return Race(
         pitch_radius=race.pitch_radius,
         ball_masses=race.ball_masses,
@@ -59,7 +57,7 @@ def _race(table: SceneTable, race: SceneRace) -> Race:
         start_angles=_angles(table, race),
         start_speeds=race.start_speeds or (0.0,) * len(race.ball_masses),
         plane_offset=race.plane_offset,
-        ball_radius=to_si(radius, "mm"),
+        ball_radius=race.ball_radius or next(iter(table.effects.ball_radii.values()), 0.0),
     )
 
 

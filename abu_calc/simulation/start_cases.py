@@ -13,7 +13,7 @@ import numpy as np
 from abu_calc.dynamics.scene import Scene
 from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.inputs.duty import RunUp
 from abu_calc.inputs.duty import Start as StartTable
 from abu_calc.simulation.scene_of_design import Start, running_up, scene_of_design
@@ -107,8 +107,8 @@ class Member:
     @property
     def name(self) -> str:
         """Start case in words."""
-        speed = "" if self.speed is None else f" ({from_si(self.speed, 'rpm'):.6g} rpm)"
-        phases = ", ".join(f"{from_si(phase, 'deg'):.0f}°" for phase in self.phases or ())
+        speed = "" if self.speed is None else f" ({shown(self.speed, 'rpm', '.6g')})"
+        phases = ", ".join(shown(phase, "deg", ".0f") for phase in self.phases or ())
         return f"{self.way}{speed}{', phase ' * bool(phases)}{phases}"
 
 

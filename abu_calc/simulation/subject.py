@@ -13,7 +13,7 @@ from typing import Final
 from abu_calc.dynamics.scene import Scene
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import shown, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.document import FileReading
@@ -73,6 +73,11 @@ class Subject:
             return chosen(self.scene, accuracy, with_effects, without_effects)
 
 
+def checked_centre(race_centre_deg: float | None, usual: float) -> float:
+    """Angle of the race's centre [rad]: the one asked for, else the usual one."""
+    return usual if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
+
+
 def subject_of(
     source: Source, scene: str | None = None, start: str | None = None, *, race_centre_deg: float | None = None,
     command: str = "simulate",
@@ -85,7 +90,7 @@ def subject_of(
     one_of("scene", scene, SCENES)
     one_of("start", start, STARTS)
     if isinstance(source, Machine):
-        centre = WORST if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
+        centre = checked_centre(race_centre_deg, WORST)
         return _of_machine(source, scene or "idle", start, centre, command)
     subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
     for argument, value in (("scene", scene), ("start", start), ("race_centre_deg", race_centre_deg)):
@@ -106,7 +111,7 @@ def _of_machine(machine: Machine, scene: str, start: str | None, race_centre: fl
     with machine.located():
         design = size(tables)
         full = scene_of_design(design, scene, chosen_start, race_centre)
-    off = f"; centre of the race {from_si(race_centre, 'deg'):.4g}° from the imbalance"
+    off = f"; centre of the race {shown(race_centre, 'deg', '.4g')} from the imbalance"
     return Subject(
         title=tables.machine.name,
         reading=machine,

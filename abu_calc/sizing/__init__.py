@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.foundation.checks import Check
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks, residual_check
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, sound, why_not
@@ -115,9 +115,10 @@ def _quieter(design: Design) -> Design:
 
 def _instead_of(design: Design, chosen: Design) -> str:
     """Sentence on the balls that rank first, which are too loud; a runner-up of more than a dozen may be lighter."""
-    lightest, grams = design.autobalancer, from_si(chosen.autobalancer.mass - design.autobalancer.mass, "g")
-    balls = f"{lightest.ball_count} × Ø{from_si(lightest.ball_diameter, 'mm'):g} mm balls"
-    return f"{balls} would be {f'{grams:.1f} g lighter' if grams > 0.05 else 'the first choice'}, but {TOO_LOUD}."
+    lightest, less = design.autobalancer, chosen.autobalancer.mass - design.autobalancer.mass
+    balls = f"{lightest.ball_count} × Ø{shown(lightest.ball_diameter, 'mm', 'g')} balls"
+    advantage = f"{shown(less, 'g', '.1f')} lighter" if less > 0.05e-3 else "the first choice"
+    return f"{balls} would be {advantage}, but {TOO_LOUD}."
 
 
 def no_worse(other: Design, design: Design) -> bool:

@@ -104,9 +104,10 @@ def followed(case: Case, entries: Entries) -> Followed | None:
         return None
 
 
-def speeds_from(case: Case, lowest_rpm: float) -> Iterator[dict[str, object]]:
-    """Entries that raise the lowest working speed: the range alone, else the rated speed with it."""
-    rated, (_, high) = case.table.machine.speed_rpm, case.table.machine.speed_range
+def speeds_from(case: Case, least: float) -> Iterator[dict[str, object]]:
+    """Entries that raise the lowest working speed to `least` [rad/s]: the range alone, else the rated speed with it."""
+    lowest_rpm = math.ceil(from_si(least, "rpm"))
+    rated, (_, high) = case.table.machine.speed_rpm, case.table.machine.speeds_rpm
     whole: dict[str, object] = {"machine.speed_range_rpm": [lowest_rpm, max(high, lowest_rpm)]}
     yield whole if rated >= lowest_rpm else {"machine.speed_rpm": lowest_rpm, **whole}
 

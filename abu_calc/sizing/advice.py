@@ -3,7 +3,7 @@
 import math
 
 from abu_calc.foundation.checks import Check, coded, verdict
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.sizing.actions import two_digits
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
@@ -33,7 +33,7 @@ def _with_margin(case: Case, candidate: Candidate) -> float:
 def residual_check(candidate: Candidate) -> Check:
     """Check of the residual displacement against the permitted one."""
     budget = candidate.budget
-    speed = f"{from_si(budget.speed, 'rpm'):.6g} rpm"
+    speed = shown(budget.speed, "rpm", ".6g")
     return coded("ABU202", verdict(budget.within), f"At {speed}, race eccentricity, dry friction and two-lobe ovality "
         "leave this displacement, as expected", budget.residual, budget.permitted,
     )  # fmt: skip
@@ -199,7 +199,7 @@ def _contact_warnings(case: Case, candidate: Candidate) -> list[str]:
 def _choice_warnings(case: Case, candidate: Candidate) -> list[str]:
     warnings = []
     if stock_diameter(candidate.ball_diameter) is None:
-        warnings.append(f"Ø{from_si(candidate.ball_diameter, 'mm'):g} mm is not a stock size of balls.")
+        warnings.append(f"Ø{shown(candidate.ball_diameter, 'mm', 'g')} is not a stock size of balls.")
     if case.autobalancer.corrector == "roller":
         warnings.append(
             "The rollers are as long as their diameter and run on a cylindrical race. No groove reduces their friction."

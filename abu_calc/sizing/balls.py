@@ -7,12 +7,13 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
+from typing import Final
 
 from abu_calc.formulas.balls import best_count, capacity, corrector_mass, half_angle, most_balls
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.sizing.budget import (
     CandidateBalls,
     ResidualBudget,
@@ -36,7 +37,8 @@ from abu_calc.sizing.manufacture.bearing_ring import fitting_rings, nearest_ring
 from abu_calc.sizing.strength import Roundness, Strength, roundness, strength
 from abu_calc.standards.balls import material, stock_diameter, stock_diameters
 
-RADIUS_STEP_MM = 0.5
+RADIUS_STEP: Final = 0.5e-3
+"""Distance of race radii that are tried [m]."""
 MOST_BALLS = 64
 """Nobody counts in more; only very large races would hold them."""
 
@@ -56,13 +58,11 @@ def ball_diameters(case: Case) -> tuple[float, ...]:
         raise impossible("race_radius_mm", abu.race_radius_mm, "no stock ball runs on this race in this envelope")
     smallest = stock[0]
     if not _fits_width(case, smallest):
-        least = from_si(width(abu.design, smallest), "mm")
-        raise impossible("max_width_mm", abu.max_width_mm, "too narrow for the smallest ball", f"at least {least:.1f}")
-    least = 2 * from_si(least_race_radius(abu.design, abu.bore_diameter, smallest), "mm")
-    least += abu.max_outer_diameter_mm - 2 * from_si(_greatest(case), "mm")
-    raise impossible(
-        "max_outer_diameter_mm", abu.max_outer_diameter_mm, "no room for balls round this bore", f"at least {least:.1f}"
-    )
+        least = f"at least {_mm(width(abu.design, smallest))}"
+        raise impossible("max_width_mm", abu.max_width_mm, "too narrow for the smallest ball", least)
+    room = least_race_radius(abu.design, abu.bore_diameter, smallest) - _greatest(case)
+    least = f"at least {_mm(abu.max_outer_diameter + 2 * room)}"
+    raise impossible("max_outer_diameter_mm", abu.max_outer_diameter_mm, "no room for balls round this bore", least)
 
 
 def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
@@ -77,9 +77,8 @@ def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
         return (pinned,) if least - 1e-9 <= pinned <= greatest + 1e-9 else ()
     if least > greatest:
         return ()
-    step = to_si(RADIUS_STEP_MM, "mm")
-    first, last = int(least // step) + 1, int(greatest // step)
-    return tuple(sorted({*(k * step for k in range(first, last + 1)), greatest}))
+    first, last = int(least // RADIUS_STEP) + 1, int(greatest // RADIUS_STEP)
+    return tuple(sorted({*(k * RADIUS_STEP for k in range(first, last + 1)), greatest}))
 
 
 def _ring_radii(case: Case, diameter: float) -> tuple[float, ...]:
@@ -95,10 +94,9 @@ def _no_ring(case: Case, diameter: float) -> InputError:
     given, fitting = case.autobalancer.race_radius_mm, fitting_rings(case, diameter)
     if given is not None and fitting:
         ring = min(fitting, key=lambda each: abs(each.sphere_radius - case.autobalancer.race_radius))
-        low, high = (from_si(radius, "mm") for radius in sphere_band(ring))
         return impossible(
             "race_radius_mm", given, f"no ring of a bearing in this envelope has this sphere; the nearest is "
-            f"{ring.designation}", f"{low:.2f} … {high:.2f}",
+            f"{ring.designation}", " … ".join(_mm(radius, 2) for radius in sphere_band(ring)),
         )  # fmt: skip
     return InputError(
         "no outer ring of a self-aligning ball bearing (series 12, 13, 22, 23) fits the envelope, bore, wall and race",
@@ -131,22 +129,24 @@ def _fits_width(case: Case, diameter: float) -> bool:
     return bool(width(case.autobalancer.design, diameter) <= case.autobalancer.max_width + 1e-9)
 
 
+def _mm(length: float, decimals: int = 1) -> str:
+    return f"{from_si(length, 'mm'):.{decimals}f}"
+
+
 def _pinned_diameter(case: Case, given_mm: float) -> float:
     """The stock size meant by the pinned one (sources round 19.844 to 19.84), or itself when it is no stock size."""
-    abu, given = case.autobalancer, to_si(given_mm, "mm")
-    diameter = stock_diameter(given) or given
+    abu = case.autobalancer
+    diameter: float = stock_diameter(abu.ball_diameter) or abu.ball_diameter
     if not _fits_width(case, diameter):
-        allowed = abu.max_width_mm - from_si(width(abu.design, diameter) - diameter, "mm")
-        raise impossible("ball_diameter_mm", given_mm, "wider than the envelope", f"up to {allowed:.1f}")
+        allowed = f"up to {_mm(abu.max_width - (width(abu.design, diameter) - diameter))}"
+        raise impossible("ball_diameter_mm", given_mm, "wider than the envelope", allowed)
     if not race_radii(case, diameter):
         if abu.design == "bearing-ring":
             raise _no_ring(case, diameter)
-        least = from_si(least_race_radius(abu.design, abu.bore_diameter, diameter), "mm")
-        greatest = from_si(_greatest(case), "mm")
+        least, greatest = least_race_radius(abu.design, abu.bore_diameter, diameter), _greatest(case)
         key = "race_radius_mm" if abu.race_radius_mm is not None else "ball_diameter_mm"
-        pinned_mm = given_mm if abu.race_radius_mm is None else abu.race_radius_mm
-        allowed_text = f"race radius {least:.2f} … {greatest:.2f}" if least <= greatest else "a smaller ball"
-        raise impossible(key, pinned_mm, "hub, ball and wall do not fit one inside the other", allowed_text)
+        radii = f"race radius {_mm(least, 2)} … {_mm(greatest, 2)}" if least <= greatest else "a smaller ball"
+        raise impossible(key, getattr(abu, key), "hub, ball and wall do not fit one inside the other", radii)
     return diameter
 
 
@@ -460,12 +460,11 @@ def why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
     if not candidate.fillable:
         return "the balls do not go into the race"
     if not candidate.budget.within:
-        return f"expected residual {from_si(candidate.budget.residual, 'um'):.1f} µm, above the limit"
+        return f"expected residual {shown(candidate.budget.residual, 'um', '.1f')}, above the limit"
     if not light(case, candidate):
         return f"weighs {100 * candidate.mass_fraction:.1f} % of the machine"
-    heavier = from_si(candidate.mass - best.mass, "g")
-    finer = from_si(best.budget.residual - candidate.budget.residual, "um")
-    gain = f"; residual {finer:.1f} µm less" if finer > 0.05 else ""
-    if abs(heavier) > 0.05:
-        return f"{abs(heavier):.1f} g {'heavier' if heavier > 0 else 'lighter'}{gain}"
+    heavier, finer = candidate.mass - best.mass, best.budget.residual - candidate.budget.residual
+    gain = f"; residual {shown(finer, 'um', '.1f')} less" if finer > 0.05e-6 else ""
+    if abs(heavier) > 0.05e-3:
+        return f"{shown(abs(heavier), 'g', '.1f')} {'heavier' if heavier > 0 else 'lighter'}{gain}"
     return "equally heavy, with larger balls"

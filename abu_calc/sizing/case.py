@@ -12,8 +12,8 @@ from abu_calc.formulas.rigid_body import Inertia, RigidBody, Vector
 from abu_calc.formulas.suspension import Hands, Springs, SuspensionReaction
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 from abu_calc.inputs.autobalancer import Autobalancer
+from abu_calc.inputs.body import pair
 from abu_calc.inputs.duty import Grinding, Motor
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.standards.vibration import hand
@@ -209,8 +209,8 @@ def read_case(machine: MachineFile) -> Case:
 
 def working_speeds(machine: MachineFile) -> tuple[float, float]:
     """Lowest and highest working speed [rad/s] that the file gives."""
-    low, high = machine.machine.speed_range
-    return to_si(low, "rpm"), to_si(high, "rpm")
+    low, high = machine.machine.speed_range or (machine.machine.speed, machine.machine.speed)
+    return low, high
 
 
 def _judged_range(working: tuple[float, float], idle: float | None) -> tuple[float, float]:
@@ -278,10 +278,11 @@ def _given_body(machine: MachineFile, mass: float, xx: float, yy: float, zz: flo
 def _suspension(machine: MachineFile, body: RigidMachine) -> SuspensionReaction:
     """Suspension in the plane of the race; `hand_axes` turns the hands of a body in space."""
     table, mass = machine.suspension, body.effective_mass()
-    if table.frequencies is None or table.dampings is None:
+    frequencies = pair(table.natural_frequencies)
+    if frequencies is None or table.dampings is None:
         along, across, _ = hand_axes(machine.machine.layout if body.in_space else "straight")
         return Hands((hand(along), hand(across)))
-    wx, wy = (to_si(frequency, "hz") for frequency in table.frequencies)
+    wx, wy = frequencies
     zx, zy = table.dampings
     return Springs((mass * wx**2, mass * wy**2), (2 * zx * mass * wx, 2 * zy * mass * wy))
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.inputs.oil import oil_name
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
@@ -112,7 +112,7 @@ def _construction(case: Case, construction: Construction) -> Iterator[DrawingLin
     )  # fmt: skip
     yield _line(
         "filling", "balls go in one by one between hub and edge of the race on the cover's side; gap beside a ball "
-        f"{_mm(filling_gap_of(parts))} mm",
+        f"{shown(filling_gap_of(parts), 'mm')}",
     )  # fmt: skip
     force = "" if abu.clamp_force_N is None else f" by {abu.clamp_force_N:g} N"
     ways = {
@@ -123,11 +123,11 @@ def _construction(case: Case, construction: Construction) -> Iterator[DrawingLin
     yield _line("fastening", ways[parts.fastening])
     if seat is not None:
         named = f"{seat.seat_class} " if seat.seat_class else ""
-        upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
+        limits = shown((seat.seat.upper, seat.seat.lower), "um", "+.3g", "/")
         low, high = abu.temperature_range_C
         yield _line(
             "seat of the ring",
-            f"{named}{upper}/{lower} µm, ring {seat.ring_class}; {_um(seat.left)} µm of interference left at least at "
+            f"{named}{limits}, ring {seat.ring_class}; {_um(seat.left)} µm of interference left at least at "
             f"{low:g} … {high:g} °C; join with the body at {seat.joining:.0f} °C",
         )
 
@@ -136,7 +136,7 @@ def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) 
     budget, abu = candidate.budget, case.autobalancer
     smooth = math.hypot(budget.race_eccentricity, budget.race_ovality, budget.plane_offset)
     arm = case.friction_arm or SOFT_ARM
-    race = f"R {from_si(candidate.race_radius, 'mm'):.2f} ± {_mm(RACE_TOLERANCE)} mm"
+    race = f"R {shown((candidate.race_radius, RACE_TOLERANCE), 'mm', '.2f', ' ± ')}"
     return (
         _line("race", f"{race} at the bottom (affects the capacity only)", 0.0),
         _line("groove", f"{_across(track.groove_radius)} (helps to shake out friction; no effect on the level)", 0.0),
@@ -172,7 +172,9 @@ def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) 
 
 
 def _across(groove: float | None) -> str:
-    return "straight ± 2 µm" if groove is None else f"R {from_si(groove, 'mm'):.2f} ± {_mm(GROOVE_TOLERANCE)} mm across"
+    if groove is None:
+        return "straight ± 2 µm"
+    return f"R {from_si(groove, 'mm'):.2f} ± {shown(GROOVE_TOLERANCE, 'mm')} across"
 
 
 def hardness_text(quality: RaceQuality) -> str:
@@ -214,14 +216,14 @@ def _limits(limits: DeviationLimits) -> str:
 def _clearance(fit: Fit) -> str:
     """Clearance or interference of a fit in words."""
     if fit.tightest <= 0:
-        return f"clearance {_um(-fit.tightest)} … {_um(-fit.loosest)} µm"
+        return f"clearance {shown((-fit.tightest, -fit.loosest), 'um')}"
     if fit.loosest >= 0:
-        return f"interference {_um(fit.loosest)} … {_um(fit.tightest)} µm"
+        return f"interference {shown((fit.loosest, fit.tightest), 'um')}"
     return f"clearance {_um(-fit.loosest)} to interference {_um(fit.tightest)} µm"
 
 
 def _running(case: Case, candidate: Candidate) -> tuple[DrawingLine, ...]:
-    oval, overspeed = candidate.roundness, 1.2 * from_si(case.speed_range[1], "rpm")
+    oval, overspeed = candidate.roundness, shown(1.2 * case.speed_range[1], "rpm", ".0f")
     return (
         _line(
             "oil",
@@ -237,16 +239,12 @@ def _running(case: Case, candidate: Candidate) -> tuple[DrawingLine, ...]:
             f"{_um(ovality_residual(oval.lobes))} µm, with one web alone {_um(ovality_residual(oval.unaided))} µm; "
             f"the diameter of a free ring would grow by {_um(oval.free_ring)} µm",
         ),
-        _line("proof", f"cover and seal; overspeed test at {overspeed:.0f} rpm, 1.2 × the highest speed"),
+        _line("proof", f"cover and seal; overspeed test at {overspeed}, 1.2 × the highest speed"),
     )
 
 
 def _um(length: float) -> str:
     return f"{from_si(length, 'um'):.3g}"
-
-
-def _mm(length: float) -> str:
-    return f"{from_si(length, 'mm'):.3g}"
 
 
 def _cost(rest: float, part: float) -> float | None:

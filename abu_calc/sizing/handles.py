@@ -10,7 +10,7 @@ from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.moved import Moved
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.sizing.actions import set_options, with_entries, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import judged_speeds
@@ -190,7 +190,7 @@ def estimate_keys(case: Case) -> str:
 
 def _place(total: HighestTotal) -> str:
     place = "Wheel plane" if total.name == WHEEL_PLANE else f'Handle "{total.name}"'
-    return f"{place}, {from_si(total.speed, 'rpm'):.6g} rpm"
+    return f"{place}, {shown(total.speed, 'rpm', '.6g')}"
 
 
 def _said(total: float) -> str:

@@ -5,17 +5,16 @@ from typing import Final, Literal
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 
 Design = Literal["one-piece", "bearing-ring", "light"]
 
 STEEL: Final = 7800.0
 ALUMINIUM: Final = 2700.0
 
-HUB_CLEARANCE: Final = to_si(0.5, "mm")
+HUB_CLEARANCE: Final = 0.5e-3
 """Distance between balls and hub [m]."""
 
-GROOVE_CLEARANCE: Final = to_si(0.3, "mm")
+GROOVE_CLEARANCE: Final = 0.3e-3
 """Distance between balls and webs [m], each side."""
 
 
@@ -33,26 +32,17 @@ class Rules:
 RULES: Final[dict[Design, Rules]] = {
     "one-piece": Rules(
         "one-piece: steel body with the race ground in it; wall as given, webs 1.5 mm, hub wall 2.5 mm",
-        to_si(1.5, "mm"),
-        to_si(2.5, "mm"),
-        0.0,
-        STEEL,
+        1.5e-3, 2.5e-3, 0.0, STEEL,
     ),
     "bearing-ring": Rules(
         "bearing-ring: race ring, wall as given, pressed into a steel body of 2 mm wall, webs 1.5 mm, hub wall 2.5 mm",
-        to_si(1.5, "mm"),
-        to_si(2.5, "mm"),
-        to_si(2.0, "mm"),
-        STEEL,
+        1.5e-3, 2.5e-3, 2e-3, STEEL,
     ),
     "light": Rules(
         "light: hard steel ring, wall as given, in an aluminium body with 2 mm wall, webs 2 mm, hub wall 3 mm",
-        to_si(2.0, "mm"),
-        to_si(3.0, "mm"),
-        to_si(2.0, "mm"),
-        ALUMINIUM,
+        2e-3, 3e-3, 2e-3, ALUMINIUM,
     ),
-}
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -188,7 +178,7 @@ def dimensions(
     )  # fmt: skip
 
 
-LEAST_FILLING: Final = to_si(0.1, "mm")
+LEAST_FILLING: Final = 0.1e-3
 """Least gap at which a ball passes between hub and edge of the race [m] (assumed)."""
 
 

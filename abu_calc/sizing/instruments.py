@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, level_from_velocity, to_si, velocity_from_level
+from abu_calc.foundation.units import from_si, level_from_velocity, quantity_and_unit, to_si, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.standards.vibration import hand_arm_weight
 
@@ -44,7 +44,7 @@ class InstrumentReadings(Record):
 )
 def readings(velocity: float, speed: float) -> InstrumentReadings:
     """
-    >>> found = readings(velocity_from_level(111), to_si(5800, "rpm"))
+    >>> found = readings(velocity_from_level(111), 5800 * math.pi / 30)
     >>> [round(each, 2) for each in (1e6 * found.displacement, found.acceleration, found.weighted, found.total)]
     [29.21, 10.78, 1.79, 2.53]
     """
@@ -73,7 +73,8 @@ def readings(velocity: float, speed: float) -> InstrumentReadings:
 )
 def velocity_shown(shown: Shown, speed: float) -> float:
     """
-    >>> round(velocity_shown(Shown("measured_acceleration_m_per_s2", (10.78,), "none", 1, None), to_si(5800, "rpm")), 5)
+    >>> one = velocity_shown(Shown("measured_acceleration_m_per_s2", (10.78,), "none", 1, None), 5800 * math.pi / 30)
+    >>> round(one, 5)
     0.01775
     >>> both = velocity_shown(Shown("measured_level_db", (100.0, 110.0), "none", 1, None), 1.0)
     >>> round(level_from_velocity(both), 3)
@@ -85,10 +86,11 @@ def velocity_shown(shown: Shown, speed: float) -> float:
 def _velocity(shown: Shown, value: float, speed: float) -> float:
     if shown.key == "measured_level_db":
         return velocity_from_level(value)
+    value = to_si(value, quantity_and_unit(shown.key)[1])
     if shown.key == "measured_velocity_mm_per_s":
-        return to_si(value, "mm_per_s")
+        return value
     if shown.key == "measured_displacement_um":
-        return to_si(value, "um") * speed
+        return value * speed
     return value / speed / (hand_arm_weight(speed) if shown.weighting == "Wh" else 1.0)
 
 
@@ -112,9 +114,9 @@ def as_shown(shown: Shown, velocity: float, speed: float) -> float | None:
     many = math.sqrt(2) if shown.axes == 3 else 1.0
     if shown.key == "measured_level_db":
         return level_from_velocity(many * velocity)
+    value = reading.weighted if shown.weighting == "Wh" else reading.acceleration
     if shown.key == "measured_velocity_mm_per_s":
-        return from_si(many * velocity, "mm_per_s")
-    if shown.key == "measured_displacement_um":
-        return from_si(many * reading.displacement, "um")
-    acceleration = reading.weighted if shown.weighting == "Wh" else reading.acceleration
-    return None if acceleration is None else many * acceleration
+        value = velocity
+    elif shown.key == "measured_displacement_um":
+        value = reading.displacement
+    return None if value is None else from_si(many * value, quantity_and_unit(shown.key)[1])

@@ -18,7 +18,7 @@ from abu_calc.formulas.oil import (
     viscosity_at_100,
 )
 from abu_calc.foundation.errors import AbuError, InputError, Place
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.identified import identified_note
 from abu_calc.inputs.oil import Oil
 from abu_calc.sizing.actions import with_entries
@@ -176,4 +176,4 @@ def drag_source(case: Case) -> str:
     )
     if oil.overridden:
         return f"rolling_drag_per_s = {case.drag:.3g} overrides the oil. The oil gives {by_oil}."
-    return f"The oil gives {by_oil}. The ring of oil is {from_si(oil.depth, 'mm'):.2g} mm deep."
+    return f"The oil gives {by_oil}. The ring of oil is {shown(oil.depth, 'mm', '.2g')} deep."

@@ -7,7 +7,7 @@ from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.foundation.checks import Bound, Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import shown
 from abu_calc.foundation.validity import Range
 from abu_calc.sizing.case import Case, working_speeds
 
@@ -132,7 +132,7 @@ def _check(possible: bool, in_between: bool, low: float, least: float, above: fl
         message += ". That is necessary, not sufficient: see ABU103"
     else:
         message = "At some speed of the range the support moves with the imbalance: the balls go to the heavy side"
-        action = f"Keep all speeds above {from_si(above, 'rpm'):.0f} rpm, or hold the machine more softly."
+        action = f"Keep all speeds above {shown(above, 'rpm', '.0f')}, or hold the machine more softly."
     return coded("ABU101", verdict(possible), message, low, least, action)
 
 
@@ -146,8 +146,7 @@ def motor_checks(case: Case) -> tuple[Check, ...]:
     """
     if case.idle_speed is None:
         return ()
-    low, high = (to_si(speed, "rpm") for speed in case.table.machine.speed_range)
-    idle = case.idle_speed
+    (low, high), idle = case.table.machine.speed_range, case.idle_speed
     bound: Bound = "least" if idle < low else "most"
     limit = low if bound == "least" else high
     kept = case.speed_range == working_speeds(case.table)
@@ -178,4 +177,4 @@ def _speed_under_load(case: Case) -> float | None:
 
 
 def _rpm(speed: float) -> str:
-    return f"{from_si(speed, 'rpm'):.0f} rpm"
+    return shown(speed, "rpm", ".0f")

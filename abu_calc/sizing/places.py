@@ -21,7 +21,8 @@ from abu_calc.formulas.body_motion import (
 from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si, velocity_from_level
+from abu_calc.foundation.units import velocity_from_level
+from abu_calc.inputs.body import pair
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import displacement_level, loudest_displacement
 from abu_calc.sizing.case import WHEEL_PLANE, Case, hand_axes
@@ -193,13 +194,13 @@ def body_suspension(case: Case, *, carrying: bool = False) -> BodySuspension | N
     `carrying`: the body carries the autobalancer, with which springs keep their stiffness.
     """
     table = case.table.suspension
-    if table.frequencies is None or table.dampings is None:
+    frequencies = pair(table.natural_frequencies)
+    if frequencies is None or table.dampings is None:
         if len(case.handles) < HANDS:
             return None
         x, y, z = (hand(name) for name in hand_axes(case.table.machine.layout))
         return HandsOnHandles(tuple(held.place for held in case.handles[:HANDS]), (x, y, z))
-    wx, wy = (to_si(frequency, "hz") for frequency in table.frequencies)
-    return BodySprings((wx, wy), table.dampings, case.body.mass if carrying else None)
+    return BodySprings(frequencies, table.dampings, case.body.mass if carrying else None)
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.manufacture.fastening import slip_torque
 from abu_calc.sizing.track import GROUND_HARDNESS_HRC
 from abu_calc.sizing.type_test import chosen_wheel, declared_estimate, more_easily
-from abu_calc.sizing.vibration import FEASIBLE_MM, truer_races
+from abu_calc.sizing.vibration import feasible_mm, truer_races
 
 Entries = dict[str, object]
 """Values by key path."""
@@ -134,17 +134,17 @@ def faster(design: Design) -> Iterator[Entries]:
     """Lowest speeds above the natural frequencies."""
     least = max(design.frequency.natural_frequencies)
     for factor in FASTER:
-        yield from speeds_from(design.case, math.ceil(from_si(factor * least, "rpm")))
+        yield from speeds_from(design.case, factor * least)
 
 
 def carrying_over(design: Design) -> Iterator[Entries]:
     """A lowest speed that carries the balls round a horizontal spindle."""
-    yield from speeds_from(design.case, math.ceil(OVER * from_si(design.track.carry_over, "rpm")))
+    yield from speeds_from(design.case, OVER * design.track.carry_over)
 
 
 def with_idle_speed(design: Design) -> Iterator[Entries]:
     """A range of working speeds that holds the motor's idle speed."""
-    (low, high), idle = design.case.table.machine.speed_range, from_si(design.case.idle_speed or 0.0, "rpm")
+    (low, high), idle = design.case.table.machine.speeds_rpm, from_si(design.case.idle_speed or 0.0, "rpm")
     yield {"machine.speed_range_rpm": [float(math.floor(min(low, idle))), float(math.ceil(max(high, idle)))]}
 
 
@@ -156,7 +156,7 @@ def nearer(design: Design) -> Iterator[Entries]:
 
 def wider(design: Design) -> Iterator[Entries]:
     """The least race eccentricities of two digits that standard fits and careful work may hold."""
-    least = max(from_si(design.eccentricity.least, "mm"), FEASIBLE_MM)
+    least = feasible_mm(design.eccentricity.least)
     digits = max(0, 1 - math.floor(math.log10(least)))
     for more in range(WIDER):
         permitted = round((math.ceil(least * 10**digits) + more) / 10**digits, digits)

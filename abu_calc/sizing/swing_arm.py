@@ -29,7 +29,7 @@ from abu_calc.formulas.swing_arm import (
 )
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file, shown
 from abu_calc.inputs.duty import SwingArm
 from abu_calc.sizing.case import Case
 
@@ -150,8 +150,8 @@ def _lifted(angles: tuple[float, float] | None) -> str:
     """Contact angles at which the arm would not stand, in words."""
     if angles is None:
         return "The arm stands at every contact angle"
-    low, high = (from_si(angle, "deg") for angle in angles)
-    return f"From {low:.3g}° to {high:.3g}° friction lifts the wheel by itself (static divergence)"
+    low, high = (shown(angle, "deg") for angle in angles)
+    return f"From {low} to {high} friction lifts the wheel by itself (static divergence)"
 
 
 def _pressing(arm: Arm, angle: float | None) -> Check:
@@ -218,8 +218,8 @@ def _standing(bounds: SwingArmBounds) -> Iterator[dict[str, float]]:
     if bounds.arm.contact_angle > math.pi / 2:
         yield {ANGLE: 180.0 - OFF_THE_NORMAL}
     else:
-        edge = MARGINS[0] * from_si((bounds.lifted_contact_angles or (0.0, 0.0))[1], "deg")
-        yield {ANGLE: min(float(math.ceil(max(edge, OFF_THE_NORMAL))), 90.0)}
+        key, lifted = in_file(ANGLE, (bounds.lifted_contact_angles or (0.0, 0.0))[1])
+        yield {key: min(float(math.ceil(max(MARGINS[0] * lifted, OFF_THE_NORMAL))), 90.0)}
     yield {JOINT: up(MARGINS[0] * bounds.joint_stiffness_standing)}
 
 

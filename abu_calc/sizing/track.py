@@ -6,7 +6,7 @@ from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_dr
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import GRAVITY, from_si, shown
+from abu_calc.foundation.units import GRAVITY, shown
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual, permitted_displacement
 from abu_calc.sizing.case import Case
@@ -40,7 +40,7 @@ class Track:
 )
 def carry_over_speed(pitch_radius: float) -> float:
     """
-    >>> round(from_si(carry_over_speed(23e-3), "rpm"))
+    >>> round(carry_over_speed(23e-3) * 30 / math.pi)
     197
     """
     return math.sqrt(GRAVITY / pitch_radius)
@@ -71,7 +71,7 @@ def track_checks(case: Case, candidate: Candidate, race: Track) -> tuple[Check, 
 
     On a horizontal spindle also whether the lowest speed carries the balls over.
     """
-    top = f"{from_si(case.speed_range[1], 'rpm'):.6g} rpm"
+    top = shown(case.speed_range[1], "rpm", ".6g")
     checks = (_pressure(candidate, top), _hardness(case), _hoop(candidate, top), _roundness(case, candidate, top))
     if case.table.machine.spindle_axis != "horizontal":
         return checks

@@ -387,6 +387,11 @@ FEASIBLE_MM: Final = 0.005
 """Race eccentricity that careful work attains with a standard fit, a ground race and its spindle (assumed)."""
 
 
+def feasible_mm(least: float) -> float:
+    """Least race eccentricity [mm] of standard fits that hold the `least` [m], and of careful work."""
+    return max(FEASIBLE_MM, from_si(least, "mm"))
+
+
 def truer(eccentricity_mm: float, least: float) -> list[float]:
     """Smaller race eccentricities [mm] on whole micrometres, the largest first.
 
@@ -396,7 +401,7 @@ def truer(eccentricity_mm: float, least: float) -> list[float]:
     ([0.009, 0.008, 0.007, 0.006, 0.005], [0.006, 0.005], [0.009, 0.008], [])
     """
     shares = dict.fromkeys(round(share * eccentricity_mm, 3) for share in TRUER)
-    lowest = max(FEASIBLE_MM, from_si(least, "mm"))
+    lowest = feasible_mm(least)
     return [value for value in shares if lowest <= value < eccentricity_mm]
 
 

@@ -5,9 +5,8 @@ from fractions import Fraction
 from functools import cache
 from typing import Literal, NamedTuple
 
-from abu_calc.foundation.units import to_si
 from abu_calc.foundation.validity import Range
-from abu_calc.standards.tables import toml_table, unknown
+from abu_calc.standards.tables import metres, toml_table, unknown
 
 STOCK_TOLERANCE = 0.01e-3
 """Largest difference [m] between a diameter and the stock size it means.
@@ -41,7 +40,7 @@ def stock_diameters(sizes: Literal["metric", "all"] = "all") -> tuple[float, ...
     """
     table = toml_table("balls")
     inch = table["inch"] if sizes == "all" else ()
-    return tuple(to_si(d, "mm") for d in sorted((*table["metric"], *inch)))
+    return tuple(metres(sorted((*table["metric"], *inch))))
 
 
 def stock_diameter(diameter: float) -> float | None:
@@ -60,11 +59,10 @@ def inch_size(diameter: float) -> str:
     >>> inch_size(0.005953125), inch_size(0.0269875), inch_size(0.006)
     ('15/64 in', '1 1/16 in', '')
     """
-    table = toml_table("balls")
     near = stock_diameter(diameter)
-    if near is None or any(abs(near - to_si(metric, "mm")) < _ROUNDING for metric in table["metric"]):
+    if near is None or any(abs(near - each) < _ROUNDING for each in stock_diameters("metric")):
         return ""
-    size = Fraction(near / to_si(25.4, "mm")).limit_denominator(64)
+    size = Fraction(near / 25.4e-3).limit_denominator(64)
     whole, part = divmod(size, 1)
     return " ".join(str(each) for each in (whole, part) if each) + " in"
 

@@ -8,10 +8,9 @@ import re
 from functools import cache
 from typing import Final, Literal, NamedTuple
 
-from abu_calc.foundation.errors import InputError, RangeError
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.errors import InputError
 from abu_calc.standards.catalogue import CatalogueBearing, Kind, catalogue, catalogue_bearing
-from abu_calc.standards.tables import csv_rows, unknown
+from abu_calc.standards.tables import csv_rows, lengths_for_size, metres, millimetres, unknown
 from abu_calc.standards.tolerance_classes import BearingType, Seat
 
 # Angular contact bearings and tapered bearings of GOST share these numbers, with A too (30° of some makers).
@@ -118,7 +117,7 @@ def all_of_size(bore: float, outer: float, width: float) -> tuple[Dimensions, ..
     >>> [entry.designation for entry in all_of_size(0.080, 0.140, 0.033)]
     ['32216', 'NU2216', '22216']
     """
-    wanted = tuple(round(from_si(size, "mm"), 6) for size in (bore, outer, width))
+    wanted = millimetres(bore), millimetres(outer), millimetres(width)
     entries = [bearing(name) for name in _by_size().get(wanted, ())]
     return tuple(sorted(entries, key=lambda size: not size.deep_groove))
 
@@ -130,7 +129,7 @@ def _by_size() -> dict[tuple[float, ...], tuple[str, ...]]:
     for row in csv_rows("bearings"):
         names.setdefault(tuple(map(float, row[3:6])), []).append(row[0])
     for name, entry in catalogue().items():
-        size = tuple(round(from_si(length, "mm"), 6) for length in (entry.bore, entry.outer, entry.inner_width))
+        size = tuple(map(millimetres, (entry.bore, entry.outer, entry.inner_width)))
         if name not in names.setdefault(size, []):
             names[size].append(name)
     return {size: tuple(designations) for size, designations in names.items()}
@@ -169,7 +168,7 @@ def _known() -> dict[str, tuple[str, ...]]:
 def _dimensions(row: tuple[str, ...]) -> Dimensions:
     iso, _, kind, *sizes = row
     bearing_type: BearingType = "tapered" if kind == "tapered" else "radial"
-    return Dimensions(iso, bearing_type, *(to_si(float(size), "mm") for size in sizes))
+    return Dimensions(iso, bearing_type, *metres(sizes))
 
 
 def _of_row(row: CatalogueBearing) -> Dimensions:
@@ -201,16 +200,8 @@ def radial_clearance(group: str, bore: float) -> ClearanceLimits:
     rows = _rows()
     if group not in rows:
         raise unknown("clearance group", group, rows)
-    millimetres = round(from_si(bore, "mm"), 6)
-    for over, to, smallest, largest in rows[group]:
-        if over < millimetres <= to:
-            return ClearanceLimits(round(to_si(smallest, "um"), 12), round(to_si(largest, "um"), 12))
-    raise RangeError(
-        "bore is outside the table of clearance groups",
-        found=f"{millimetres:g} mm",
-        allowed=f"over {rows[group][0][0]:g} up to {rows[group][-1][1]:g} mm",
-        remedy="Leave internal_clearance out.",
-    )
+    fault = "bore is outside the table of clearance groups"
+    return ClearanceLimits(*lengths_for_size(rows[group], bore, fault, "Leave internal_clearance out."))
 
 
 @cache

@@ -70,7 +70,7 @@ Rolling bearings, 2018, whose medians are 0.80 and 0.47."""
 def closed(row: CatalogueBearing, closure: str) -> CatalogueBearing:
     """The row of a bearing with shields or rubbing seals, whose limiting speed is lower.
 
-    >>> round(from_si(closed(catalogue_bearing("6206"), "seals").limiting_speed, "rpm"))
+    >>> round(closed(catalogue_bearing("6206"), "seals").limiting_speed * 30 / math.pi)
     6600
     """
     share = 1.0 if row.with_grease and closure == "shields" else CLOSED_SPEED[closure]
@@ -165,14 +165,12 @@ def _row(row: tuple[str, ...]) -> CatalogueBearing:
     bore, outer, width, chamfer, outer_width, outer_chamfer = (
         round(to_si(size or 0.0, "mm"), 9) for size in figures[:6]
     )
-    dynamic, static, fatigue, reference, limiting, f0, e, Y, Y0 = figures[6:]
-    ratings = None
-    if dynamic is not None and static is not None:
-        limit = None if fatigue is None else to_si(fatigue, "kN")
-        ratings = Ratings(to_si(dynamic, "kN"), to_si(static, "kN"), limit)
-    reference_speed, limiting_speed = (
-        None if speed is None else to_si(speed, "rpm") for speed in (reference, limiting)
+    dynamic, static, fatigue, reference_speed, limiting_speed = (
+        None if figure is None else to_si(figure, unit)
+        for figure, unit in zip(figures[6:11], ("kN", "kN", "kN", "rpm", "rpm"), strict=True)
     )
+    f0, e, Y, Y0 = figures[11:]
+    ratings = None if dynamic is None or static is None else Ratings(dynamic, static, fatigue)
     known_kind = next(known for known in KINDS if known == kind)
     return CatalogueBearing(
         name, known_kind, bore, outer, width, chamfer, outer_width, outer_chamfer, ratings, reference_speed,

@@ -7,11 +7,10 @@ import itertools
 from functools import cache
 from typing import Final, NamedTuple
 
-from abu_calc.foundation.errors import RangeError
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import to_si
 from abu_calc.standards.bearing_catalogue import GROUPS, PAIRS, ClearanceLimits, radial_clearance
 from abu_calc.standards.catalogue import Kind
-from abu_calc.standards.tables import csv_rows, unknown
+from abu_calc.standards.tables import csv_rows, lengths_for_size, millimetres, unknown
 
 CONTACT_ANGLE: Final = 40.0
 """Contact angle [deg] of the pairs that are tabulated: suffix B."""
@@ -50,16 +49,8 @@ def internal_clearance(kind: Kind, group: str, bore: float) -> ClearanceLimits:
     rows = _rows().get((_AS.get(kind, kind), group))
     if rows is None:
         raise unknown(f"clearance group of {kind} bearings", group, groups_of(kind))
-    millimetres = round(from_si(bore, "mm"), 6)
-    for over, to, smallest, largest in rows:
-        if over < millimetres <= to:
-            return ClearanceLimits(round(to_si(smallest, "um"), 12), round(to_si(largest, "um"), 12))
-    raise RangeError(
-        f"bore is outside the table of clearance groups of {kind} bearings",
-        found=f"{millimetres:g} mm",
-        allowed=f"over {rows[0][0]:g} up to {rows[-1][1]:g} mm",
-        remedy="Leave internal_clearance out.",
-    )
+    fault = f"bore is outside the table of clearance groups of {kind} bearings"
+    return ClearanceLimits(*lengths_for_size(rows, bore, fault, "Leave internal_clearance out."))
 
 
 class _Point(NamedTuple):
@@ -78,7 +69,7 @@ def pair_preload(clearance: float, bore: float) -> float | None:
     """
     if clearance >= 0:
         return 0.0
-    points = _preloads(round(from_si(bore, "mm"), 6))
+    points = _preloads(millimetres(bore))
     if points is None:
         return None
     first, last = points[0], points[-1]

@@ -3,8 +3,7 @@
 from functools import cache
 
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
-from abu_calc.standards.tables import csv_rows
+from abu_calc.standards.tables import csv_rows, metres, micrometres, row_of_size
 
 RUNOUT_CLASSES = ("0", "6", "5")
 """Tolerance classes of ISO 492 with a tabulated run-out, coarsest first."""
@@ -27,10 +26,7 @@ def self_aligning_bearings() -> tuple[SelfAligningBearing, ...]:
     >>> next(each for each in self_aligning_bearings() if each.designation == "1206").outside_diameter
     0.062
     """
-    return tuple(
-        SelfAligningBearing(name, *(to_si(float(size), "mm") for size in sizes))
-        for name, *sizes in csv_rows("self_aligning")
-    )
+    return tuple(SelfAligningBearing(name, *metres(sizes)) for name, *sizes in csv_rows("self_aligning"))
 
 
 def outer_run_out(bearing_class: str, outside_diameter: float) -> float | None:
@@ -39,8 +35,6 @@ def outer_run_out(bearing_class: str, outside_diameter: float) -> float | None:
     >>> outer_run_out("5", 0.062)
     8e-06
     """
-    size = round(from_si(outside_diameter, "mm"), 6)
-    for name, over, to, run_out in csv_rows("outer_runout"):
-        if name == bearing_class and float(over) < size <= float(to):
-            return round(to_si(float(run_out), "um"), 12)
-    return None
+    rows = [tuple(map(float, row)) for name, *row in csv_rows("outer_runout") if name == bearing_class]
+    row = row_of_size(rows, outside_diameter)
+    return None if row is None else micrometres(row[2])

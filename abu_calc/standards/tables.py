@@ -2,13 +2,15 @@
 
 import difflib
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.errors import InputError, RangeError
+from abu_calc.foundation.units import from_si, to_si
 
+Row = TypeVar("Row", bound=Sequence[float])
 _DATA = Path(__file__).parent / "data"
 
 
@@ -23,6 +25,48 @@ def csv_rows(name: str) -> tuple[tuple[str, ...], ...]:
     """The rows of a data file `name.csv` below its column names; source and edition stand in its comments."""
     lines = (_DATA / f"{name}.csv").read_text(encoding="utf-8").splitlines()
     return tuple(tuple(line.split(",")) for line in lines if not line.startswith("#"))[1:]
+
+
+def millimetres(size: float) -> float:
+    """A size [m] in the unit of the tables: 80 mm written in metres and back stays in the row "up to and including 80".
+
+    >>> millimetres(0.08)
+    80.0
+    """
+    return round(from_si(size, "mm"), 6)
+
+
+def metres(figures: Iterable[str | float]) -> Iterator[float]:
+    """Millimetres of a table [m]."""
+    return (to_si(float(figure), "mm") for figure in figures)
+
+
+def micrometres(figure: float) -> float:
+    """Micrometres of a table [m], freed of the noise of binary fractions: −15 µm is the number nearest to −15e-6 m."""
+    return round(to_si(figure, "um"), 12)
+
+
+def row_of_size(rows: Iterable[Row], size: float) -> Row | None:
+    """The row that holds a size [m]; rows begin with the ends of their range, over … up to and including [mm].
+
+    >>> row_of_size([(0, 3, 6), (3, 6, 8)], 0.006)
+    (3, 6, 8)
+    """
+    wanted = millimetres(size)
+    return next((row for row in rows if row[0] < wanted <= row[1]), None)
+
+
+def lengths_for_size(rows: Sequence[Sequence[float]], size: float, fault: str, remedy: str) -> tuple[float, float]:
+    """Two lengths [m], micrometres in the row that holds a size [m]. Raises RangeError outside the rows."""
+    row = row_of_size(rows, size)
+    if row is None:
+        raise RangeError(
+            fault,
+            found=f"{millimetres(size):g} mm",
+            allowed=f"over {rows[0][0]:g} up to {rows[-1][1]:g} mm",
+            remedy=remedy,
+        )
+    return micrometres(row[2]), micrometres(row[3])
 
 
 def unknown(what: str, name: str, known: Iterable[str], remedy: str | None = None) -> InputError:

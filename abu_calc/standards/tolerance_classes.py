@@ -6,11 +6,9 @@ A bearing maker's catalogue recommends the classes of shafts and housings.
 from functools import cache, lru_cache
 from typing import Final, Literal, NamedTuple
 
-from abu_calc.foundation.errors import RangeError
-from abu_calc.foundation.units import from_si, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.catalogue import KINDS, Kind
-from abu_calc.standards.tables import csv_rows, unknown
+from abu_calc.standards.tables import csv_rows, lengths_for_size, micrometres, millimetres, row_of_size, unknown
 
 Seat = Literal["shaft", "housing"]
 Ring = Literal["inner", "outer"]
@@ -60,7 +58,7 @@ def part_limits(seat: Seat, tolerance_class: str, size: float) -> DeviationLimit
     rows = _rows(seat)
     if tolerance_class not in rows:
         raise unknown(f"tolerance class of a {seat}", tolerance_class, rows)
-    _SIZES.check(_millimetres(size))
+    _SIZES.check(millimetres(size))
     return _look_up(rows[tolerance_class], size, f"size for {tolerance_class}", "Choose another tolerance class.")
 
 
@@ -73,10 +71,8 @@ def grade_tolerance(grade: int, size: float) -> float:
     >>> round(1e6 * grade_tolerance(6, 0.020), 1), round(1e6 * grade_tolerance(4, 0.062), 1)
     (13.0, 8.0)
     """
-    millimetres = _millimetres(size)
     rows = [tuple(map(float, row)) for row in csv_rows("it_grades")]
-    row = next((row for row in rows if row[0] < millimetres <= row[1]), rows[-1])
-    return round(to_si(row[1 + grade], "um"), 12)
+    return micrometres((row_of_size(rows, size) or rows[-1])[1 + grade])
 
 
 def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size: float) -> DeviationLimits:
@@ -112,23 +108,9 @@ def _numbers(row: tuple[str, ...]) -> _Row:
     return over, to, upper, lower
 
 
-def _millimetres(size: float) -> float:
-    # 80 mm written in metres and back must stay in the row "up to and including 80"
-    return round(from_si(size, "mm"), 6)
-
-
 def _look_up(rows: list[_Row], size: float, what: str, remedy: str) -> DeviationLimits:
-    millimetres = _millimetres(size)
-    for over, to, upper, lower in rows:
-        if over < millimetres <= to:
-            # freed of the noise of binary fractions, so that −15 µm is the number nearest to −15e-6 m
-            return DeviationLimits(round(to_si(lower, "um"), 12), round(to_si(upper, "um"), 12))
-    raise RangeError(
-        f"{what} is outside the table",
-        found=f"{millimetres:g} mm",
-        allowed=f"over {rows[0][0]:g} up to {rows[-1][1]:g} mm",
-        remedy=remedy,
-    )
+    upper, lower = lengths_for_size(rows, size, f"{what} is outside the table", remedy)
+    return DeviationLimits(lower, upper)
 
 
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
@@ -183,7 +165,7 @@ def maker_fits(
     >>> maker_fits("housing", "ball", "rotating", 0.08, 0.052, "0", thin=True).classes[0]
     'P7'
     """
-    size = round(from_si(diameter, "mm"), 6)
+    size = millimetres(diameter)
     asked: RingLoad = "rotating" if seat == "shaft" and load == "indeterminate" else load
     accuracy = "fine" if bearing_class in _FINE and kind != "drawn-cup" else "normal"
     for like in _same_rows(kind):

@@ -11,7 +11,7 @@ from typing import Any
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import shown, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.tables import toml_table, unknown
 
@@ -71,18 +71,17 @@ def octave(frequency: float) -> Octave:
 
     Range: 5.62 … 1413 Hz, else RangeError. Sources: IEC 61260-1:2014 (bands), GOST 17770-86 (limits).
 
-    >>> found = octave(to_si(5800, "rpm"))
-    >>> found.nominal, round(from_si(found.low, "hz"), 1), found.limit.level
+    >>> found = octave(5800 * math.pi / 30)
+    >>> found.nominal, round(found.low / math.tau, 1), found.limit.level
     (125, 89.1, 109)
     """
     for band in octaves():
         if band.low <= frequency < band.high:
             return band
-    low, high = from_si(octaves()[0].low, "hz"), from_si(octaves()[-1].high, "hz")
     raise RangeError(
         "no octave of the standard holds this frequency",
-        found=f"{from_si(frequency, 'hz'):g} Hz",
-        allowed=f"{low:.4g} … {high:.4g} Hz",
+        found=shown(frequency, "hz", "g"),
+        allowed=shown((octaves()[0].low, octaves()[-1].high), "hz", ".4g"),
         remedy="The standard says nothing outside; judge such a frequency by other means.",
     )
 
@@ -103,7 +102,7 @@ def third_octaves() -> tuple[ThirdOctave, ...]:
     Sources: IEC 61260-1:2014 (centres 10^(n/10) Hz, edges a factor 10^(1/20) away), ISO 5349-1:2001, table A.2 (W_h).
 
     >>> band = third_octaves()[12]
-    >>> band.nominal, round(from_si(band.low, "hz"), 2), round(from_si(band.high, "hz"), 2)
+    >>> band.nominal, round(band.low / math.tau, 2), round(band.high / math.tau, 2)
     (100, 89.13, 112.2)
     """
     half = toml_table("octave_bands")["ratio"] ** (1 / 6)
@@ -124,11 +123,10 @@ def third_octaves() -> tuple[ThirdOctave, ...]:
 def hand_arm_response(s: Any) -> Any:
     """Response at `s`, for numbers and arrays alike.
 
-    >>> round(abs(hand_arm_response(1j * to_si(5800, "rpm"))), 4)
+    >>> round(abs(hand_arm_response(5800j * math.pi / 30)), 4)
     0.1658
     """
-    given = toml_table("hand_arm_weighting")["filter"]
-    bend, knee = to_si(given["f3"], "hz"), given["q2"]
+    bend, knee = _filter()["f3"], _filter()["q2"]
     return band_limits(s) * (s + bend) * bend / (s * s + bend * s / knee + bend**2)
 
 
@@ -137,16 +135,21 @@ def band_limits(s: Any) -> Any:
 
     Source: ISO 5349-1:2001, annex A.
     """
-    given = toml_table("hand_arm_weighting")["filter"]
-    high, band = to_si(given["f2"], "hz"), given["q1"]
+    high, band = _filter()["f2"], _filter()["q1"]
     return high_pass(s) * high**2 / (s * s + high * s / band + high**2)
 
 
 def high_pass(s: Any) -> Any:
     """The lower of the band limits alone, likewise."""
-    given = toml_table("hand_arm_weighting")["filter"]
-    low, band = to_si(given["f1"], "hz"), given["q1"]
+    low, band = _filter()["f1"], _filter()["q1"]
     return s * s / (s * s + low * s / band + low**2)
+
+
+@cache
+def _filter() -> dict[str, float]:
+    """Frequencies [rad/s] and qualities of the filter."""
+    given = toml_table("hand_arm_weighting")["filter"]
+    return {name: to_si(value, "hz") if name.startswith("f") else value for name, value in given.items()}
 
 
 def hand_arm_weight(frequency: float) -> float:
@@ -154,7 +157,7 @@ def hand_arm_weight(frequency: float) -> float:
 
     Range: 5.62 … 1413 Hz, the third octaves of the table, else RangeError. Source: ISO 5349-1:2001, annex A.
 
-    >>> round(hand_arm_weight(to_si(16, "hz")), 2)
+    >>> round(hand_arm_weight(16 * math.tau), 2)
     0.89
     """
     bands, half = third_octaves(), 10**0.05
@@ -162,8 +165,8 @@ def hand_arm_weight(frequency: float) -> float:
     if not low <= frequency <= high:
         raise RangeError(
             "W_h is not defined at this frequency",
-            found=f"{from_si(frequency, 'hz'):g} Hz",
-            allowed=f"{from_si(low, 'hz'):.4g} … {from_si(high, 'hz'):.4g} Hz",
+            found=shown(frequency, "hz", "g"),
+            allowed=shown((low, high), "hz", ".4g"),
             remedy="Give the acceleration without weighting.",
         )
     return float(abs(hand_arm_response(1j * frequency)))
@@ -235,8 +238,7 @@ def balance_grades() -> dict[str, float]:
 )
 def permissible_imbalance(grade: str, mass: float, speed: float) -> float:
     """
-    >>> from abu_calc.foundation.units import to_si
-    >>> round(1e6 * permissible_imbalance("G6.3", 2.0, to_si(10000, "rpm")), 2)
+    >>> round(1e6 * permissible_imbalance("G6.3", 2.0, 10000 * math.pi / 30), 2)
     12.03
     """
     grades, name = balance_grades(), grade_named(grade)

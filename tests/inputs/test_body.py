@@ -30,7 +30,7 @@ def test_hands_bring_their_own_numbers(tmp_path: Path) -> None:
 def test_a_range_holds_the_rated_speed_at_its_ends_too(tmp_path: Path) -> None:
     for written in ("[5800, 6000]", "[5000, 5800]", "[5000, 6000]"):
         text = BASIC.replace("speed_rpm = 5800", f"speed_rpm = 5800\nspeed_range_rpm = {written}")
-        assert list(machine(tmp_path, text).machine.speed_range) == document(f"a = {written}")["a"]
+        assert list(machine(tmp_path, text).machine.speeds_rpm) == document(f"a = {written}")["a"]
 
 
 def test_a_range_that_falls_or_misses_the_rated_speed_is_refused(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ def test_a_file_with_every_key_is_read(tmp_path: Path) -> None:
     assert loaded.defaults_used == ()
     assert loaded.warnings == ("autobalancer.ball_sizes plays no part beside the other keys.",)  # the ball is pinned
     assert isinstance(loaded.tables, MachineFile)
-    assert loaded.tables.machine.speed_range == (5800, 5800)
+    assert loaded.tables.machine.speeds_rpm == (5800, 5800)
     assert loaded.tables.wheel.measured_level_db == (110, 111)
     assert loaded.tables.bearing[0].housing_outer_mm == 60
 

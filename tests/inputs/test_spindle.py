@@ -16,7 +16,7 @@ def test_planes_and_imbalances_are_read() -> None:
     assert tables is not None
     assert [wheel.plane_mm for wheel in tables.wheel] == [260.0, -260.0]
     assert [race.plane_mm for race in tables.autobalancer] == [300.0, -300.0]
-    assert tables.machine.speed_range == (2850.0, 2850.0)
+    assert tables.machine.speeds_rpm == (2850.0, 2850.0)
 
 
 def test_a_machine_with_one_race_has_no_two() -> None:

@@ -320,7 +320,7 @@ def test_a_wheel_of_a_tilting_rotor_has_a_place(tmp_path: Path) -> None:
 def test_effects_are_on_by_their_tables() -> None:
     effects = Effects.model_validate({"motor": {}, "gravity": {}, "ball_contact": {"ball_radius_mm": 8.0}})
     assert effects.names == ("gravity", "ball_contact", "motor")
-    assert effects.ball_radii_mm == {"ball_contact": 8.0} and set(effects.rotor_inertias) == {"motor"}
+    assert effects.ball_radii == {"ball_contact": 0.008} and set(effects.rotor_inertias) == {"motor"}
     assert Effects().names == ()
 
 

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from abu_calc.foundation.units import to_si
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import followed, overrides, pins, speeds_from, two_digits, with_entries, words
 from tests.sizing.machines import check_of, machine
@@ -32,8 +33,8 @@ def test_a_pinned_candidate_is_the_only_choice() -> None:
 
 def test_the_lowest_speed_is_raised_with_the_rated_one_if_it_must() -> None:
     case = size(machine(machine__speed_range_rpm=[3000, 6000])).case
-    assert list(speeds_from(case, 4000)) == [{"machine.speed_range_rpm": [4000, 6000]}]
-    (both,) = speeds_from(case, 7000)
+    assert list(speeds_from(case, to_si(4000, "rpm"))) == [{"machine.speed_range_rpm": [4000, 6000]}]
+    (both,) = speeds_from(case, to_si(7000, "rpm"))
     assert both == {"machine.speed_rpm": 7000, "machine.speed_range_rpm": [7000, 7000]}
 
 

@@ -72,11 +72,7 @@ def pool_of(before: Judgement) -> Pool:
     balls = [pins(runner_up) for runner_up, _ in design.choice.runners_up if usable(case, runner_up)]
     damping = more_damping(design)
     boundaries = before.region.boundaries or ()
-    speeds = [
-        entries
-        for boundary in boundaries[-1:]
-        for entries in speeds_from(case, math.ceil(1.05 * boundary.speed * 30 / math.pi))
-    ]
+    speeds = [entries for boundary in boundaries[-1:] for entries in speeds_from(case, 1.05 * boundary.speed)]
 
     def pinned(changes: Iterable[Mapping[str, object]]) -> list[Entries]:
         return [overrides({**own, **entries}) for entries in changes]

@@ -16,7 +16,7 @@ from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.formulas.swing_arm import Arm, contact_gain, damping_limit, resonance
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.duty import GRIP, SwingArm
 from abu_calc.inputs.reading.table import entry, problem
@@ -129,7 +129,7 @@ class SwingArmSupport(Support):
             raise InputError(
                 "the disk is not pressed to the work",
                 place=Place(key="scene.swing_arm.pressing_moment_N_m"),
-                found=f"the arm rests at {from_si(angle, 'deg'):.4g}°",
+                found=f"the arm rests at {shown(angle, 'deg', '.4g')}",
                 allowed=f"at least touch_angle_deg, {own.touch_angle_deg:g}°",
                 remedy="a larger moment, or cutting = false",
             )

@@ -14,7 +14,7 @@ from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, 
 from abu_calc.features.balancing.tables import PLANES, ReadingsFile, Run, Trial
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+from abu_calc.foundation.units import shown, wrapped_deg
 
 WIDE_PULSE: Final = math.radians(1.0)
 UNSURE: Final = math.radians(0.5)
@@ -129,9 +129,9 @@ def _as_taken(
 def mass_of(file: ReadingsFile, trial: Trial) -> TrialMass:
     """A trial mass, or one that is fitted, in SI; its angle behind the mark."""
     plane = 0 if trial.plane is None else PLANES.index(trial.plane)
-    radius = file.radii_mm[plane] if trial.radius_mm is None else trial.radius_mm
+    radius = file.radii[plane] if trial.radius is None else trial.radius
     angle = behind_the_mark(file, trial.angle_deg)
-    return TrialMass(plane, trial.mass, to_si(radius, "mm"), angle)
+    return TrialMass(plane, trial.mass, radius, angle)
 
 
 def behind_the_mark(file: ReadingsFile, angle_deg: float) -> float:
@@ -191,7 +191,7 @@ def record_warnings(taken: RunReadings) -> list[str]:
     if abs(record.drift) > DRIFT:
         lines.append(
             f"{file}: the speed drifts by {100 * record.drift:+.1f} % over the record; the readings are those of its "
-            f"mean, {from_si(record.speed, 'rpm'):.1f} rpm."
+            f"mean, {shown(record.speed, 'rpm', '.1f')}."
         )
     for name, tone in (("left", record.left), ("right", record.right)):
         if abs(tone.change) > CHANGE:

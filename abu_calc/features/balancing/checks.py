@@ -12,7 +12,7 @@ from abu_calc.features.balancing.runs import ONE_SPEED
 from abu_calc.features.balancing.solution import BEYOND_ERRORS, Found, PlaneCorrection
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.checks import Check, coded, verdict
-from abu_calc.foundation.units import from_si, shown
+from abu_calc.foundation.units import shown
 
 CONDITION: Final = (10.0, 30.0)
 """Condition numbers: a warning from the first on, failed above the second."""
@@ -65,7 +65,7 @@ def _natural_frequencies(balancing: Found) -> Iterator[Check]:
     if balancing.farther is not None and grade != "pass":
         speed, rest = balancing.farther
         remedy = (
-            f"Measure at {from_si(speed, 'rpm'):.0f} rpm: the remaining vibration falls from "
+            f"Measure at {shown(speed, 'rpm', '.0f')}: the remaining vibration falls from "
             f"{100 * balancing.rest_share:.1f} to {100 * rest:.1f} % (calculated with the same errors)."
         )
     yield coded("ABU1002", grade,
@@ -99,7 +99,7 @@ def _rigid(balancing: Found) -> Iterator[Check]:
 
 
 def _rpm(speed: float) -> str:
-    return f"{from_si(speed, 'rpm'):.0f} rpm"
+    return shown(speed, "rpm", ".0f")
 
 
 def _sure(balancing: Found) -> Iterator[Check]:
@@ -141,15 +141,15 @@ def _permitted(balancing: Found) -> Iterator[Check]:
         if 2 * rest > permitted and balancing.below:
             remedy = "Measure with smaller errors: no correction can be trusted with these."
         elif 2 * rest > permitted and any(balancing.leftover):
-            left = from_si(sum(map(abs, balancing.leftover)), "g_mm")
-            remedy = f"Allow places and weights that leave less: limits and stock leave {left:.4g} g·mm (ABU1012)."
+            left = shown(sum(map(abs, balancing.leftover)), "g_mm", ".4g")
+            remedy = f"Allow places and weights that leave less: limits and stock leave {left} (ABU1012)."
         elif 2 * rest > permitted and balancing.error_share >= 1:
             remedy = LIGHTER
         elif 2 * rest > permitted:
-            after = from_si(rest * min(balancing.rest_share, 1.0), "g_mm")
+            falls = shown((rest, rest * min(balancing.rest_share, 1.0)), "g_mm", between=" to ")
             remedy = (
                 "Measure and correct once more after this correction: the imbalance falls from "
-                f"{from_si(rest, 'g_mm'):.3g} to {after:.3g} g·mm (calculated with the same errors)."
+                f"{falls} (calculated with the same errors)."
             )
         elif few:
             remedy = (
@@ -313,8 +313,8 @@ def balance_warnings(
     yield from _directions(balancing, planes)
     yield from _within_grade(balancing)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
-        rpm = from_si(balancing.service_speed, "rpm")
-        yield f"tolerance.service_speed_rpm is not given: the grade is judged at the speed of the runs, {rpm:.0f} rpm."
+        rpm = _rpm(balancing.service_speed)
+        yield f"tolerance.service_speed_rpm is not given: the grade is judged at the speed of the runs, {rpm}."
     yield from _rig_and_trials(balancing)
     if balancing.case.roll is None and balancing.bending_speed is None:
         yield "It is not known whether the roll bends at these speeds. Specify rotor.first_bending_speed_rpm."

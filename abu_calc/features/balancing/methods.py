@@ -31,7 +31,7 @@ from abu_calc.features.balancing.without_phase import amplitude_sets, solved_wit
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 
 Array = NDArray[np.complex128]
 Equation = tuple[float, Array, Array]
@@ -93,7 +93,7 @@ def lacking_at(case: Balancing, group: Sequence[int]) -> InputError | None:
     if full and apart[-1] > TELLS_APART * apart[0]:
         return None
     groups = len(case.speed_groups)
-    at = f" at {from_si(runs[0].speed, 'rpm'):.0f} rpm" if groups > 1 else ""
+    at = f" at {shown(runs[0].speed, 'rpm', '.0f')}" if groups > 1 else ""
     names = ("left", "right") if planes == 2 else ("single",)
     missing = [name for k, name in enumerate(names) if scale[k] == 0]
     found = f"{len(runs)} run{'s' * (len(runs) > 1)}{at}"
@@ -122,8 +122,8 @@ def _refuse_other_coefficients(case: Balancing, stored: Coefficients) -> None:
         if stored.at(run.speed) is None:
             raise InputError(
                 "no stored coefficients are of this speed", place=Place(key=f"run[{index}].speed_rpm"),
-                found=f"{from_si(run.speed, 'rpm'):.1f} rpm",
-                allowed=", ".join(f"{from_si(own, 'rpm'):.1f} rpm" for own in stored.speeds) + f" ± {ONE_SPEED:.0%}",
+                found=shown(run.speed, "rpm", ".1f"),
+                allowed=", ".join(shown(own, "rpm", ".1f") for own in stored.speeds) + f" ± {ONE_SPEED:.0%}",
                 remedy="run at a stored speed, or make trial runs at this one",
             )  # fmt: skip
         if not run.phases:
@@ -258,7 +258,7 @@ def said_of_resonance(case: Balancing) -> str:
     near = near_resonance(case)
     if near is None:
         return ""
-    return f" The speed is {100 * near[0]:.2g} % off the natural frequency of {from_si(near[1], 'hz'):.2f} Hz."
+    return f" The speed is {100 * near[0]:.2g} % off the natural frequency of {shown(near[1], 'hz', '.2f')}."
 
 
 def _solution(

@@ -19,7 +19,7 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import GRAVITY, from_si, to_si
+from abu_calc.foundation.units import GRAVITY, shown
 
 SAFE_SHARE: Final = 0.1
 """Largest centrifugal force of a trial mass over the load of a bearing at rest."""
@@ -90,8 +90,7 @@ def proposals(file: ReadingsFile, runs: Sequence[RunOnRig], matrix: Matrix | Non
     first = next((run for run in runs if not run.weights), runs[0])
     largest = max(abs(phasor) for phasor in first.motion)
     made = []
-    for plane, (name, load, radius_mm) in enumerate(zip(file.planes, loads, file.radii_mm, strict=True)):
-        radius = to_si(radius_mm, "mm")
+    for plane, (name, load, radius) in enumerate(zip(file.planes, loads, file.radii, strict=True)):
         safe = safe_trial_mass(load, radius, speed)
         gain = None if matrix is None else max(abs(row[plane]) for row in matrix)
         visible = VISIBLE_CHANGE * largest / (gain * radius) if gain else None
@@ -179,7 +178,7 @@ def _wanted_without_phase(case: Balancing) -> Iterator[WantedRun]:
 
 
 def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[str]:
-    rpm = f"{from_si(wanted.speed, 'rpm'):.0f} rpm"
+    rpm = shown(wanted.speed, "rpm", ".0f")
     if wanted.plane is None:
         yield f"Next run: {rpm}, without a trial mass."
         return
@@ -188,7 +187,7 @@ def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[st
     angle = wanted.angle if file.rotor.angle_marks == "against" else -wanted.angle % 360
     at = f"at {angle:.0f}°"
     if wanted.before is not None:
-        yield f"Next run: {rpm}, {name}the trial mass of {from_si(wanted.before.mass, 'g'):.3g} g {at}."
+        yield f"Next run: {rpm}, {name}the trial mass of {shown(wanted.before.mass, 'g')} {at}."
         return
     own = [run for run in case.runs if run.speed == wanted.speed]
     matrix = influence(case.roll, case.runs[0].speed) if case.roll else None
@@ -199,8 +198,8 @@ def _next(file: ReadingsFile, case: Balancing, wanted: WantedRun) -> Iterator[st
         return
     yield (
         f"Next run: {rpm}, {name}trial mass {proposed.mass_g:.3g} g {at}, radius "
-        f"{file.radii_mm[wanted.plane]:g} mm. Its centrifugal force is {proposed.force_percent:.2g} % of the bearing "
-        f"load (limit {100 * SAFE_SHARE:.0f} %)."
+        f"{shown(file.radii[wanted.plane], 'mm', 'g')}. Its centrifugal force is {proposed.force_percent:.2g} % of the "
+        f"bearing load (limit {100 * SAFE_SHARE:.0f} %)."
     )
     yield (
         "The mass is visible if an amplitude changes by 30 % or a phase by 30°. If the vibration rises much, stop and "

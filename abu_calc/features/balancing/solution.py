@@ -33,7 +33,6 @@ from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import to_si
 
 FARTHER: Final = 1.6
 """Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
@@ -174,7 +173,7 @@ def find(file: ReadingsFile, taken: Sequence[RunReadings], coefficients: Coeffic
     replaced = fitted if file.correction.answer == "total" else ()
     answer = _answer(case, method_of(case), sigma, replaced)
     service, making = file.tolerance.service_speed or max(run.speed for run in case.runs), making_of(file)
-    radii = tuple(to_si(radius, "mm") for radius in file.radii_mm)
+    radii = file.radii
     shares: list[tuple[Share, ...]] = [
         () if answer.below else _shares(file, making, plane, Q, radii[plane]) for plane, Q in enumerate(answer.target)
     ]

@@ -128,11 +128,11 @@ class ReadingsFile(Table):
         return PLANES if self.single_plane is None else ("single",)
 
     @property
-    def radii_mm(self) -> tuple[float, ...]:
-        """Correction radius of each plane."""
+    def radii(self) -> tuple[float, ...]:
+        """Correction radius [m] of each plane."""
         if self.single_plane is not None:
-            return (self.single_plane.correction_radius_mm,)
-        return self.rotor.left_correction_radius_mm or 0.0, self.rotor.right_correction_radius_mm or 0.0
+            return (self.single_plane.correction_radius,)
+        return self.rotor.left_correction_radius or 0.0, self.rotor.right_correction_radius or 0.0
 
     @property
     def places_deg(self) -> tuple[tuple[float, ...] | None, ...]:

@@ -6,7 +6,7 @@ from typing import Final
 from abu_calc.features.declare.records import WithAutobalancer
 from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle
 from abu_calc.formulas.shaken_friction import friction_number
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import body_advice
 from abu_calc.sizing.type_test import required
@@ -60,8 +60,8 @@ def beyond_capacity(design: Design, wheel: TestWheel, even: float | None) -> Ite
     need = required(case, candidate, wheel.imbalance, even)
     if need > candidate.capacity:
         yield (
-            f"At the break-even eccentricity the test wheel would require {from_si(need, 'g_mm'):.3g} g·mm, and the "
-            f"balls carry {from_si(candidate.capacity, 'g_mm'):.3g} g·mm: such a race needs larger balls."
+            f"At the break-even eccentricity the test wheel would require {shown(need, 'g_mm')}, and the "
+            f"balls carry {shown(candidate.capacity, 'g_mm')}: such a race needs larger balls."
         )
 
 

@@ -13,7 +13,7 @@ from itertools import count, cycle, product
 from typing import Annotated, Any, Final
 
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.simulation.scene_of_design import Start
 from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Axis, Member, Variation, usual_run_up
@@ -96,12 +96,14 @@ def band(design: Any) -> tuple[BandRow, ...]:
     case, abu, usual = design.case, design.case.autobalancer, dict[str, Factors]()
     promised = {f"{race}.race_eccentricity_mm": (0.0, abu.race_eccentricity_mm) for race in case.race_keys}
     for wheel, imbalance in zip(case.wheel_keys, design.imbalances, strict=True):
-        promised[f"{wheel}.imbalance_g_mm"] = _times((NEW_WHEEL, 1.0), from_si(imbalance, "g_mm"))
+        key, new = in_file(f"{wheel}.imbalance_g_mm", imbalance)
+        promised[key] = _times((NEW_WHEEL, 1.0), new)
     for race, drag in zip(case.race_keys, case.drags, strict=True):
         oils = [share * drag for share in case.drag_shares]
         usual[f"{race}.rolling_drag_per_s"] = min(oils), max(oils)
         usual[f"{race}.rolling_friction_mm"] = _times(friction_factors(design), abu.rolling_friction_mm)
-    usual |= _usual_of_one(design) if len(case.drags) == 1 else {SPEED_KEY: _times(SPEED, from_si(case.speed, "rpm"))}
+    key, speed = in_file(SPEED_KEY, case.speed)
+    usual |= _usual_of_one(design) if len(case.drags) == 1 else {key: _times(SPEED, speed)}
     rows = [(key, ends, True) for key, ends in promised.items()] + [(key, ends, False) for key, ends in usual.items()]
     return tuple(BandRow(key=key, low=low, high=high, promised=kept) for key, (low, high), kept in rows)
 
@@ -118,7 +120,8 @@ def _usual_of_one(design: Design) -> dict[str, Factors]:
     if (most := identified(design, "race_eccentricity_mm", (1.0, 1.0))[1]) > 1:
         usual["autobalancer.race_eccentricity_mm"] = 0.0, most * abu.race_eccentricity_mm
     if measured(design):
-        usual["wheel.imbalance_g_mm"] = _times((1.0, abu.capacity_margin), from_si(design.imbalance.value, "g_mm"))
+        key, imbalance = in_file("wheel.imbalance_g_mm", design.imbalance.value)
+        usual[key] = _times((1.0, abu.capacity_margin), imbalance)
     if (given := table.suspension.frequencies) is not None:
         usual["suspension.natural_frequencies_hz"] = (
             NATURAL_FREQUENCY[0] * min(given),

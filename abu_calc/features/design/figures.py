@@ -12,10 +12,11 @@ from abu_calc.features.design.step_numbers import explanation_blocks
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.summary import size_summary
 from abu_calc.features.design.tables import balls
+from abu_calc.features.design.verdict import mm_per_s
 from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.checks import first_of
 from abu_calc.foundation.quantity import quantities
-from abu_calc.foundation.units import from_si, velocity_from_level
+from abu_calc.foundation.units import from_si
 from abu_calc.reporting.blocks import capitalised, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
 from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, Shown, caught, level, settling
@@ -97,11 +98,11 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     )]  # fmt: skip
     if (measured := result.measured_after) is not None:
         rows.append((f"{measured.place}, with: measured", measured.measured_level_db, 3))
-    known = [Bar(name, _mm_per_s(level), db(level), series) for name, level, series in rows if level is not None]
+    known = [Bar(name, mm_per_s(level), db(level), series) for name, level, series in rows if level is not None]
     if not known:
         return
     bound = _limit(result, "idle_level")
-    limit = (_mm_per_s(bound[0]), bound[1]) if bound else None
+    limit = (mm_per_s(bound[0]), bound[1]) if bound else None
     most = max(*(bar.value for bar in known), limit[0] if limit else 0.0)
     axis = Axis("velocity, rms, idle [mm/s]", 0.0, 1.05 * most)
     text = "; ".join(f"{bar.name} {bar.text}" for bar in known) + (f"; {limit[1]}" if limit else "")
@@ -110,10 +111,6 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     caption += f" The expected bar{where} should end left of the dashed limit." if limit else ""
     chart = Bars("Vibration without and with the autobalancer", text, axis, known, limit)
     yield Figure("levels", SUMMARY, chart, caption)
-
-
-def _mm_per_s(level: float) -> float:
-    return from_si(velocity_from_level(level), "mm_per_s")
 
 
 def _over_speed(result: SizeResult) -> Iterator[Figure]:

@@ -16,7 +16,6 @@ from abu_calc.formulas.body_estimate import estimate_source
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
-from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.vibration_records import HandleLevels
 from abu_calc.sizing.balls import Candidate
@@ -30,6 +29,7 @@ from abu_calc.sizing.manufacture.cover import seat_name
 from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.parts.housing_parts import TurnedPart
+from abu_calc.sizing.parts.profile import drawn
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import IdleSpeedLevels, LevelsUnderLoad, SpeedLevel, SpeedLevels, idle_vibration
@@ -408,10 +408,7 @@ class SectionPart(Record):
             material=part.material,
             mass=part.mass,
             section_area_mm2=1e6 * part.area,
-            outline_mm=tuple(
-                (round(from_si(edge.start.z, "mm"), 9), round(from_si(edge.start.r, "mm"), 9), edge.bulge)
-                for edge in part.profile
-            ),
+            outline_mm=tuple((drawn(edge.start.z), drawn(edge.start.r), edge.bulge) for edge in part.profile),
         )
 
 

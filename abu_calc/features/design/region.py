@@ -4,7 +4,6 @@
 counts the start cases at whose end dry friction holds every ball at rest in its race.
 """
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Annotated, Final
@@ -25,7 +24,7 @@ from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
 from abu_calc.simulation.scene_of_design import idle_scene
 from abu_calc.simulation.start_cases import Member, members
@@ -256,7 +255,7 @@ def steadier(design: Design, boundaries: Sequence[StabilityBoundary]) -> dict[st
     case, (low, high) = design.case, design.case.speed_range
     tried = list[dict[str, object]]()
     if boundaries and boundaries[-1].stable_above and low < boundaries[-1].speed < high:
-        tried += speeds_from(case, math.ceil(ABOVE * from_si(boundaries[-1].speed, "rpm")))
+        tried += speeds_from(case, ABOVE * boundaries[-1].speed)
     tried += (entries for entries, _ in usual_oils(case, design.autobalancer))
     tried += filter(None, [more_damping(design)])
     return next((entries for entries in tried if _steady(design, entries)), None)
@@ -276,7 +275,7 @@ def _stable_over(design: Design, low: float, high: float) -> bool:
 
 
 def _rpm(speed: float) -> str:
-    return f"{from_si(speed, 'rpm'):.6g} rpm"
+    return shown(speed, "rpm", ".6g")
 
 
 def _modes(scene: Scene) -> tuple[Mode, ...]:

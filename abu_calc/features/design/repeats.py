@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file, turned_deg
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.start_cases import Member, Variation, ball_speed_rpm
 from abu_calc.sizing.actions import set_options
@@ -16,13 +16,12 @@ from abu_calc.sizing.design import Design
 def repeated(outcome: StartOutcome, design: Design) -> str:
     """The options of `abu simulate` that repeat a start of a design, which they pin."""
     member, balls = outcome.member, design.autobalancer
-    entries = {
-        "autobalancer.ball_count": f"{balls.ball_count}",
-        "autobalancer.ball_diameter_mm": f"{from_si(balls.ball_diameter, 'mm'):.10g}",
-        **dict(_other_values(member, design)),
+    entries: dict[str, object] = {
+        "autobalancer.ball_count": balls.ball_count,
+        **dict((in_file("autobalancer.ball_diameter_mm", balls.ball_diameter), *_other_values(member, design))),
     }
     if member.run_up and not member.by_motor:
-        entries["run_up.time_s"] = f"{member.run_up:.10g}"
+        entries["run_up.time_s"] = member.run_up
     if member.angles:
         entries |= places(member.angles)
         if member.lag:
@@ -33,7 +32,7 @@ def repeated(outcome: StartOutcome, design: Design) -> str:
 
 def places(angles: Iterable[float]) -> dict[str, str]:
     """The entry that places the balls at these angles [rad]."""
-    degrees = ", ".join(f"{from_si(angle, 'deg') % 360:.4f}" for angle in angles)
+    degrees = ", ".join(f"{turned_deg(angle):.4f}" for angle in angles)
     return {"start.angles_deg": f"[{degrees}]"}
 
 
@@ -43,7 +42,7 @@ def as_options(outcome: StartOutcome, entries: Mapping[str, object]) -> str:
     return f"{lasts}--race-centre {outcome.member.race_centre_deg:.10g} {set_options(entries)}"
 
 
-def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
+def _other_values(member: Member, design: Design) -> Iterator[tuple[str, object]]:
     """Entries of what a start has otherwise than the file, with race and imbalance as they are.
 
     A motor runs up to its idle speed, whatever is rated.
@@ -51,17 +50,16 @@ def _other_values(member: Member, design: Design) -> Iterator[tuple[str, str]]:
     case, varied = design.case, member.varied
     at_speed = member.speed is not None and case.table.motor is None
     if at_speed:
-        yield "machine.speed_rpm", f"{from_si(member.speed or 0.0, 'rpm'):.10g}"
+        yield in_file("machine.speed_rpm", member.speed or 0.0)
     if at_speed or varied != Variation():
-        yield "autobalancer.race_radius_mm", f"{from_si(design.autobalancer.race_radius, 'mm'):.10g}"
-        yield "wheel.imbalance_g_mm", f"{varied.imbalance * from_si(design.imbalance.value, 'g_mm'):.10g}"
+        yield in_file("autobalancer.race_radius_mm", design.autobalancer.race_radius)
+        yield in_file("wheel.imbalance_g_mm", varied.imbalance * design.imbalance.value)
     if member.drag != case.drag:
-        yield "autobalancer.rolling_drag_per_s", f"{member.drag:.10g}"
+        yield in_file("autobalancer.rolling_drag_per_s", member.drag)
     if varied.race_eccentricity != 1:
-        eccentricity = varied.race_eccentricity * case.race_eccentricity
-        yield "autobalancer.race_eccentricity_mm", f"{from_si(eccentricity, 'mm'):.10g}"
+        yield in_file("autobalancer.race_eccentricity_mm", varied.race_eccentricity * case.race_eccentricity)
     if varied.friction_arm != 1:
-        yield "autobalancer.rolling_friction_mm", f"{from_si(varied.friction_arm * case.friction_arm, 'mm'):.10g}"
+        yield in_file("autobalancer.rolling_friction_mm", varied.friction_arm * case.friction_arm)
     if varied.spindle_axis is not None:
         yield "machine.spindle_axis", varied.spindle_axis
     given = case.table.suspension.frequencies

@@ -18,7 +18,7 @@ from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, turned_deg
 from abu_calc.simulation.ensemble import TIGHTER, WORK, first_tolerance, run_of_start
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.records import finite
@@ -101,7 +101,7 @@ def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterato
                         start=outcome.member.name,
                         drag_per_s=outcome.member.drag,
                         race_centre_deg=outcome.member.race_centre_deg,
-                        angles_deg=tuple(from_si(angle, "deg") % 360 for angle in outcome.member.angles),
+                        angles_deg=tuple(map(turned_deg, outcome.member.angles)),
                         quiet_time_s=outcome.quiet_time,
                         level_db=outcome.level,
                         balanced=outcome.balanced,

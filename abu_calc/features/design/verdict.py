@@ -115,6 +115,11 @@ def _following(checks: Sequence[Check], grade: Grade) -> list[str]:
     return [f"With that, {failing} fail{'s' * (len(names) == 1)}."]
 
 
+def mm_per_s(level: float) -> float:
+    """Rms velocity [mm/s] of a level [dB]."""
+    return from_si(velocity_from_level(level), "mm_per_s")
+
+
 def benefit(place: str, before: float | None, after: float | None, limit: float, quiet: float | None) -> str:
     """What the autobalancer does to the level [dB] at a place, and after how long [s], in a sentence; none if either is
     not known.
@@ -123,7 +128,7 @@ def benefit(place: str, before: float | None, after: float | None, limit: float,
         return ""
     moves = "falls" if after < before else "rises"
     little = f" by {before - after:.1f} dB only," if 0 <= before - after < LEAST_BENEFIT else ""
-    low, high = (number(from_si(velocity_from_level(level), "mm_per_s"), 2) for level in (after, before))
+    low, high = (number(mm_per_s(level), 2) for level in (after, before))
     text = f"Vibration at the {place} {moves}{little} from {before:.1f} to {after:.1f} dB ({high} to {low} mm/s)"
     late = "" if quiet is None else f"; quiet after {quiet:.2f} s at the latest"
     return f"{text}, limit {limit:g}{late}."

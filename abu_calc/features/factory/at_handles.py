@@ -12,15 +12,14 @@ from abu_calc.formulas.body_estimate import Layout, PlacedBody, estimated_body
 from abu_calc.formulas.body_motion import BodyMotion, HandsOnHandles
 from abu_calc.formulas.rigid_body import Vector
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.standards.vibration import hand
 
 Span = tuple[float, float]
 LEAST: Final = 1e-9
 """Ratio that stands for no motion."""
-SLOW: Final = to_si(3000, "rpm")
-"""Below this speed the hands change the levels at handles [rad/s]; above it the body is free."""
+SLOW: Final = 100 * math.pi
+"""Below this speed [rad/s], 3000 rpm, the hands change the levels at handles; above it the body is free."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.quantity import as_plain
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.read_machine import Machine, read_document
 from abu_calc.inputs.reading.document import Document, FileReading, open_document
 from abu_calc.inputs.reading.kinds import KINDS
@@ -91,10 +91,10 @@ def stored_coefficients(document: Document, overrides: Sequence[str]) -> "Stored
 
 
 def _named(stored: "Stored") -> str:
-    speeds = ", ".join(f"{from_si(speed, 'rpm'):.0f}" for speed in stored.values.speeds)
+    speeds = shown(stored.values.speeds, "rpm", ".0f", ", ")
     return (
         f"Influence coefficients of {stored.rotor}: {many(len(stored.planes), 'plane')}, "
-        f"{many(len(stored.sensors), 'sensor')}, {speeds} rpm. Use: `abu balance READINGS --coefficients FILE`."
+        f"{many(len(stored.sensors), 'sensor')}, {speeds}. Use: `abu balance READINGS --coefficients FILE`."
     )
 
 

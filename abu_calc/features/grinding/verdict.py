@@ -7,7 +7,7 @@ from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.steady_contact import RestingBalls
 from abu_calc.features.grinding.work import LOUDER, Side, TriedRemedy, Work
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.reporting.blocks import capitalised
 
 
@@ -131,8 +131,9 @@ def _helps(work: Work) -> str:
 
 
 def _capacity(work: Work, balls: RestingBalls) -> str:
-    carried, needed = (from_si(each, "g_mm") for each in (work.design.autobalancer.capacity, abs(balls.needed)))
-    return f"capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires"
+    capacities = work.design.autobalancer.capacity, abs(balls.needed)
+    carried, needed = (shown(each, "g_mm", ".0f") for each in capacities)
+    return f"capacity is {carried} of the {needed} that the workpiece requires"
 
 
 def _worse(work: Work) -> str:
@@ -178,7 +179,7 @@ NO_METHOD = "no method of calculation is valid"
 
 
 def _um(length: float) -> str:
-    return f"{from_si(length, 'um'):.3g} µm"
+    return shown(length, "um")
 
 
 def _plain(stiffness: float) -> str:

@@ -23,7 +23,7 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file
 from abu_calc.simulation.design_scenes import WORK, SceneFailure, SceneRun
 from abu_calc.simulation.scene_of_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
@@ -269,7 +269,7 @@ def _sized(design: Design, what: What, value: float) -> Design:
     """Size the design again with the change in its file."""
     table = design.case.table
     if what == "runout":
-        runout = {"runout_mm": from_si(value, "mm"), "runout_tir_mm": None}
+        runout = dict((in_file("runout_mm", value), ("runout_tir_mm", None)))
         return size(table.model_copy(update={"wheel": table.wheel.model_copy(update=runout)}))
     key = "press_force_N" if what == "press_force" else "contact_stiffness_N_per_m"
     grinding = table.grinding.model_copy(update={key: value}) if table.grinding else None

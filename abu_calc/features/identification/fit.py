@@ -27,7 +27,7 @@ from abu_calc.formulas.shaken_friction import friction_number
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, within
-from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+from abu_calc.foundation.units import from_si, wrapped_deg
 
 MANY, FEW = 2048, 1024
 """Starts of the first bank and of the last one, and of each between."""
@@ -295,5 +295,5 @@ def _offset(estimate: Estimate, phase_error: float, mark_angle: float) -> tuple[
     size, half = math.hypot(x, y), estimate.offset_error
     spread = from_si(math.asin(min(1.0, half / size)) + phase_error, "deg")
     length = IdentifiedValue(value=size * 1e-3, low=(size - half) * 1e-3, high=(size + half) * 1e-3)
-    angle = wrapped_deg(math.atan2(y, x) - to_si(mark_angle, "deg"))
+    angle = wrapped_deg(math.atan2(y, x) - mark_angle)
     return length, IdentifiedValue(value=angle, low=angle - spread, high=angle + spread)

@@ -43,7 +43,7 @@ from abu_calc.features.identification.tracks import (
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import shown, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.records import SceneModel
@@ -79,7 +79,7 @@ def identify(
     """
     if run_up_s is not None:
         RUN_UP.check(run_up_s)
-    ANGLE.check(mark_angle_deg)
+    mark_angle = to_si(ANGLE.check(mark_angle_deg), "deg")
     if not recordings:
         raise InputError("no recordings", place=Place(key="RECORDING"), remedy="Name the CSV files of the starts.")
     subject, starts = machine_subject(source), [recorded(file) for file in recordings]
@@ -88,10 +88,10 @@ def identify(
     with subject.located():
         scene = as_long(known_scene(subject.scene, run_up_s), starts)
     film = None if bench is None else bench_values(bench, scene)
-    measured = _measured(scene, starts, without, mark_angle_deg)
+    measured = _measured(scene, starts, without, mark_angle)
     _refuse_twins(starts)
     estimate = estimated(scene, measured, progress) if len(recordings) >= FEWEST else None
-    return _result(subject, scene, measured, estimate, mark_angle_deg, film)
+    return _result(subject, scene, measured, estimate, mark_angle, film)
 
 
 def machine_subject(source: Source) -> Subject:
@@ -193,7 +193,7 @@ def _measured(scene: Scene, signals: Sequence[Signal], without: str | None, mark
         )
     starts = [recorded_start(signal, scene, centres) for signal in signals]
     _refuse_other_sizes(starts, abs(without_balls(scene)))
-    turn = np.exp(1j * to_si(mark_angle, "deg"))
+    turn = np.exp(1j * mark_angle)
     tracks = [np.asarray(start.track * turn) for start in starts]
     background = None
     if without is not None:
@@ -282,8 +282,8 @@ def _toml(starts: int, values: ExpectedValues) -> str | None:
 def _assumed(scene: Scene, measured: Measured) -> Iterator[str]:
     """What the values rest on."""
     yield (
-        f"Speed {from_si(scene.speed, 'rpm'):.0f} rpm, run-up {scene.full_speed:.3g} s, imbalance "
-        f"{from_si(scene.imbalance, 'g_mm'):.4g} g·mm, masses and springs are those of the file."
+        f"Speed {shown(scene.speed, 'rpm', '.0f')}, run-up {scene.full_speed:.3g} s, imbalance "
+        f"{shown(scene.imbalance, 'g_mm', '.4g')}, masses and springs are those of the file."
     )
     yield "A wrong run-up time or imbalance moves the values: half the run-up may double the drag rate."
     if not measured.reading.marked:

@@ -16,7 +16,7 @@ from abu_calc.features.balancing.formulas import ORDERS
 from abu_calc.features.balancing.recording.tachometer import passages
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.recording_columns import MotionQuantity
 from abu_calc.inputs.recording_files import read_recording
 from abu_calc.inputs.recording_table import decoded, table_of
@@ -131,8 +131,8 @@ def recorded_start(signal: Signal, scene: Scene, centres: Array) -> RecordedStar
         raise InputError(
             "another speed than the file's",
             place=place,
-            found=f"{from_si(speed, 'rpm'):.0f} rpm",
-            allowed=f"{from_si(scene.speed, 'rpm'):.0f} rpm within {OFF_SPEED:.0%}",
+            found=shown(speed, "rpm", ".0f"),
+            allowed=f"{shown(scene.speed, 'rpm', '.0f')} within {OFF_SPEED:.0%}",
             remedy="Correct the speed of the file, or record at its speed.",
         )
     order = ORDERS[signal.quantity]

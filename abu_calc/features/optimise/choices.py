@@ -17,7 +17,6 @@ from abu_calc.features.optimise.costs import (
     cost_of,
 )
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.oil import Grade
 from abu_calc.inputs.read_machine import Machine
@@ -25,6 +24,7 @@ from abu_calc.inputs.variation import NOT_OF_THE_MACHINE, Variation, path_of, wa
 from abu_calc.sizing.balls import Candidate, candidates, sound
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.imbalance import find_imbalance
+from abu_calc.standards.tables import millimetres
 
 MOST_ASSIGNMENTS: Final = 5000
 """Combinations of values of one machine."""
@@ -179,5 +179,5 @@ def _pair_of(chosen: Candidate) -> Assignment:
 
 def sized_values(chosen: Candidate) -> dict[str, Any]:
     """Number, diameter [mm] and race radius [mm] of a sized autobalancer, as a file holds them."""
-    diameter, radius = from_si(chosen.ball_diameter, "mm"), from_si(chosen.race_radius, "mm")
-    return {COUNT: chosen.ball_count, DIAMETER: round(diameter, 6), RADIUS: round(radius, 6)}
+    diameter, radius = millimetres(chosen.ball_diameter), millimetres(chosen.race_radius)
+    return {COUNT: chosen.ball_count, DIAMETER: diameter, RADIUS: radius}

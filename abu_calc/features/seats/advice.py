@@ -16,7 +16,7 @@ from abu_calc.features.seats.joint import LOOSE_ENOUGH, Joint
 from abu_calc.features.seats.joints import makers_classes
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.quantity import Quantity, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.standards.internal_clearance import groups_of, internal_clearance, usual_group
 from abu_calc.standards.tolerance_classes import MakerFits, Seat, tolerance_classes
 
@@ -144,23 +144,19 @@ def _why_not(joint: Joint, start: Start) -> str | None:
     if joint.pinched:
         return "the halves of the split housing pinch the ring"
     if joint.grip == "fail" and joint.required is not None and joint.short is not None:
-        needed, mean = from_si(joint.required.value, "um"), from_si(joint.mean, "um")
-        short = of_all(joint.short)
-        return f"the ring creeps: mean interference {mean:.3g} µm of {needed:.3g} µm required, {short} have less"
+        mean, needed = shown(joint.mean, "um"), shown(joint.required.value, "um")
+        return f"the ring creeps: mean interference {mean} of {needed} required, {of_all(joint.short)} have less"
     if joint.short_grade == "fail" and joint.short_pairs is not None and joint.demand is not None:
-        demand = from_si(joint.demand.value, "um")
-        return f"{of_all(joint.short_pairs)} have less than the {demand:.3g} µm demanded"
+        return f"{of_all(joint.short_pairs)} have less than the {shown(joint.demand.value, 'um')} demanded"
     if joint.stress == "fail":
-        limit = from_si(joint.stress_limit.value, "um")
-        return (
-            f"largest interference {from_si(joint.tightest, 'um'):.3g} µm, {limit:.3g} µm permitted by "
-            f"{joint.stress_limit.by}"
-        )
+        limit = shown(joint.stress_limit.value, "um")
+        return f"largest interference {shown(joint.tightest, 'um')}, {limit} permitted by {joint.stress_limit.by}"
     if holds_at_start(joint, *start) is False:
         return "the ring slips under the starting torque"
     if joint.runs_on_needles:
-        clearance = from_si(-joint.interference.largest, "um")
-        return None if clearance >= 0 else f"the needles may run without clearance: {clearance:.3g} µm at the tightest"
+        tight = shown(-joint.interference.largest, "um")
+        least = f"the needles may run without clearance: {tight} at the tightest"
+        return None if joint.interference.largest <= 0 else least
     if not joint.must_grip and joint.clearance_probability < LOOSE_ENOUGH:
         return f"the ring can hardly move: {of_all(joint.clearance_probability)} have clearance"
     return None

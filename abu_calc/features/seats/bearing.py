@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Final
 from abu_calc.features.seats.equivalent_load import equivalent_dynamic, equivalent_static, load_factors
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.bearing_catalogue import Series
 from abu_calc.standards.catalogue import CatalogueBearing, Kind, Ratings
@@ -161,6 +161,6 @@ def _ascending(small: str, low: float, large: str, high: float) -> None:
     if not 0 <= low < high:
         raise InputError(
             f"{large} must be above {small}",
-            found=f"{large} {from_si(high, 'mm'):g} mm, {small} {from_si(low, 'mm'):g} mm",
+            found=f"{large} {shown(high, 'mm', 'g')}, {small} {shown(low, 'mm', 'g')}",
             remedy="Correct the one or the other.",
         )

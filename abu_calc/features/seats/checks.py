@@ -106,10 +106,11 @@ def life_finding(
 
 
 def _basic(bearing: SeatedBearing, life: RatingLife) -> Check:
-    P, C = from_si(life.dynamic_load or 0.0, "kN"), from_si(bearing.ratings.dynamic if bearing.ratings else 0.0, "kN")
+    P, C = life.dynamic_load or 0.0, bearing.ratings.dynamic if bearing.ratings else 0.0
     heavy = ". P is above C/2, where ISO 281 does not hold: the life is shorter" if 2 * P > C else ""
     guide = "" if bearing.service.required_life is not None else ". The limit is the makers' guide for hand-held tools"
-    message = f"90 of 100 bearings reach it under P = {P:.3g} kN, C = {C:.3g} kN{_axial_remark(bearing)}{heavy}{guide}"
+    ratio = f"P = {shown(P, 'kN')}, C = {shown(C, 'kN')}"
+    message = f"90 of 100 bearings reach it under {ratio}{_axial_remark(bearing)}{heavy}{guide}"
     return coded("ABU632", *life_finding(bearing, life.basic or 0.0, message), of=bearing.name)
 
 
@@ -270,7 +271,7 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
         return coded(code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
             "known", smallest, remedy=f"Specify {key}.", of=bearing.name, bound="most",
         )  # fmt: skip
-    normal = f" of {from_si(joint.radial_load or 0.0, 'kN'):.3g} kN (normal, assumed)" if joint.load_assumed else ""
+    normal = f" of {shown(joint.radial_load or 0.0, 'kN')} (normal, assumed)" if joint.load_assumed else ""
     limit = f"the interference required under {ARTICLE[joint.ring.load]} load{normal} by {required.by}{_losses(joint)}"
     mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
@@ -360,7 +361,7 @@ def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     grade, limit = joint.stress, joint.stress_limit if joint.stress == "fail" else joint.permitted
     warm = " when warm" if joint.tightest > joint.interference.largest else ""
     remark = ". The halves of a split housing pinch a ring in a class tighter than J7" if joint.pinched else ""
-    stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
+    stresses = [shown(stress, "MPa", ".0f") for stress in (joint.hoop_stress, joint.part_stress)]
     return coded(_CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
         f"largest interference of {joint.class_text}{warm} against the limit by {limit.by}. Hoop stress of the "
         f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}",

@@ -10,9 +10,9 @@ from abu_calc.features.seats.interference import Interval, SeatRecord
 from abu_calc.features.seats.joint import Joint
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import to_si
 from abu_calc.standards.bearing_catalogue import next_size
-from abu_calc.standards.tables import toml_table
+from abu_calc.standards.tables import millimetres, toml_table
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits, tolerance_classes
 
 SMALL_SEAT = 0.080
@@ -89,18 +89,18 @@ class DrawnForm(SeatRecord):
 )
 def seat_form(joint: Joint, tolerance_class: str, bearing_class: str) -> DrawnForm:
     table = toml_table("seat_form")
-    size = round(from_si(joint.diameter, "mm"), 6)
+    size = millimetres(joint.diameter)
     bearing_class = _WIDTH_ALONE.get(bearing_class, bearing_class)
-    grade = to_si(_row(table["it"]["rows"], size)[table["grade"][bearing_class] - 2], "um")
+    grade = _row(table["it"]["rows"], size)[table["grade"][bearing_class] - 2]
     smooth = _row(table["roughness"]["rows"], size)
     own = int(tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ") or 6)
-    ra = to_si(smooth[min(max(7 - own, 0), 2)], "um")
+    ra = smooth[min(max(7 - own, 0), 2)]
     return DrawnForm(cylindricity=grade / 2, shoulder_runout=grade, roughness_Ra=ra, source=table["source"])
 
 
 def _row(rows: Sequence[Sequence[float]], size: float) -> Sequence[float]:
-    """Figures of the first row whose upper end holds a size [mm]."""
-    return next(row[1:] for row in rows if size <= row[0])
+    """Figures [m] of the first row whose upper end holds a size [mm]."""
+    return next([to_si(figure, "um") for figure in row[1:]] for row in rows if size <= row[0])
 
 
 @record

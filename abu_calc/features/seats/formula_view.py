@@ -55,7 +55,7 @@ def _load(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str, 
     intensity = None if seat.needs_no_grip else seat.load_intensity_kN_per_m
     if joint.radial_load is None or joint.length is None or intensity is None:
         return ()
-    load, length = _g(from_si(joint.radial_load, "kN")), _g(from_si(joint.length, "mm"))
+    load, length = _g(joint.radial_load, "kN"), _mm(joint.length)
     source, catalogue = (_g(loss.amount_um) for loss in seat.losses if loss.name == "load")
     factors = "·".join(map(_g, intensity_factors(bearing, joint)))
     under = f"{_mm(joint.diameter)}·{_g(joint.radial_load)}/{_mm(joint.ring.width)}"
@@ -71,7 +71,7 @@ def _losses(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str
     numbers = {
         "smoothing": f"0.4·{_g(um(part.roughness or 0.0))} µm",
         TEMPERATURE: f"{_mm(joint.diameter)} mm·({_warm(bearing, joint)})",
-        CENTRIFUGAL: f"Ω = {_g(from_si(bearing.service.speed or 0.0, 'rpm'))} rpm, d = {_mm(bore)}, d₁ = "
+        CENTRIFUGAL: f"Ω = {_g(bearing.service.speed or 0.0, 'rpm')} rpm, d = {_mm(bore)}, d₁ = "
         f"{_mm(inner_ring_diameter(bore, bearing.outer.diameter))}, d₀ = {_mm(bearing.shaft.other or 0.0)} mm",
     }
     lines = tuple(
@@ -93,9 +93,9 @@ def _warm(bearing: SeatedBearing, joint: Joint) -> str:
 
 
 def _stress(joint: Joint, seat: SeatResult) -> str:
-    pressure = from_si(joint.pressure_rate * max(joint.tightest, 0.0), "MPa")
+    pressure = _g(joint.pressure_rate * max(joint.tightest, 0.0), "MPa")
     return (
-        f"Lamé at {_g(seat.tightest_um)} µm: p = {_g(pressure)} "
+        f"Lamé at {_g(seat.tightest_um)} µm: p = {pressure} "
         f"MPa, hoop stress of the ring {_g(seat.hoop_stress_MPa)} MPa; permitted "
         f"{_g(seat.permitted_interference_um)} µm by {seat.permitted_by}"
     )
@@ -131,18 +131,18 @@ def _life(bearing: BearingSeats, seat: SeatResult) -> tuple[str, ...]:
     C, P = seat.dynamic_load_rating_kN or 0.0, seat.equivalent_load_kN
     lines = [f"C0/P0 = {_g(seat.static_load_rating_kN or 0.0)}/{_g(seat.static_load_kN)} = {_g(life.static_safety)}"]
     if seat.basic_rating_life_h is not None and service.speed and bearing.bearing.kind is not None:
-        turns, power = _g(from_si(service.speed, "rpm")), _g(exponent(bearing.bearing.kind))
+        turns, power = _g(service.speed, "rpm"), _g(exponent(bearing.bearing.kind))
         lines.append(f"10⁶/(60·{turns})·({_g(C)}/{_g(P)})^{power} = {_g(seat.basic_rating_life_h)} h")
     modified, viscosity = seat.modified_rating_life_h, service.lubricant_viscosity
     if life.kappa is not None and life.a_iso is not None and viscosity is not None and modified is not None:
-        given = from_si(viscosity, "mm2_per_s")
-        ratio = f"{_g(given)}/{_g(given / life.kappa)} = {_g(life.kappa)}"
+        needed = _g(viscosity / life.kappa, "mm2_per_s")
+        ratio = f"{_g(viscosity, 'mm2_per_s')}/{needed} = {_g(life.kappa)}"
         lines.append(f"κ_v = {ratio}, a_ISO = {_g(life.a_iso)}, modified life {_g(modified)} h")
     return tuple(lines)
 
 
 def _mm(length: float) -> str:
-    return _g(from_si(length, "mm"))
+    return _g(length, "mm")
 
 
 def _span(interval: tuple[float, float]) -> str:
@@ -153,5 +153,6 @@ def _both(pair: tuple[float, float]) -> tuple[str, str]:
     return _g(pair[0]), _g(pair[1])
 
 
-def _g(value: float) -> str:
-    return f"{value:.4g}"
+def _g(value: float, unit: str = "") -> str:
+    """A number; with a unit, of an SI value."""
+    return f"{from_si(value, unit) if unit else value:.4g}"

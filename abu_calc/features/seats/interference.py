@@ -97,8 +97,7 @@ def probable_interference(male: DeviationLimits, female: DeviationLimits) -> Int
     Interval(smallest=6e-06, largest=2.6e-05)
     """
     mean, half = _mean(male, female), _half_field(male, female)
-    lower = math.floor(round(from_si(mean - half, "um"), 6))
-    upper = math.ceil(round(from_si(mean + half, "um"), 6))
+    lower, upper = math.floor(um(mean - half)), math.ceil(um(mean + half))
     return Interval(to_si(lower, "um"), to_si(upper, "um"))
 
 

@@ -11,7 +11,7 @@ from abu_calc.features.seats.rating_life import exponent, life_at
 from abu_calc.foundation.checks import Check, coded
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file, shown
 
 _STEPS: Final = 180
 _SAME_PLACE: Final = 1e-6
@@ -110,7 +110,7 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
     turning = (
         bearing
         if bearing.service.speed
-        else replace(bearing, service=bearing.service.model_copy(update={"speed_rpm": from_si(speed, "rpm")}))
+        else replace(bearing, service=bearing.service.model_copy(update=dict([in_file("speed_rpm", speed)])))
     )
     without, with_it = (
         combined_load(share * loads.constant, share * rotating, power)
@@ -120,8 +120,8 @@ def _life(bearing: SeatedBearing, loads: UseLoads, residual: float, share: float
     if lives[0] is None or lives[1] is None:
         return _unknown(bearing, "no life can be computed", "Specify designation and speed_rpm.")
     message = (
-        f"without the autobalancer {from_si(lives[0], 'h'):.3g} h under {from_si(without, 'kN'):.3g} kN, with it under "
-        f"{from_si(with_it, 'kN'):.3g} kN; the loads are imbalance, residual imbalance and the normal force at work"
+        f"without the autobalancer {shown(lives[0], 'h')} under {shown(without, 'kN')}, with it under "
+        f"{shown(with_it, 'kN')}; the loads are imbalance, residual imbalance and the normal force at work"
     )
     both = SimulatedLife(load_without=without, load_with=with_it, life_without=lives[0], life_with=lives[1])
     return LifeInUse(both, (coded("ABU636", *life_finding(bearing, lives[1], message), of=bearing.name),))

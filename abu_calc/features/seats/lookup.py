@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from abu_calc.features.seats.bearing import MatingPart, Ring, SeatedBearing
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file, shown
 from abu_calc.foundation.validity import Range
 from abu_calc.standards.bearing_catalogue import Dimensions, all_of_size, of_size, read_designation
 from abu_calc.standards.catalogue import (
@@ -129,10 +129,10 @@ def _with_load(table: "BearingTable") -> "tuple[BearingTable, tuple[str, ...]]":
         return table, ()
     ratio = RATIO if table.normal_to_cutting_ratio is None else table.normal_to_cutting_ratio
     bearings = table.bearings_sharing or 1
-    load = from_si(process_load(force, ratio, bearings), "kN")
+    key, load = in_file("radial_load_kN", process_load(force, ratio, bearings))
     share = f", shared by {bearings} bearings" if bearings > 1 else ""
     taken = " (assumed)" if table.normal_to_cutting_ratio is None else ""
-    return table.model_copy(update={"radial_load_kN": load}), (
+    return table.model_copy(update={key: load}), (
         f"Radial load {load:.3g} kN: cutting force {force:g} N, {ratio:g} times it normal to the work{taken}{share}.",
     )
 
@@ -140,13 +140,13 @@ def _with_load(table: "BearingTable") -> "tuple[BearingTable, tuple[str, ...]]":
 def _by_designation(table: "BearingTable") -> _Found:
     designation = read_designation(table.designation or "")
     size = designation.size
-    for key, value in (("bore_mm", size.bore), ("outer_mm", size.outer), ("width_mm", size.inner_width)):
-        given = getattr(table, key)
-        if given is not None and abs(given - from_si(value, "mm")) > 1e-6:
+    for key, length in (("bore_mm", size.bore), ("outer_mm", size.outer), ("width_mm", size.inner_width)):
+        given, (_, value) = getattr(table, key), in_file(key, length)
+        if given is not None and abs(given - value) > 1e-6:
             raise InputError(
                 f"{key} contradicts the designation {table.designation}",
                 found=f"{given:g}",
-                allowed=f"{from_si(value, 'mm'):g}",
+                allowed=f"{value:g}",
                 remedy="Give the designation, or the sizes alone.",
             )
     _agreed("bearing_type", table.bearing_type, size.kind, table)
@@ -226,8 +226,7 @@ def _ratings(
 
 
 def _both(ratings: Ratings) -> str:
-    dynamic, static = from_si(ratings.dynamic, "kN"), from_si(ratings.static, "kN")
-    return f"C = {dynamic:.3g} kN and C0 = {static:.3g} kN"
+    return f"C = {shown(ratings.dynamic, 'kN')} and C0 = {shown(ratings.static, 'kN')}"
 
 
 def _agreed(key: str, given: str | None, named: str | None, table: "BearingTable") -> str | None:

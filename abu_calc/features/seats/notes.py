@@ -16,8 +16,8 @@ from abu_calc.features.seats.joints import makers_classes
 from abu_calc.features.seats.requirement import catalogue_smoothing_loss
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, record
-from abu_calc.foundation.units import from_si
-from abu_calc.standards.tables import toml_table
+from abu_calc.foundation.units import from_si, shown
+from abu_calc.standards.tables import row_of_size, toml_table
 from abu_calc.standards.tolerance_classes import NORMAL_RATIO, DeviationLimits, Seat, source_of
 
 if TYPE_CHECKING:
@@ -88,12 +88,11 @@ def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:
     ('js6', 'K7')
     """
     table = toml_table("load_intensity")[seat]
-    size = round(from_si(diameter, "mm"), 6)
-    for over, to, *limits in table["rows"]:
-        if over < size <= to:
-            pairs = zip(table["fields"], limits, strict=True)
-            return next((field for field, limit in pairs if from_si(intensity, "kN_per_m") <= limit), None)
-    return None
+    row = row_of_size(table["rows"], diameter)
+    if row is None:
+        return None
+    pairs = zip(table["fields"], row[2:], strict=True)
+    return next((field for field, limit in pairs if from_si(intensity, "kN_per_m") <= limit), None)
 
 
 MOST_GROUPS: Final = 12
@@ -251,7 +250,7 @@ def seat_notes(
 def _needs(joint: Joint) -> tuple[str, ...]:
     if not joint.must_grip or not joint.criteria:
         return ()
-    needs = " and ".join(f"{from_si(criterion.value, 'um'):.2f} µm by {criterion.by}" for criterion in joint.criteria)
+    needs = " and ".join(f"{shown(criterion.value, 'um', '.2f')} by {criterion.by}" for criterion in joint.criteria)
     larger = "; the larger counts" if len(joint.criteria) > 1 else ""
     return (f"Interference required under {ARTICLE[joint.ring.load]} load, without losses: {needs}{larger}.",)
 
@@ -274,26 +273,25 @@ def _differs(joint: Joint, own: "SeatAdvice", rule: str | None) -> tuple[str, ..
     listed = joint.catalogue_class
     if not joint.must_grip or listed is None or joint.required is None or rule == listed:
         return ()
-    needed, least = from_si(joint.required.value, "um"), joint.with_class(listed).interference.smallest
     asks = f"asks for {rule}" if rule else "finds no tabulated class tight enough"
-    loosest = f"{least_text(least)} of the loosest pair of {listed}"
+    loosest = f"{least_text(joint.with_class(listed).interference.smallest)} of the loosest pair of {listed}"
     best = own.best.tolerance_class if own.best else listed
     moved = "" if best == listed else f" The losses or the stress move it to {best}."
     return (
-        f"The rule {joint.required.by} {asks}: {needed:.3g} µm required, {loosest}.",
+        f"The rule {joint.required.by} {asks}: {least_text(joint.required.value)} required, {loosest}.",
         f"The catalogue's {listed} governs: it rests on experience with this type, size and P/C.{moved}",
     )
 
 
 def least_text(length: float) -> str:
     """A length in micrometres."""
-    return f"{from_si(length, 'um'):.3g} µm"
+    return shown(length, "um")
 
 
 def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
     if joint.load_assumed:
-        load = from_si(joint.radial_load or 0.0, "kN")
-        return (f"No radial load is given: a normal one is judged, P/C = {NORMAL_RATIO:g}, {load:.3g} kN.",)
+        normal = shown(joint.radial_load or 0.0, "kN")
+        return (f"No radial load is given: a normal one is judged, P/C = {NORMAL_RATIO:g}, {normal}.",)
     intensity = seat_intensity(bearing, joint)
     if intensity is None:
         return ()
@@ -305,7 +303,7 @@ def _load(bearing: SeatedBearing, joint: Joint) -> tuple[str, ...]:
     factors = f"k₁ {load:g} ({bearing.service.load_kind or 'shock'}), k₂ {part:g}, k₃ {rows:g}"
     return (
         f"k_B = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
-        f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m, {factors}: the handbook {table} (unverified).",
+        f"Load intensity {shown(intensity, 'kN_per_m', '.0f')}, {factors}: the handbook {table} (unverified).",
         *(("The load is above a quarter of C0: catalogues then give 0.02·F_r/B as its loss.",) if heavy else ()),
     )
 
@@ -322,7 +320,7 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
         notes.append(
             f"{source_of(bearing.kind)}: {joint.maker.classes[0]}{others} for a {bearing.kind} bearing, "
             f"P/C = {bearing.load_ratio:.2g}, load {joint.ring.load}, "
-            f"seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
+            f"seat of {shown(joint.diameter, 'mm', 'g')}{remark}."
         )
         if best not in (None, *joint.maker.classes, *joint.maker.special):
             notes.append(_moved(joint, best or ""))
@@ -362,23 +360,19 @@ def _moved(joint: Joint, best: str) -> str:
 def _sorting(joint: Joint, asked: Interval | None, selection: "Selection | None") -> tuple[str, ...]:
     if asked is None:
         return ()
-    band = f"{from_si(asked.smallest, 'um'):g} … {from_si(asked.largest, 'um'):g} µm"
+    band = shown(asked, "um", "g")
     if selection is None:
         male, female = joint.male_and_female
         ends = sorted((male.lower - female.lower, male.upper - female.upper))
-        reach = " … ".join(f"{from_si(end, 'um'):g}" for end in ends)
         return (
-            f"Sorting cannot keep {joint.fit_name} within {band}. The finest groups still spread over {reach} µm; the "
-            "band must be wider than that on both sides.",
+            f"Sorting cannot keep {joint.fit_name} within {band}. The finest groups still spread over "
+            f"{shown(ends, 'um', 'g')}; the band must be wider than that on both sides.",
         )
     if selection.groups == 1:
         return (f"{joint.fit_name} keeps within {band} without sorting.",)
-    reached = (
-        f"{from_si(selection.interference.smallest, 'um'):.3g} … {from_si(selection.interference.largest, 'um'):.3g}"
-    )
     return (
         f"Selective assembly into {selection.groups} equal groups, matched by number: {joint.fit_name} keeps within "
-        f"{reached} µm ({band} required){_after(joint, selection)}.",
+        f"{shown(selection.interference, 'um')} ({band} required){_after(joint, selection)}.",
     )
 
 
@@ -388,6 +382,6 @@ def _after(joint: Joint, selection: "Selection") -> str:
         return ""
     least, needed = selection.interference.smallest, joint.required.value
     if least >= needed:
-        return f". Every pair has the required {from_si(needed, 'um'):.3g} µm"
-    lack, all_of_it = from_si(needed - least, "um"), from_si(needed, "um")
-    return f". The loosest pairs still lack {lack:.2g} of the required {all_of_it:.3g} µm"
+        return f". Every pair has the required {shown(needed, 'um')}"
+    lack = shown(needed - least, "um", ".2g").removesuffix(" µm")
+    return f". The loosest pairs still lack {lack} of the required {shown(needed, 'um')}"

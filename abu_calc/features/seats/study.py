@@ -8,7 +8,7 @@ from abu_calc.features.seats.clearance import PRELOADED
 from abu_calc.features.seats.seats import BearingSeats, SeatResult, bearing_notes, seat_bearings
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.quantity import record
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
@@ -89,7 +89,7 @@ def _closer(judged: BearingSeats) -> str:
     joint = judged.housing.joint
     loss = joint.hottest.loss
     spans = ((name, joint.with_class(name).interference) for name in CLOSER)
-    return ", ".join(f"{name} {max(from_si(loss - each.smallest, 'um'), 0.0):.0f} µm" for name, each in spans)
+    return ", ".join(f"{name} {shown(max(loss - each.smallest, 0.0), 'um', '.0f')}" for name, each in spans)
 
 
 def judged_seats(machine: Machine) -> tuple[BearingSeats, ...]:

@@ -21,7 +21,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.rows import Columns
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, in_units
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
@@ -72,9 +72,10 @@ class SampledMotion(Columns):
         """Motion of a run, sampled at these times."""
         scene, states = run.scene, run.trajectory.at(times)
         size, balls = len(scene.support.names), len(scene.ball_masses)
-        x, y = from_si(1.0, "mm") * scene.axis_place(states)
-        angles = from_si(1.0, "deg") * states[2 * size : 2 * size + balls]
-        return cls(times, x, y, angles, dict(_further(scene, times, states)))
+        x, y = scene.axis_place(states)
+        angles = states[2 * size : 2 * size + balls]
+        axis_and_balls = in_units({"x_mm": x, "y_mm": y, "ball_angles_deg": angles})
+        return cls(t_s=times, **axis_and_balls, further=in_units(dict(_further(scene, times, states))))
 
     @property
     def columns(self) -> dict[str, Array]:
@@ -98,23 +99,23 @@ class SampledMotion(Columns):
 
 
 def _further(scene: Scene, times: Array, states: Array) -> Iterator[tuple[str, Array]]:
-    """Columns of a scene beside axis and balls."""
+    """Columns of a scene beside axis and balls, in SI by names with the units that they get."""
     support, balls, q = scene.support, len(scene.ball_masses), states[: len(scene.support.names)]
     tilt, turned = support.tilt(q), support.turned(q)
     if tilt is not None:
-        about_y, about_minus_x = (1000 * np.asarray(angle) for angle in tilt)
+        about_y, about_minus_x = map(np.asarray, tilt)
         yield from (("tilt_x_mrad", 0.0 - about_minus_x), ("tilt_y_mrad", about_y))
     for k, place in enumerate(support.bearings, 1):
-        x, y = from_si(1.0, "mm") * scene.axis_place(states, place)
+        x, y = scene.axis_place(states, place)
         yield from ((f"bearing{k}_x_mm", x), (f"bearing{k}_y_mm", y))
     if turned is not None:
-        yield "arm_angle_mrad", 1000 * np.asarray(turned)
+        yield "arm_angle_mrad", np.asarray(turned)
     if ACROSS in scene.ball_states:
         first = 2 * (len(q) + balls) + scene.ball_states.index(ACROSS) * balls
         for k in range(balls):
-            yield f"ball{k + 1}_axial_mm", from_si(1.0, "mm") * states[first + k]
+            yield f"ball{k + 1}_axial_mm", states[first + k]
     if scene.rotor.states:
-        yield "rotor_speed_rpm", from_si(1.0, "rpm") * scene.rotor.turning(times, states, scene.speed)[1]
+        yield "rotor_speed_rpm", scene.rotor.turning(times, states, scene.speed)[1]
 
 
 def equally_spaced(scene: Scene, samples: int | None) -> NDArray[np.float64]:

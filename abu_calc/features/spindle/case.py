@@ -29,7 +29,7 @@ from abu_calc.formulas.tilting_rotor import (
 )
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import in_file, shown
 from abu_calc.inputs.duty import Grinding
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
@@ -160,7 +160,6 @@ def read_case(table: TwoRaceFile) -> SpindleCase:
         machine.mass_kg, machine.transverse_inertia_kg_m2, machine.rotor_polar_inertia_kg_m2, _bearings(table)
     )
     abu = table.autobalancer[0]
-    low, high = machine.speed_range
     case = SpindleCase(
         table=table,
         rotor=rotor,
@@ -168,7 +167,7 @@ def read_case(table: TwoRaceFile) -> SpindleCase:
         angles=angles,
         races=tuple(race.plane for race in table.autobalancer),
         speed=speed,
-        speed_range=(to_si(low, "rpm"), to_si(high, "rpm")),
+        speed_range=tuple(machine.speed_range or (machine.speed, machine.speed)),
         eccentricity=abu.race_eccentricity,
         friction_arm=abu.rolling_friction,
         inertia_factor=INERTIA_FACTORS[abu.corrector],
@@ -192,18 +191,18 @@ def _placed(case: SpindleCase) -> SpindleCase:
         needs, places = capacity_needs(replace(case, races=races)), [held.place for held in case.places]
         return round(arms(places if own else races, races) / ALIKE) * ALIKE, max(needs), sum(needs)
 
-    grids = (_grid(place, race.plane_range_mm) for place, race in zip(case.races, tables, strict=True))
+    grids = (_grid(place, race.plane_range) for place, race in zip(case.races, tables, strict=True))
     apart = (
         races for races in product(*grids) if all(abs(a - b) > LEAST_APART + ONE_PLANE for a, b in pairwise(races))
     )
     return case.with_races(min((case.races, *apart), key=rank))
 
 
-def _grid(place: float, stretch_mm: Sequence[float] | None) -> list[float]:
+def _grid(place: float, stretch: tuple[float, float] | None) -> list[float]:
     """Places [m] on a stretch; without one the place itself."""
-    if stretch_mm is None:
+    if stretch is None:
         return [place]
-    low, high = (to_si(end, "mm") for end in stretch_mm)
+    low, high = stretch
     return [low + (high - low) * step / STEPS for step in range(STEPS + 1)]
 
 
@@ -236,12 +235,12 @@ def _bearings(table: TwoRaceFile) -> tuple[Bearing, ...]:
     given, machine = table.suspension, table.machine
     if given.model == "bearings":
         rows = zip(
-            given.bearing_positions_mm or (), given.bearing_stiffness_N_per_m or (),
+            given.bearing_positions or (), given.bearing_stiffness_N_per_m or (),
             given.bearing_damping_N_s_per_m or (), strict=True,
         )  # fmt: skip
-        return tuple(Bearing(to_si(place, "mm"), stiffness, damping) for place, stiffness, damping in rows)
+        return tuple(Bearing(*row) for row in rows)
     place = math.sqrt(machine.transverse_inertia_kg_m2 / machine.mass_kg)
-    frequency = to_si(given.natural_frequencies_hz or 0.0, "hz")
+    frequency = given.natural_frequencies or 0.0
     stiffness = machine.mass_kg * frequency**2 / 2
     damping = (given.damping_ratios or 0.0) * machine.mass_kg * frequency
     return Bearing(place, stiffness, damping), Bearing(-place, stiffness, damping)
@@ -251,8 +250,8 @@ def _places(table: TwoRaceFile) -> tuple[LevelPlaceOnSpindle, ...]:
     if table.machine.handle:
         return tuple(LevelPlaceOnSpindle(handle.name, handle.position[2]) for handle in table.machine.handle)
     if table.suspension.model == "bearings":
-        positions = table.suspension.bearing_positions_mm or ()
-        return tuple(LevelPlaceOnSpindle(f"bearing {k}", to_si(z, "mm")) for k, z in enumerate(positions, 1))
+        positions = table.suspension.bearing_positions or ()
+        return tuple(LevelPlaceOnSpindle(f"bearing {k}", z) for k, z in enumerate(positions, 1))
     return tuple(LevelPlaceOnSpindle(f"race {k}", race.plane) for k, race in enumerate(table.autobalancer, 1))
 
 
@@ -367,8 +366,8 @@ def typical_needs(case: SpindleCase) -> tuple[float, ...]:
     return tuple(math.sqrt(sum(abs(part) ** 2 for part in own)) for own in zip(*parts, strict=True))
 
 
-def one_race_machine(case: SpindleCase, race: int, need: float, ball_mm: float | None = None) -> MachineFile:
-    """Machine with one race whose need is that of a race of two; `ball_mm` pins the diameter of its balls.
+def one_race_machine(case: SpindleCase, race: int, need: float, ball: float | None = None) -> MachineFile:
+    """Machine with one race whose need is that of a race of two; `ball` pins the diameter of its balls.
 
     Its mass is that which the race feels, without the autobalancer, since every autobalancer adds its own.
     """
@@ -377,25 +376,24 @@ def one_race_machine(case: SpindleCase, race: int, need: float, ball_mm: float |
     wheel = min(0.1 * mass, case.table.wheel[0].mass_kg)
     given = abu.model_dump(exclude={"plane_mm", "plane_offset_mm", "plane_range_mm"}, exclude_unset=True)
     share = abu.max_mass_fraction * machine.mass_kg / (mass - wheel)
-    frequency = max((*case.rotor.critical_speeds(), 1e-3))
+    frequencies, hertz = in_file("natural_frequencies_hz", max((*case.rotor.critical_speeds(), 1e-3)))
     return MachineFile.model_validate(
         {
             "machine": {
                 "name": f"{machine.name}, race {race + 1}", "layout": machine.layout, "mass_kg": mass - wheel,
-                "speed_rpm": machine.speed_rpm, "speed_range_rpm": machine.speed_range,
+                "speed_rpm": machine.speed_rpm, "speed_range_rpm": machine.speeds_rpm,
                 "spindle_axis": machine.spindle_axis,
             },
             "suspension": {
-                "model": "springs", "natural_frequencies_hz": [from_si(frequency, "hz")] * 2,
-                "damping_ratios": [0.1, 0.1],
+                "model": "springs", frequencies: [hertz] * 2, "damping_ratios": [0.1, 0.1],
             },
             "wheel": {
                 "mass_kg": wheel, "diameter_mm": max(wheel_.diameter_mm for wheel_ in case.table.wheel),
-                "imbalance_g_mm": from_si(max(need - mass * case.eccentricity, 0.0), "g_mm"),
+                **dict([in_file("imbalance_g_mm", max(need - mass * case.eccentricity, 0.0))]),
             },
             "autobalancer": {
                 **given, "max_mass_fraction": min(share, 1.0),
-                **({} if ball_mm is None else {"ball_diameter_mm": ball_mm}),
+                **({} if ball is None else dict([in_file("ball_diameter_mm", ball)])),
             },
             "limits": {"vibration_level_db": limits.vibration_level_db, "quiet_time_s": limits.longest_quiet_time},
         }
@@ -479,7 +477,7 @@ def choose_all(case: SpindleCase) -> SpindleDesign:
         races = _sized(loaded, ball)
         diameters = {race.autobalancer.ball_diameter for race in races}
         if len(diameters) > 1:
-            ball = from_si(max(diameters), "mm")
+            ball = max(diameters)
             races = _sized(loaded, ball)
         housings = tuple(race.autobalancer.housing.mass for race in races)
         if housings == masses:
@@ -488,27 +486,27 @@ def choose_all(case: SpindleCase) -> SpindleDesign:
     return SpindleDesign(case.carrying(masses), case, races)
 
 
-def _sized(case: SpindleCase, ball_mm: float | None) -> tuple[SizedRace, ...]:
+def _sized(case: SpindleCase, ball: float | None) -> tuple[SizedRace, ...]:
     shares = zip(*(lever_shares(case.races, wheel.place) for wheel in case.wheels), strict=True)
     each = zip(case.races, capacity_needs(case), typical_needs(case), shares, strict=True)
     return tuple(
-        SizedRace(**vars(_as_one_race(case, race, need, ball_mm)), place=place, need=need, typical=usual, shares=own)
+        SizedRace(**vars(_as_one_race(case, race, need, ball)), place=place, need=need, typical=usual, shares=own)
         for race, (place, need, usual, own) in enumerate(each)
     )
 
 
-def _as_one_race(case: SpindleCase, race: int, need: float, ball_mm: float | None) -> RaceDesign:
+def _as_one_race(case: SpindleCase, race: int, need: float, ball: float | None) -> RaceDesign:
     """Design of one race; checks that depend on the whole machine are left to it."""
     pinned = case.table.autobalancer[race].ball_diameter_mm is not None
     try:
-        machine = one_race_machine(case, race, need, None if pinned else ball_mm)
+        machine = one_race_machine(case, race, need, None if pinned else ball)
     except ValidationError as error:
         fault = error.errors()[0]
         raise InputError(
             f"race {race + 1} cannot be sized as a race of its own: {'.'.join(map(str, fault['loc']))} would be out of "
             "range",
             place=Place(key="autobalancer"),
-            found=f"it feels {felt_mass(case, race):.4g} kg and must carry {from_si(need, 'g_mm'):.4g} g·mm",
+            found=f"it feels {felt_mass(case, race):.4g} kg and must carry {shown(need, 'g_mm', '.4g')}",
             remedy="Check masses, inertias, places and imbalances. A flat disc takes one race.",
         ) from None
     return size_race(machine)

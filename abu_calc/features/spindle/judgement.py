@@ -29,12 +29,13 @@ from abu_calc.foundation.checks import Check, Finding, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.sizing.actions import overrides
 from abu_calc.sizing.vibration import truer_races
 from abu_calc.standards.balls import stock_diameters
+from abu_calc.standards.tables import millimetres
 
 ONE_RACE_PLACES: Final = 9
 """Places of a single race that are tried between both races."""
@@ -220,7 +221,7 @@ def stability_check(design: SpindleDesign, judged: Sequence[SpeedStability]) -> 
     if worst.growth is None:
         yield coded("ABU103", "pass", "A sufficient rule holds for both whirls at every speed judged")
         return
-    speed = f"{from_si(worst.speed, 'rpm'):.6g} rpm"
+    speed = shown(worst.speed, "rpm", ".6g")
     passed = all(each.stable for each in judged)
     yield coded("ABU103", verdict(passed), f"Fastest-growing disturbance of the balanced state, at {speed}",
         worst.growth, 0.0, None if passed else "Use a more viscous oil in both races, or damp the bearings.",
@@ -327,7 +328,7 @@ def _larger(design: SpindleDesign) -> Iterator[float]:
     diameter, stock = design.autobalancers[0].ball_diameter, stock_diameters(design.case.autobalancer.ball_sizes)
     for factor in LARGER:
         if larger := next((size for size in stock if size >= factor * diameter), None):
-            yield round(from_si(larger, "mm"), 6)
+            yield millimetres(larger)
 
 
 def _truer(design: SpindleDesign) -> list[dict[str, object]]:

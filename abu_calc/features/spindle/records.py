@@ -13,7 +13,7 @@ from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.spindle.case import SizedRace, SpindleDesign
 from abu_calc.features.spindle.start_cases import horizontal, scene_of, start_phases
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, wrapped_deg
+from abu_calc.foundation.units import in_file, wrapped_deg
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.result import Result
 
@@ -211,11 +211,11 @@ def _made(design: SpindleDesign) -> Iterator[tuple[str, Any]]:
     for own, race, table in zip(case.race_keys, design.races, case.table.autobalancer, strict=True):
         balls = race.autobalancer
         yield f"{own}.ball_count", balls.ball_count
-        yield f"{own}.ball_diameter_mm", from_si(balls.ball_diameter, "mm")
-        yield f"{own}.race_radius_mm", from_si(balls.race_radius, "mm")
+        yield in_file(f"{own}.ball_diameter_mm", balls.ball_diameter)
+        yield in_file(f"{own}.race_radius_mm", balls.race_radius)
         if table.plane_range_mm is not None:
-            place = from_si(race.place, "mm")
-            yield from ((f"{own}.plane_mm", place), (f"{own}.plane_range_mm", [place, place]))
+            key, place = in_file(f"{own}.plane_mm", race.place)
+            yield from ((key, place), (f"{own}.plane_range_mm", [place, place]))
 
 
 def _of_start(outcome: StartOutcome, design: SpindleDesign) -> Iterator[tuple[str, Any]]:
@@ -223,7 +223,7 @@ def _of_start(outcome: StartOutcome, design: SpindleDesign) -> Iterator[tuple[st
     case, member = design.case, outcome.member
     varied = member.varied
     if member.speed is not None:
-        yield "machine.speed_rpm", from_si(member.speed, "rpm")
+        yield in_file("machine.speed_rpm", member.speed)
     if member.run_up:
         yield "run_up.time_s", member.run_up
     if varied.spindle_axis is not None:
@@ -231,17 +231,16 @@ def _of_start(outcome: StartOutcome, design: SpindleDesign) -> Iterator[tuple[st
     phases = iter(start_phases(design, member))
     for own, wheel, angle in zip(case.wheel_keys, case.wheels, case.angles, strict=True):
         if member.speed is not None or varied.imbalance != 1:
-            yield f"{own}.imbalance_g_mm", varied.imbalance * from_si(abs(wheel.imbalance), "g_mm")
+            yield in_file(f"{own}.imbalance_g_mm", varied.imbalance * abs(wheel.imbalance))
         if angle is None:
             yield f"{own}.imbalance_angle_deg", wrapped_deg(next(phases, 0.0))
     for own, drag in zip(case.race_keys, case.drags, strict=True):
         if member.drag != case.drag:
             yield f"{own}.rolling_drag_per_s", drag * member.drag / case.drag
         if varied.friction_arm != 1:
-            yield f"{own}.rolling_friction_mm", varied.friction_arm * from_si(case.friction_arm, "mm")
+            yield in_file(f"{own}.rolling_friction_mm", varied.friction_arm * case.friction_arm)
         if varied.race_eccentricity != 1:
-            off = varied.race_eccentricity * from_si(case.eccentricity, "mm")
-            yield f"{own}.race_eccentricity_mm", off
+            yield in_file(f"{own}.race_eccentricity_mm", varied.race_eccentricity * case.eccentricity)
 
 
 @record

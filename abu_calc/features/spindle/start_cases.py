@@ -27,7 +27,7 @@ from abu_calc.formulas.motion import HARDLY, SETTLED
 from abu_calc.formulas.tilting_rotor import PlacedImbalance, eccentricity_resultants
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.progress import Progress
-from abu_calc.foundation.units import level_from_velocity, to_si, velocity_from_level
+from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.early_stopping import LOOKS, SEEN, movement
 from abu_calc.simulation.ensemble import (
@@ -49,7 +49,7 @@ from abu_calc.simulation.response import Course, amplitude_window, drift, evalua
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
 from abu_calc.simulation.start_cases import ALIKE, KINDS, RUN_UP, Axis, Kind, Member, Variation
-from abu_calc.simulation.subject import RACE_CENTRE, Subject
+from abu_calc.simulation.subject import Subject, checked_centre
 
 OF_BAND: Final = 12
 """Start cases of machines within what the file promises."""
@@ -444,7 +444,7 @@ def spindle_subject(
                 f"a machine with two races has no such {key}", place=Place(machine.file, key=key), found=given,
                 allowed=", ".join(allowed),
             )  # fmt: skip
-    centre = ALIKE if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
+    centre = checked_centre(race_centre_deg, ALIKE)
     with machine.located():
         design = size_races(machine)
     table, unknown = design.case.table, design.case.unknown_phases
@@ -457,7 +457,7 @@ def spindle_subject(
                 "one angle for each ball, those of the first race first, without speeds",
                 place=Place(key="start.angles_deg"), found=f"{len(placed.angles_deg)}", allowed=f"{balls}",
             )  # fmt: skip
-    angles = () if placed is None else tuple(to_si(angle, "deg") for angle in placed.angles_deg)
+    angles = () if placed is None else placed.angles
     notes = ("Imbalances of unknown phase are taken in phase; `abu size` simulates four phases",) if unknown else ()
     return Subject(
         title=table.machine.name,

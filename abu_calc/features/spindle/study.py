@@ -23,7 +23,7 @@ from abu_calc.features.spindle.start_cases import ACCURACY, FIRST_TOLERANCE, sce
 from abu_calc.foundation import patience
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK
 from abu_calc.simulation.ensemble_results import Lost, StartOutcome
@@ -162,16 +162,15 @@ def _search_notes(design: SpindleDesign) -> Iterator[str]:
     needs, needs_before = capacity_needs(case), capacity_needs(before)
     for number, (race, place, old) in enumerate(zip(case.table.autobalancer, case.races, given, strict=True), 1):
         if race.plane_range_mm is not None:
-            low, high = race.plane_range_mm
-            kept = " as given" if place == old else f", not {from_si(old, 'mm'):.4g} mm"
+            kept = " as given" if place == old else f", not {shown(old, 'mm', '.4g')}"
             yield (
-                f"Race {number} stands at {from_si(place, 'mm'):.4g} mm{kept}, chosen within {low:g} … {high:g} mm. "
-                f"Required capacity, without the autobalancers' own mass: from "
-                f"{from_si(needs_before[number - 1], 'g_mm'):.4g} to {from_si(needs[number - 1], 'g_mm'):.4g} g·mm"
+                f"Race {number} stands at {shown(place, 'mm', '.4g')}{kept}, chosen within "
+                f"{shown(race.plane_range, 'mm', 'g')}. Required capacity, without the autobalancers' own mass: from "
+                f"{shown((needs_before[number - 1], needs[number - 1]), 'g_mm', '.4g', ' to ')}"
             )
     yield (
-        f"Race eccentricity at the loudest place: {from_si(_off(before), 'um'):.3g} µm as given, "
-        f"{from_si(_off(case), 'um'):.3g} µm as chosen (calculated)"
+        f"Race eccentricity at the loudest place: {shown(_off(before), 'um')} as given, "
+        f"{shown(_off(case), 'um')} as chosen (calculated)"
     )
 
 

@@ -24,7 +24,7 @@ from abu_calc.foundation.escaping import shell_word
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.shares import interval
-from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.foundation.units import level_from_velocity, shown
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.effect_selection import chosen
@@ -191,7 +191,7 @@ def _in_words(scene: Scene, group: EndGroup) -> str:
     if kind == "stuck" and frequency == 0:
         return f"{balls} stand still"
     if kind == "stuck" and frequency is not None:
-        return f"{balls} stuck at the natural frequency {from_si(frequency, 'rpm'):.4g} rpm"
+        return f"{balls} stuck at the natural frequency {shown(frequency, 'rpm', '.4g')}"
     words = {
         "balanced": "balls at rest in the race, balanced",
         "resting": "balls at rest in the race, off balance",

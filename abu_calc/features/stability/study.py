@@ -21,7 +21,7 @@ from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+from abu_calc.foundation.units import shown, to_si, wrapped_deg
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
@@ -173,7 +173,7 @@ def stability(
     # What cannot be judged at one speed cannot at others.
     limits = crossed = None
     if band:
-        progress(f"speeds from {from_si(band[0], 'rpm'):g} to {from_si(band[1], 'rpm'):g} rpm")
+        progress(f"speeds from {shown(band, 'rpm', 'g', ' to ')}")
     if band and judgement.reason is None:
         limits = boundaries(subject.scene, *band, subject.half_angle, way)
         crossed = crossings_of(subject.scene, *band, subject.half_angle, way) if crossings else None

@@ -15,7 +15,7 @@ from abu_calc.features.sweep.samples import PHASE, Builds, Designs, Scenes, Spin
 from abu_calc.features.sweep.sampling import Factor, Sample
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
@@ -166,11 +166,11 @@ def of_tolerances(design: Design | SpindleDesign, *, building: bool) -> Iterator
     """
     case, tables, made, ways = design.case, design.case.table, design.autobalancers, dict[str, str]()
     if building:
-        diameter = from_si(made[0].ball_diameter, "mm")
-        ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
-        for key, own in zip(case.race_keys, made, strict=True):
-            radius = from_si(own.race_radius, "mm")
-            ways[f"{key}.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
+        key, diameter = in_file("autobalancer.ball_diameter_mm", made[0].ball_diameter)
+        ways[key] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
+        for race, own in zip(case.race_keys, made, strict=True):
+            key, radius = in_file(f"{race}.race_radius_mm", own.race_radius)
+            ways[key] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
         if warmth := _warmth(tables.oil):
             ways[WARMTH] = warmth
     if (off := case.autobalancer.race_eccentricity_mm) > 0:
@@ -181,11 +181,12 @@ def of_tolerances(design: Design | SpindleDesign, *, building: bool) -> Iterator
         value = getattr(case.autobalancer, key)
         if value > 0 and (building or key != DRAG_RATE):
             ways[f"autobalancer.{key}"] = f"lognormal({value!r}, {spread:.6g})"
-    for key, imbalance in zip(case.wheel_keys, design.imbalances, strict=True):
+    for wheel, imbalance in zip(case.wheel_keys, design.imbalances, strict=True):
         if imbalance > 0:
-            ways[f"{key}.imbalance_g_mm"] = f"lognormal({from_si(imbalance, 'g_mm'):.6g}, {WORN})"
+            key, usual = in_file(f"{wheel}.imbalance_g_mm", imbalance)
+            ways[key] = f"lognormal({usual:.6g}, {WORN})"
     ways |= _hands(tables.suspension.frequencies)
-    low, high = tables.machine.speed_range
+    low, high = tables.machine.speeds_rpm
     if low < high:
         ways["machine.speed_rpm"] = f"uniform({low!r}, {high!r})"
     yield from _scatter_ways(ways)

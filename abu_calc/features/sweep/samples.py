@@ -46,9 +46,6 @@ LOT: Final = 0.5e-6
 USUAL: Final = 0.01
 """Accuracy at which the run of a sample has the tolerance of the first run of a start case."""
 
-START: Final = ("kind", "temperature_C", "angle_deg", "eccentricity_deg")
-"""Values of the start of a sample."""
-
 Values = Mapping[str, Any]
 
 
@@ -133,14 +130,22 @@ class Builds(SweepStudy):
 
 def started(design: Design, values: Values, masses: tuple[float, ...]) -> Member:
     """The start case of a sample; values that do not vary are usual. `masses`: factors on those of the balls."""
-    kind, warm, angle, side = (values.get(f"start.{key}") for key in START)
+    kind, warm = values.get("start.kind"), values.get("start.temperature_C")
+    angle, side = _angle(values, "start.angle_deg"), _angle(values, "start.eccentricity_deg")
     case, drag = design.case, design.case.drag
     if warm is not None:
         drag *= drag_ratio(warm) if case.oil is None else drag_share(case, design.autobalancer, warm)
     usual = usual_run_up(design) if kind == "run-up" else Member(kind or "bunched", drag, speed=idle_speed(case))
-    turned_by = 0.0 if angle is None else to_si(angle, "deg") - AHEAD
-    eccentricity, varied = OPPOSITE if side is None else to_si(side, "deg"), Variation(ball_masses=masses)
-    return replace(usual, drag=drag, eccentricity=eccentricity, turned=turned_by, varied=varied)
+    turned_by, eccentricity = 0.0 if angle is None else angle - AHEAD, OPPOSITE if side is None else side
+    return replace(
+        usual, drag=drag, eccentricity=eccentricity, turned=turned_by, varied=Variation(ball_masses=masses)
+    )  # fmt: skip
+
+
+def _angle(values: Values, key: str) -> float | None:
+    """An angle of a sample [rad]; None if it does not vary."""
+    angle = values.get(key)
+    return None if angle is None else to_si(angle, "deg")
 
 
 def machine_started(design: Design, member: Member, accuracy: float) -> StartOutcome:
@@ -197,13 +202,13 @@ def phase_keys(case: SpindleCase) -> tuple[str, ...]:
 
 def start_on_spindle(design: SpindleDesign, values: Values) -> Member:
     """The start case of a sample; values that do not vary are usual, phases that do not vary 0."""
-    kind, warm, angle = (values.get(f"start.{key}") for key in ("kind", "temperature_C", "angle_deg"))
-    phases = tuple(to_si(values.get(key, 0.0), "deg") for key in phase_keys(design.case))
+    kind, warm, angle = values.get("start.kind"), values.get("start.temperature_C"), _angle(values, "start.angle_deg")
+    phases = tuple(_angle(values, key) or 0.0 for key in phase_keys(design.case))
     member = start_of(
         design, kind or "bunched", phases, drag=(drag_ratio(warm) if warm is not None else 1.0) * design.case.drag
     )
-    ahead = 0.0 if angle is None else to_si(angle, "deg") - (AHEAD if member.start != "spread" else 0.0)
-    return replace(member, turned=ahead, eccentricity=to_si(values.get("start.eccentricity_deg", 0.0), "deg"))
+    ahead = 0.0 if angle is None else angle - (AHEAD if member.start != "spread" else 0.0)
+    return replace(member, turned=ahead, eccentricity=_angle(values, "start.eccentricity_deg") or 0.0)
 
 
 def capacity_ratio(design: SpindleDesign, member: Member) -> float:
@@ -252,7 +257,7 @@ class Scenes(SweepStudy):
         """One run."""
         scene = scene_from(self.variants.table(self._in_file(values)).scene)
         warm = values.get("start.temperature_C")
-        angle = to_si(values.get("start.angle_deg", 0.0), "deg")
+        angle = _angle(values, "start.angle_deg") or 0.0
         scene = turned(scene, angle, 1.0 if warm is None else drag_ratio(warm))
         response, balanced = scene_once(scene, TOLERANCE * self.accuracy / USUAL)
         return (

@@ -97,7 +97,7 @@ def _work(arm: SwingArmRecord, scale: float) -> Iterator[Shape]:
 
 def _half_work(arm: SwingArmRecord, scale: float) -> float:
     """Half of the surface that is drawn."""
-    return max(0.45 * arm.wheel_diameter_mm, 12 / scale)
+    return float(max(0.45 * arm.wheel_diameter_mm, 12 / scale))
 
 
 def _dimensions(arm: SwingArmRecord, scale: float) -> Iterator[Shape]:

@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import bounded
 
 if TYPE_CHECKING:
@@ -58,8 +57,8 @@ class SwingArmRecord(Record):
     parametric_contact_angles_deg: Annotated[tuple[float, ...], Quantity("rated speed is 2ω₀ at", "Z")]
     contact_angle_deg: Annotated[float, Quantity("contact angle given", "Z")]
     touch_angle_deg: Annotated[float, Quantity("touching angle", "φ₀")]
-    arm_length_mm: Annotated[float, Quantity("length of the arm", "l")]
-    wheel_diameter_mm: Annotated[float, Quantity("wheel")]
+    arm_length: Annotated[float, Quantity("length of the arm", "l", unit="mm")]
+    wheel_diameter: Annotated[float, Quantity("wheel", unit="mm")]
     lifted_contact_angles_deg: Annotated[tuple[float, float] | None, Quantity("does not stand between", "Z", 3)]
     joint_stiffness_standing_N_per_m: Annotated[float, Quantity("pivot stiffness that always stands", "c_sh")]
     pressing_moment_N_m: Annotated[float, Quantity("pressing torque given", "T_a")]
@@ -80,8 +79,8 @@ class SwingArmRecord(Record):
             arm,
             advice=judged.advice(change.text for change in changes),
             changes=changes,
-            arm_length_mm=from_si(arm.length, "mm"),
-            wheel_diameter_mm=from_si(2 * arm.disk_radius, "mm"),
+            arm_length=arm.length,
+            wheel_diameter=2 * arm.disk_radius,
         )
 
 

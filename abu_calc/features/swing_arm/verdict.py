@@ -9,7 +9,7 @@ from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import in_file, shown
 from abu_calc.inputs.duty import SwingArm
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.design import Design
@@ -79,8 +79,8 @@ def balanced_check(design: Design) -> Check:
     if not stable:
         message = f"A small disturbance grows {place}"
     elif not worst:
-        angle = from_si(_bounds(design).worst_contact_angle, "deg")
-        message += f". At the worst contact angle, {angle:.3g}°, a disturbance grows"
+        angle = shown(_bounds(design).worst_contact_angle, "deg")
+        message += f". At the worst contact angle, {angle}, a disturbance grows"
     return coded("ABU505", verdict(stable, worst), message, rate, 0.0)
 
 
@@ -97,15 +97,15 @@ def _rates(design: Design) -> tuple[dict[str, tuple[float, bool]], str]:
             missing = f"On the workpiece: {str(error).splitlines()[0]}"
             continue
         for speed in speeds:
-            rpm = f"{place}, at {from_si(speed, 'rpm'):.6g} rpm"
+            rpm = f"{place}, at {shown(speed, 'rpm', '.6g')}"
             rates[rpm] = _growth(design, replace(scene, speed=speed), "worst")
     return rates, missing
 
 
 def _worst_angle(design: Design) -> bool:
     """True if the balanced state is stable at the worst contact angle."""
-    angle = from_si(_bounds(design).worst_contact_angle, "deg")
-    turned = _with(design, _table(design).model_copy(update={"contact_angle_deg": angle}))
+    angle = dict([in_file("contact_angle_deg", _bounds(design).worst_contact_angle)])
+    turned = _with(design, _table(design).model_copy(update=angle))
     try:
         scene = scene_of_design(turned, CUTTING)
     except NotTrustworthyError:  # not pressed there, nor anywhere else

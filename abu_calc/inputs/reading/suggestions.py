@@ -204,13 +204,13 @@ def _converted(unit: str | None, values: Sequence[float]) -> Iterator[Guess]:
 def _levels(values: Sequence[float], speed_rpm: float | None) -> Iterator[Guess]:
     """Readings mistaken for a velocity level: rms acceleration or velocity, levels of other references."""
     positive = all(value > 0 for value in values)
-    if speed_rpm is not None and positive:
-        speed = to_si(speed_rpm, "rpm")
+    speed = None if speed_rpm is None else to_si(speed_rpm, "rpm")
+    if speed is not None and positive:
         yield Guess("m/s²", tuple(level_from_velocity(value / speed) for value in values))
     if positive:
         yield Guess("mm/s", tuple(level_from_velocity(to_si(value, "mm_per_s")) for value in values))
     # ISO 1683 takes 1e-9 m/s and 1e-6 m/s².
     yield Guess("dB re 1e-9 m/s", tuple(value + 20 * math.log10(1e-9 / REFERENCE_VELOCITY) for value in values))
-    if speed_rpm is not None:
-        unit = level_from_velocity(1e-6 / to_si(speed_rpm, "rpm"))
+    if speed is not None:
+        unit = level_from_velocity(1e-6 / speed)
         yield Guess("dB re 1e-6 m/s²", tuple(value + unit for value in values))

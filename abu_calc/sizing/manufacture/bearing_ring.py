@@ -6,7 +6,7 @@ from typing import Final
 
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import (
     GROOVE_CLEARANCE,
@@ -117,16 +117,18 @@ def nearest_ring(case: Case, ball_diameter: float) -> str:
     if not taking:
         return "No ring of the series 12, 13, 22, 23 takes such balls round this bore with this wall."
 
+    def needed(ring: BearingRing) -> tuple[float, float]:
+        outer, width = (from_si(length, "mm") for length in _envelope(ring))
+        return outer, width
+
     def excess(ring: BearingRing) -> float:
-        outer, width = _envelope(ring)
-        return max(0.0, from_si(outer, "mm") - abu.max_outer_diameter_mm) + max(
-            0.0, from_si(width, "mm") - abu.max_width_mm
-        )
+        outer, width = needed(ring)
+        return max(0.0, outer - abu.max_outer_diameter_mm) + max(0.0, width - abu.max_width_mm)
 
     ring = min(taking, key=excess)
-    outer, width = (from_si(length, "mm") for length in _envelope(ring))
+    outer, width = needed(ring)
     return (
-        f"The nearest that fits is {ring.designation} (R {from_si(ring.sphere_radius, 'mm'):.2f} mm): specify "
+        f"The nearest that fits is {ring.designation} (R {shown(ring.sphere_radius, 'mm', '.2f')}): specify "
         f"max_outer_diameter_mm = {outer:g} and max_width_mm = {width:g} at least."
     )
 
@@ -145,12 +147,12 @@ def ring_check(case: Case, race_radius: float) -> tuple[Check, ...]:
     ring = ring_of(case, race_radius)
     if ring is None:
         return ()
-    low, high = (from_si(radius, "mm") for radius in sphere_band(ring))
     measured = case.autobalancer.race_radius_mm is not None
     known = "as the file gives it; estimated" if measured else "estimated"
     message = (
-        f"The race is the outer ring of bearing {ring.designation}, Ø{from_si(ring.outside_diameter, 'mm'):g} × "
-        f"{from_si(ring.width, 'mm'):g} mm. The radius of its sphere is {known}: {low:.2f} … {high:.2f} mm"
+        f"The race is the outer ring of bearing {ring.designation}, "
+        f"Ø{shown((ring.outside_diameter, ring.width), 'mm', 'g', ' × ')}. The radius of its sphere is {known}: "
+        f"{shown(sphere_band(ring), 'mm', '.2f')}"
     )
     return (
         coded("ABU312", verdict(True, safe=measured), message, race_radius, remedy=None if measured else

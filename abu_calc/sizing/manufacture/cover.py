@@ -18,12 +18,13 @@ from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import GRAVITY, from_si, to_si
+from abu_calc.foundation.units import GRAVITY, from_si, shown, to_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import GROOVE_CLEARANCE
 from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.housing_parts import HousingParts
+from abu_calc.standards.tables import metres
 from abu_calc.standards.tolerance_classes import DeviationLimits, grade_tolerance, part_limits
 
 SHOCK: Final = 50 * GRAVITY
@@ -62,8 +63,8 @@ def choose_cover(case: Case, parts: HousingParts, ball_force: float, top: float)
     needed = COVER_FACTOR * _axial_load(parts, OVERSPEED**2 * ball_force)
     size = parts.dimensions
     if parts.closure == "screwed":
-        pitches = () if ring_fills_thread(parts) else THREAD_PITCHES_MM
-        pitch = next((to_si(p, "mm") for p in pitches if to_si(p, "mm") * LEAST_TURNS <= size.web), None)
+        pitches = metres(() if ring_fills_thread(parts) else THREAD_PITCHES_MM)
+        pitch = next((each for each in pitches if each * LEAST_TURNS <= size.web), None)
         strength = MATERIALS[parts.cover.density].strength
         shear = 0.5 * 2 * math.pi * size.seat_radius * size.web * 0.58 * strength * PROOF_SHARE
         return Cover(None, pitch, shear if pitch else 0.0, needed)
@@ -177,17 +178,14 @@ def seat_growth(parts: HousingParts, interference: float) -> float:
 def seat_name(parts: HousingParts, hold: Cover) -> str:
     """The cover's fit or thread, as a drawing writes it."""
     if parts.closure == "screwed":
-        diameter = from_si(2 * parts.dimensions.seat_radius, "mm")
         none = "no thread lets the ring pass" if ring_fills_thread(parts) else "no thread of three turns"
-        return f"M{diameter:.6g}×{from_si(hold.pitch, 'mm'):g}" if hold.pitch else none
+        return parts.thread_name(hold.pitch) if hold.pitch else none
     fit = hold.fit
     assert fit is not None
     if fit.bore_class:
         return fit.named
-    seat, rim = (
-        f"{from_si(limits.upper, 'um'):+.3g}/{from_si(limits.lower, 'um'):+.3g}" for limits in (fit.bore, fit.spindle)
-    )
-    return f"seat {seat}, cover {rim} µm"
+    seat, rim = (shown((limits.upper, limits.lower), "um", "+.3g", "/") for limits in (fit.bore, fit.spindle))
+    return f"seat {seat.removesuffix(' µm')}, cover {rim}"
 
 
 def cover_check(parts: HousingParts, hold: Cover) -> Check:
@@ -197,8 +195,6 @@ def cover_check(parts: HousingParts, hold: Cover) -> Check:
         "1.2 × the highest speed"
     )
     if hold.stress > hold.permitted:
-        message += (
-            f". Its fit stresses wall or cover with {from_si(hold.stress, 'MPa'):.3g} MPa, permitted "
-            f"{from_si(hold.permitted, 'MPa'):.3g} MPa"
-        )
+        permitted = shown(hold.permitted, "MPa")
+        message += f". Its fit stresses wall or cover with {shown(hold.stress, 'MPa')}, permitted {permitted}"
     return coded("ABU307", verdict(hold.holds), message, hold.held, hold.needed)

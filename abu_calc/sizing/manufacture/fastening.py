@@ -17,7 +17,7 @@ from abu_calc.formulas.press_fit import (
 )
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import RULES, HousingDimensions
 from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
@@ -151,8 +151,8 @@ def torque_check(case: Case, parts: HousingParts, fit: Fit | None, torque: SlipT
     what = "flange" if fastening == "flange" else "housing"
     message = f"Slip torque of the clamped {what}, against twice the torque of the run-up"
     if torque.stress > torque.permitted:
-        message += (f". The nut crushes the hub: {from_si(torque.stress, 'MPa'):.3g} MPa, permitted "
-                    f"{from_si(torque.permitted, 'MPa'):.3g} MPa")  # fmt: skip
+        permitted = shown(torque.permitted, "MPa")
+        message += f". The nut crushes the hub: {shown(torque.stress, 'MPa')}, permitted {permitted}"
     return (coded("ABU308", verdict(torque.holds), message, torque.held, torque.needed),)
 
 
@@ -163,8 +163,8 @@ def _shrunk_check(fit: Fit | None, torque: SlipTorque | None, needed: float) -> 
         )  # fmt: skip
     message = (
         f"Slip torque of the shrunk housing ({fit.named}), least over the temperatures at 1.2 × the highest speed, "
-        f"against twice the torque of the run-up. Hub: {from_si(torque.stress, 'MPa'):.3g} MPa, "
-        f"permitted {from_si(torque.permitted, 'MPa'):.3g} MPa"
+        f"against twice the torque of the run-up. Hub: {shown(torque.stress, 'MPa')}, "
+        f"permitted {shown(torque.permitted, 'MPa')}"
     )
     return coded("ABU308", verdict(torque.holds), message, torque.held, needed,
         None if torque.holds else 'Specify autobalancer.fastening = "clamped".',

@@ -23,7 +23,7 @@ GRADE_PER_MICRON: Final = 40
 LENGTHS_UM: Final = (0.5, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50, 60, 80, 100)
 ROUGHNESSES_UM: Final = (0.05, 0.08, 0.1, 0.16, 0.2, 0.32, 0.4, 0.63, 0.8, 1.25, 1.6)
 BALL_GRADES: Final = (5, 10, 16, 20, 28, 40, 100, 200)
-LEAST_CASE = to_si(0.5, "mm")
+LEAST_CASE = 0.5e-3
 """Least depth of the hard case after grinding [m]."""
 CASE_FACTOR: Final = 2.5
 """Depth of the case over the half-width of the contact: five times the depth of the largest shear (assumed)."""
@@ -56,18 +56,18 @@ class RaceQuality:
 )
 def race_quality(case: Case, candidate: Candidate) -> RaceQuality:
     permitted, hardness = candidate.budget.permitted, case.autobalancer.race_hardness_HRC
-    circularity = max(
-        to_si(_usual(CIRCULARITY_SHARE * from_si(permitted, "um"), LENGTHS_UM), "um"),
-        grade_tolerance(1, 2 * candidate.race_radius),
-    )
     microns = from_si(permitted, "um")
+
+    def usual(share: float, series: tuple[float, ...]) -> float:
+        return to_si(_usual(share * microns, series), "um")
+
     stress = candidate.strength
     half_width = math.sqrt(1.5 * stress.ball_force / (math.pi * stress.contact_pressure))
     return RaceQuality(
-        circularity=circularity,
-        waviness=to_si(_usual(WAVINESS_SHARE * microns, LENGTHS_UM), "um"),
-        dent=to_si(_usual(DENT_SHARE * microns, LENGTHS_UM), "um"),
-        roughness=to_si(_usual(ROUGHNESS_SHARE * microns, ROUGHNESSES_UM), "um"),
+        circularity=max(usual(CIRCULARITY_SHARE, LENGTHS_UM), grade_tolerance(1, 2 * candidate.race_radius)),
+        waviness=usual(WAVINESS_SHARE, LENGTHS_UM),
+        dent=usual(DENT_SHARE, LENGTHS_UM),
+        roughness=usual(ROUGHNESS_SHARE, ROUGHNESSES_UM),
         case_depth=max(LEAST_CASE, to_si(math.ceil(10 * from_si(CASE_FACTOR * half_width, "mm")) / 10, "mm")),
         hardness=(hardness, min(hardness + 3, 68.0)),
         ball_grade=int(_usual(GRADE_PER_MICRON * BALL_SHARE * microns, BALL_GRADES)),

@@ -16,7 +16,7 @@ from abu_calc.formulas.press_fit import (
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, shown, to_si
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.closure import OVERSPEED, PROOF_SHARE
 from abu_calc.sizing.parts.housing_parts import HousingParts
@@ -24,9 +24,9 @@ from abu_calc.standards.tolerance_classes import DeviationLimits, grade_toleranc
 
 SEAT_CLASSES: Final = ("N7", "P7", "R7")
 """Classes of the seat that are tried before limits of its own, loosest first."""
-RESERVE: Final = to_si(2, "um")
+RESERVE: Final = 2e-6
 """Least interference that is left anywhere [m] (assumed)."""
-JOINING_GAP: Final = to_si(0.03, "mm")
+JOINING_GAP: Final = 0.03e-3
 """Clearance at joining, with the body warm [m] (assumed)."""
 
 
@@ -116,11 +116,11 @@ def seat_check(case: Case, parts: HousingParts, seat: RingSeat | None) -> tuple[
         return ()
     low, high = case.autobalancer.temperature_range_C
     limit = PROOF_SHARE * MATERIALS[parts.body.density].strength
-    limits = f"{seat.seat_class} " if seat.seat_class else ""
-    upper, lower = (f"{from_si(value, 'um'):+.3g}" for value in (seat.seat.upper, seat.seat.lower))
+    named = f"{seat.seat_class} " if seat.seat_class else ""
+    limits = shown((seat.seat.upper, seat.seat.lower), "um", "+.3g", "/")
     message = (
         f"Hoop stress of the body by the ring's interference and overspeed, largest over {low:g} … {high:g} °C. The "
-        f"seat ({limits}{upper}/{lower} µm) keeps {from_si(seat.left, 'um'):.3g} µm at least. Join with the body at "
+        f"seat ({named}{limits}) keeps {shown(seat.left, 'um')} at least. Join with the body at "
         f"{seat.joining:.0f} °C"
     )
     passed = bears_ring(parts, seat)

@@ -3,7 +3,6 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.parts.housing_parts import HousingParts, TurnedPart
 from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Kind, Surface
 from abu_calc.standards.tolerance_classes import grade_tolerance
@@ -14,13 +13,13 @@ if TYPE_CHECKING:
     from abu_calc.sizing.manufacture.race_quality import RaceQuality
     from abu_calc.sizing.manufacture.ring_seat import RingSeat
 
-RACE_TOLERANCE: Final = to_si(0.05, "mm")
+RACE_TOLERANCE: Final = 0.05e-3
 """Tolerance of the race's radius, either way [m]."""
-GROOVE_TOLERANCE: Final = to_si(0.2, "mm")
-SEAT_ROUGHNESS: Final = to_si(0.4, "um")
+GROOVE_TOLERANCE: Final = 0.2e-3
+SEAT_ROUGHNESS: Final = 0.4e-6
 """Ra of ground bores and seats [m], Rz about 1.6 µm."""
-FACE_ROUGHNESS: Final = to_si(0.8, "um")
-GENERAL_ROUGHNESS: Final = to_si(3.2, "um")
+FACE_ROUGHNESS: Final = 0.8e-6
+GENERAL_ROUGHNESS: Final = 3.2e-6
 """Ra of surfaces that no entry names [m]."""
 
 
@@ -106,7 +105,7 @@ def _closure(parts: HousingParts, cover: "Cover", circularity: float) -> tuple[S
     """
     diameter = 2 * parts.dimensions.seat_radius
     if parts.closure == "screwed":
-        thread = f"M{from_si(diameter, 'mm'):g}×{from_si(cover.pitch, 'mm'):g}" if cover.pitch else ""
+        thread = parts.thread_name(cover.pitch) if cover.pitch else ""
         return Surface("cover seat", "thread", diameter, thread=thread), Surface(
             "outside", "thread", diameter, thread=thread
         )

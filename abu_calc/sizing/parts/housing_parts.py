@@ -3,6 +3,7 @@
 from typing import Final
 
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, RULES, STEEL, HousingDimensions, dimensions
@@ -81,6 +82,10 @@ class HousingParts:
     def race_part(self) -> TurnedPart:
         """The part that has the race."""
         return self.ring or self.body
+
+    def thread_name(self, pitch: float) -> str:
+        """The thread of the cover's seat, of a pitch [m]."""
+        return f"M{from_si(2 * self.dimensions.seat_radius, 'mm'):g}×{from_si(pitch, 'mm'):g}"
 
 
 def body_profile(size: HousingDimensions) -> Profile:

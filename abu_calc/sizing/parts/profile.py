@@ -10,9 +10,15 @@ from itertools import pairwise
 from typing import Final, NamedTuple
 
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
 
 LEAST_BULGE: Final = 1e-12
 """Bulges below are straight."""
+
+
+def drawn(length: float) -> float:
+    """A length [m] in the millimetres of drawings, freed of the noise of binary fractions."""
+    return round(from_si(length, "mm"), 9)
 
 
 class Point(NamedTuple):

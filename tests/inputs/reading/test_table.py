@@ -40,7 +40,7 @@ def vars_of(limit: object) -> list[tuple[str, float]]:
     return [(name, getattr(limit, name)) for name in ("ge", "gt", "le") if getattr(limit, name, None) is not None]
 
 
-TAKEN = {"Handle.position", "MachineTable.speed_range", "TwoRaceMachineTable.speed_range", "Wheel.runout"}
+TAKEN = {"Handle.position", "Wheel.runout"}
 """Properties, whichever key gives them: places and runouts in SI, too, ranges of speed in rpm."""
 
 

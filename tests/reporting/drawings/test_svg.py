@@ -28,12 +28,12 @@ ARM = SwingArmRecord(
     pressing_moment_N_m=20.0, least_pressing_moment_N_m=8.6, press_force_N=28.0,
     contact_stiffness_limit_N_per_m=2e6, contact_stiffness_limit_exact_N_per_m=2e6, worst_contact_angle_deg=101.4,
     resonance_rpm=4583.0, damping_limit_N_s_per_m=0.343, parametric_growth_rate_per_s=-1.0, pressed_angle_deg=2.1,
-    arm_length_mm=350.0, wheel_diameter_mm=230.0, contact_angle_deg=90.0, touch_angle_deg=2.0,
+    arm_length=0.35, wheel_diameter=0.23, contact_angle_deg=90.0, touch_angle_deg=2.0,
 )  # fmt: skip
 ARMS = {
     "usual": {}, "along": {"contact_angle_deg": 180.0}, "none": {"contact_angle_deg": 0.0, "touch_angle_deg": 0.0},
     "back": {"touch_angle_deg": -20.0, "contact_angle_deg": 60.0},
-    "wheel longer": {"arm_length_mm": 50.0, "wheel_diameter_mm": 300.0}, "long": {"arm_length_mm": 1e5},
+    "wheel longer": {"arm_length": 0.05, "wheel_diameter": 0.3}, "long": {"arm_length": 100.0},
 }  # fmt: skip
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from abu_calc.features.balancing.recording.tachometer import LONGER, Edge, Passages, passages, smooth
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
+from abu_calc.foundation.units import shown
 from abu_calc.inputs.recording_columns import column_of
 from abu_calc.inputs.recording_files import content_of
 from abu_calc.inputs.recording_table import decoded, table_of
@@ -171,8 +171,8 @@ def _check_speed(measured: float, given: float | None) -> None:
     twice = next((n for n in (2, 3, 4) if abs(ratio / n - 1) < SPEED_AGREES), None)
     remedy = f"{twice} pulses a revolution? One is needed." if twice else "correct speed_rpm, or leave it out"
     raise InputError(
-        "the marks tell another speed", found=f"{from_si(measured, 'rpm'):.1f} rpm by the marks",
-        allowed=f"{from_si(given, 'rpm'):g} rpm ± {SPEED_AGREES:.0%}", remedy=remedy,
+        "the marks tell another speed", found=f"{shown(measured, 'rpm', '.1f')} by the marks",
+        allowed=f"{shown(given, 'rpm', 'g')} ± {SPEED_AGREES:.0%}", remedy=remedy,
     )  # fmt: skip
 
 

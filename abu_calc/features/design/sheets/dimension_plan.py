@@ -9,9 +9,9 @@ from itertools import pairwise
 from typing import Final, Literal, NamedTuple
 
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si
 from abu_calc.reporting.drawings.shapes import digits, toleranced
 from abu_calc.sizing.parts.housing_parts import TurnedPart
+from abu_calc.sizing.parts.profile import drawn
 from abu_calc.sizing.parts.surfaces import Surface
 
 FROM_RIGHT: Final = 0.7
@@ -80,12 +80,12 @@ def part_edges(part: TurnedPart) -> tuple[Edge, ...]:
     origin = min(segment.start.z for segment in part.profile)
 
     def place(z: float, r: float) -> tuple[float, float]:
-        return round(from_si(z - origin, "mm"), 9), round(from_si(r, "mm"), 9)
+        return drawn(z - origin), drawn(r)
 
     return tuple(
         Edge(
             place(*each.start), place(*each.end), each.surface, 0.0 if each.straight else each.bulge,
-            None if each.straight else place(*each.centre), 0.0 if each.straight else from_si(each.radius, "mm"),
+            None if each.straight else place(*each.centre), 0.0 if each.straight else drawn(each.radius),
         )
         for each in part.profile
     )  # fmt: skip
@@ -109,7 +109,7 @@ def limits_text(surface: Surface) -> str:
     """Limit deviations [mm] as a drawing writes them; nothing where they are not tabulated."""
     if surface.limits is None:
         return ""
-    low, high = (round(from_si(limit, "mm"), 4) for limit in surface.limits)
+    low, high = (round(drawn(limit), 4) for limit in surface.limits)
     return f"({_signed(high)} / {_signed(low)})"
 
 
@@ -128,7 +128,7 @@ def diameter_text(value: float, surface: Surface | None) -> tuple[str, str]:
     if surface.limits is not None:
         return f"Ø{size_text(value, True)}", limits_text(surface)
     if surface.plus_minus is not None:
-        return f"Ø{toleranced(value, from_si(surface.plus_minus, 'mm'))}", ""
+        return f"Ø{toleranced(value, drawn(surface.plus_minus))}", ""
     return f"Ø{size_text(value, False)}", ""
 
 
@@ -137,7 +137,7 @@ def _groove_text(surface: Surface | None, edge: Edge) -> str:
     allowed = None if surface is None else surface.groove_plus_minus
     if allowed is None:
         return f"R{size_text(edge.radius, False)}"
-    return f"R{toleranced(edge.radius, from_si(allowed, 'mm'))}"
+    return f"R{toleranced(edge.radius, drawn(allowed))}"
 
 
 def _diameters(part: TurnedPart, edges: tuple[Edge, ...], length: float) -> Iterator[Diameter]:

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.features.design.sheets.dimension_plan import limits_text
 from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import shown
 from abu_calc.reporting.drawings.shapes import digits
 from abu_calc.sizing.manufacture.cover import seat_growth
 from abu_calc.sizing.parts.housing_parts import HousingParts, TurnedPart
+from abu_calc.sizing.parts.profile import drawn
 from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Surface
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
 
@@ -31,7 +32,7 @@ STEEL_PART: Final = Grade("C45+N (1.0503) EN ISO 683-1 / 45 GOST 1050", "normali
 ALUMINIUM_PART: Final = Grade("EN AW-6082 T6 EN 573-3 / АД35.Т1 GOST 4784", "T6 as delivered")
 BALL_STEEL: Final = Grade("100Cr6, ISO 3290-1 / ШХ15, GOST 3722", "as delivered")
 GENERAL_ROUGHNESS: Final = "Ra 3.2"
-FACE_RUNOUT: Final = to_si(0.01, "mm")
+FACE_RUNOUT: Final = 0.01e-3
 """Run-out and perpendicularity of the mounting face."""
 HUB: Final = "h7"
 HOLE: Final = "F8"
@@ -71,11 +72,11 @@ def _usual(part: TurnedPart, sizes: dict[str, float]) -> Iterator[Surface]:
     """Hub and the cover's hole, which guide the cover, and the faces of a ring."""
     if part.name == "body":
         yield Surface("hub", "cylinder", tolerance_class=HUB, limits=_limits("shaft", HUB, sizes["hub"]),
-                      roughness=to_si(1.6, "um"))  # fmt: skip
+                      roughness=1.6e-6)  # fmt: skip
     elif part.name == "cover":
         yield Surface("hole", "cylinder", tolerance_class=HOLE, limits=_limits("housing", HOLE, sizes["hole"]))
     else:
-        yield Surface("web face", "plane", roughness=to_si(0.8, "um"),
+        yield Surface("web face", "plane", roughness=0.8e-6,
                       geometrical=(GeometricalTolerance("perpendicularity", FACE_RUNOUT, "A"),))  # fmt: skip
 
 
@@ -129,7 +130,7 @@ def note_of(line: "DrawingLine") -> str:
     return f"{line.feature[:1].upper()}{line.feature[1:]}: {line.requirement.rstrip('.')}."
 
 
-UNDERCUT: Final = to_si(2, "mm")
+UNDERCUT: Final = 2e-3
 """Width of the undercut DIN 509 E 0.4 × 0.2 (HEIDENHAIN CNC PILOT 4290, user's manual: depth 0.2, width 2 mm)."""
 SEAT_LEFT: Final = 3
 """A seat is at least so many undercuts long, or it has none."""
@@ -144,7 +145,7 @@ def corner_relief(parts: HousingParts) -> tuple[float, float] | None:
     size = parts.dimensions
     if size.ring_end <= size.cover_start or size.web >= SEAT_LEFT * UNDERCUT:
         return None
-    stop = from_si(size.seat_radius - size.shoulder_radius, "mm")
+    stop = drawn(size.seat_radius - size.shoulder_radius)
     chamfer = next((each for each in CHAMFERS_MM if each <= stop / 2 + 1e-9), CHAMFERS_MM[-1])
     return chamfer, chamfer / 2
 
@@ -164,7 +165,7 @@ def _stops(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
         yield "Thread up to one turn before the stop; no undercut."
     elif "shoulder" in names and relief:
         yield (f"Corner at the stop of the cover seat: radius {digits(relief[1])} at most, no undercut: the seat is "
-               f"{digits(from_si(result.parts.dimensions.web, 'mm'))} mm long; the cover's chamfer "
+               f"{digits(drawn(result.parts.dimensions.web))} mm long; the cover's chamfer "
                f"{digits(relief[0])} × 45° clears it.")  # fmt: skip
     elif "shoulder" in names:
         yield "Undercut at the stop of the cover seat: DIN 509 E 0.4 × 0.2 / GOST 8820, within the seat's length."
@@ -177,9 +178,9 @@ def _pressed_beside(result: "SizeResult", part: TurnedPart) -> Iterator[str]:
     seat, rim = part.surface("cover seat"), result.parts.cover.surface("outside")
     if seat is None or rim is None or seat.limits is None or rim.limits is None:
         return
-    growth = from_si(seat_growth(result.parts, rim.limits.upper - seat.limits.lower), "um")
+    growth = shown(seat_growth(result.parts, rim.limits.upper - seat.limits.lower), "um", ".2g")
     yield (f"Measure size, circularity and run-out of the race before the cover is pressed in: the fit widens its "
-           f"edge by up to {growth:.2g} µm in diameter (free ring), alike all round if seat and cover are as round as "
+           f"edge by up to {growth} in diameter (free ring), alike all round if seat and cover are as round as "
            "asked.")  # fmt: skip
 
 
@@ -189,7 +190,7 @@ DEEPEST_FLAT_MM: Final = 1.0
 def _correction(result: "SizeResult") -> str:
     """How the imbalance is corrected: hard steel is ground; the depth leaves two thirds of the wall."""
     size, hard = result.parts.dimensions, result.parts.race_part.name == "body"
-    wall = from_si(size.outer_radius - (size.race_radius if hard else size.ring_radius), "mm")
+    wall = drawn(size.outer_radius - (size.race_radius if hard else size.ring_radius))
     depth = digits(max(0.1, min(DEEPEST_FLAT_MM, math.floor(10 * wall / 3 + 1e-9) / 10)))
     if hard:
         return f"Correct by grinding a flat at the rim's outside, {depth} mm deep at most; do not drill the hard body"
@@ -215,7 +216,7 @@ def _fits(result: "SizeResult") -> Iterator[str]:
         pairs.append(("race ring", "body", "ring seat", "outside"))
     for inner, outer, seat, face in (*pairs, ("cover", "body", "hub", "hole")):
         hole, shaft = parts[outer].surface(seat), parts[inner].surface(face)
-        size = max(from_si(2 * edge.start.r, "mm") for edge in parts[outer].profile if edge.surface == seat)
+        size = max(drawn(2 * edge.start.r) for edge in parts[outer].profile if edge.surface == seat)
         if hole is None or shaft is None:
             continue
         if seat == "hub":
@@ -239,6 +240,6 @@ def _balance(result: "SizeResult") -> Iterator[str]:
     permitted = float(grade_name.removeprefix("G")) / speed * mass
     yield (
         f"Balance (ISO 21940-11): assembled, without {abu.corrector}s and oil; mass {digits(mass, 1)} g; highest speed "
-        f"{from_si(speed, 'rpm'):.0f} rpm; grade {grade_name}; one tolerance plane, the middle of the race; "
+        f"{shown(speed, 'rpm', '.0f')}; grade {grade_name}; one tolerance plane, the middle of the race; "
         f"permissible residual imbalance {permitted:.3g} g·mm about the bore (A). {_correction(result)}."
     )

@@ -23,6 +23,7 @@ from abu_calc.reporting.drawings.shapes import (
     text_width,
 )
 from abu_calc.sizing.parts.housing_parts import TurnedPart
+from abu_calc.sizing.parts.profile import drawn
 from abu_calc.sizing.parts.surfaces import Surface
 
 GAP: Final = 8.0
@@ -52,8 +53,8 @@ def part_section(part: TurnedPart, plan: DimensionPlan, scale: float, detailed: 
         *_lengths(plan, outer, max(highest - outer, 0.0), unit),
         *mark,
     ]
-    drawn, wordy = _diameter_lines(plan, unit)
-    shapes += drawn
+    lines, wordy = _diameter_lines(plan, unit)
+    shapes += lines
     (left, _), (right, top) = extent(shapes, scale)
     for side in ("left", "right"):
         own = [each for each in _demands(part, plan.edges, frozenset(), detailed, wordy, _same)
@@ -169,7 +170,7 @@ def surface_callout(surface: Surface, tip: Point) -> Callout:
     """Roughness, hardness, form and place of a surface; its size stands with the dimensions."""
     rough = "" if surface.roughness is None else f"Ra {digits(from_si(surface.roughness, 'um'), 2)}"
     frames = tuple(
-        tuple(filter(None, (NAMES.get(each.kind, each.kind), digits(from_si(each.value, "mm"), 4), each.datum)))
+        tuple(filter(None, (NAMES.get(each.kind, each.kind), digits(drawn(each.value), 4), each.datum)))
         for each in surface.geometrical
     )
     return Callout(tip, surface.hardness, rough, frames, surface.datum)
