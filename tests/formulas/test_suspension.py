@@ -4,7 +4,6 @@ import math
 
 import pytest
 
-from abu_calc.formulas.balls import capacity, half_angle
 from abu_calc.formulas.rigid_body import Inertia, RigidBody
 from abu_calc.formulas.suspension import Hands, dynamic_stiffness, natural_frequency
 from abu_calc.sizing.case import RigidMachine
@@ -58,12 +57,6 @@ def test_hertz_pressure_against_elliptic_integrals(ratio: float, tolerance: floa
     r = 1e-4
     found = hertz_ball_in_toroid(142, r, 1 / (1 / r - 2 * small), 1 / (1 / r - 2 * large))
     assert found == pytest.approx(expected, rel=tolerance)
-
-
-@pytest.mark.parametrize(("count", "expected"), [(2, 721), (3, 968), (4, 1094)])
-def test_straight_grinder_by_hand(count: int, expected: float) -> None:
-    held = capacity(count, 16.728e-3, 23e-3, half_angle(8e-3, 23e-3))
-    assert 1e6 * held == pytest.approx(expected, abs=1)
 
 
 @pytest.mark.parametrize("axis", ["x", "y", "z"])

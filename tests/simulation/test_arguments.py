@@ -64,6 +64,7 @@ def test_every_argument_of_every_study_refuses_what_it_cannot_be(study: Any, nam
         (abu_calc.simulate, "samples", 2.5, "a whole number or None"),
         (abu_calc.simulate, "samples", True, "a whole number or None"),
         (abu_calc.simulate, "samples", 1, "2 … 1e6"),
+        (abu_calc.simulate, "most_evaluations", 0, "1 … 1e12"),
         (abu_calc.simulate, "scene", 5, "text or None"),
         (abu_calc.simulate, "scene", "idel", "idle"),
         (abu_calc.simulate, "start", ["bunched"], "text or None"),

@@ -8,9 +8,8 @@ import pytest
 
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.planar import planar
-from abu_calc.foundation.errors import InputError, RangeError
 from abu_calc.simulation.simulate import simulate
-from tests.dynamics.closed_forms import balls_resultant, resting_amplitude, two_ball_angles
+from tests.dynamics.closed_forms import balls_resultant, resting_amplitude
 from tests.dynamics.scenes import dimensionless
 
 
@@ -87,17 +86,3 @@ def test_disc_with_a_mass_of_one_kilogram():
     )
     # Published to whole degrees.
     assert degrees(simulate(scene).response.ball_angles) == pytest.approx([165, 285], abs=0.5)
-
-
-def test_two_ball_angles_close_the_vectors():
-    angles = two_ball_angles(0.3, 0.2, 0.5)
-    assert sum(cmath.rect(0.2, a) for a in angles) == pytest.approx(balls_resultant(0.3, 0.5), abs=1e-15)
-
-
-def test_what_has_no_answer_is_refused():
-    with pytest.raises(RangeError, match="carry"):
-        two_ball_angles(0.41, 0.2)
-    with pytest.raises(RangeError, match="carry"):
-        two_ball_angles(math.nan, 0.2)
-    with pytest.raises(InputError, match="resonance"):
-        resting_amplitude(0.1, 0.1, 2.0, 1.0, 2.0)
