@@ -9,13 +9,10 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.records import FrictionBound
-from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.simulate.study import SimulateResult
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.ensemble_results import Ensemble
-from abu_calc.sizing.design import Design
 from tests.remembered import recalled
 
 GRINDER = """\
@@ -190,41 +187,3 @@ def test_the_bound_of_friction_alone_is_no_warning(sized: SizeResult) -> None:
 
 
 # limits
-
-
-def with_rest(design: Design, limit: float | None) -> Design:
-    """A design whose balls must rest within a time [s]."""
-    table = design.case.table
-    limits = table.limits.model_copy(update={"rest_time_s": limit})
-    return replace(design, case=replace(design.case, table=table.model_copy(update={"limits": limits})))
-
-
-def judged(sized: SizeResult, limit: float | None, changed: Ensemble | None = None) -> Check:
-    """The check of the start cases of a result under a limit of the rest time [s]."""
-    assert sized.starts.of is not None
-    design, ensemble, _ = sized.starts.of
-    return check_of(checks_of_starts(StartFacts(with_rest(design, limit), changed or ensemble)), "ABU702")
-
-
-def test_the_rest_time_is_judged_where_the_file_limits_it(sized: SizeResult) -> None:
-    """At the given drag rate a late one fails, in hot or cold oil it warns; without the limit it is told alone."""
-    assert sized.starts.of is not None
-    _, ensemble, _ = sized.starts.of
-    given, all_oils = (max(outcome.rest_time_or_inf for outcome in group)
-                       for group in (ensemble.given, ensemble.outcomes))  # fmt: skip
-    assert given < all_oils < math.inf
-    assert f"The balls rest after {given:#.3g} s at the latest" in judged(sized, None).message
-    statuses = {limit: judged(sized, limit).status for limit in (0.99 * given, 1.01 * given, 1.01 * all_oils)}
-    assert list(statuses.values()) == ["fail", "warn", "pass"] and judged(sized, None).status == "pass"
-    assert f"(limit {1.01 * given:g} s)" in judged(sized, 1.01 * given).message
-
-
-def test_balls_that_creep_warn_and_never_rest(sized: SizeResult) -> None:
-    """Without a limit of the rest time a start case that still creeps warns; with one it fails."""
-    assert sized.starts.of is not None
-    _, ensemble, _ = sized.starts.of
-    first, *others = ensemble.outcomes
-    creeps = replace(ensemble, outcomes=(replace(first, rest_time=None, creeping=True), *others))
-    told = judged(sized, None, creeps)
-    assert told.status == "warn" and "The balls still creep at the end of 1 start case: " in told.message
-    assert judged(sized, 100.0, creeps).status == "fail"

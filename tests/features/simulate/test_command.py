@@ -327,13 +327,6 @@ def test_the_report_fits_80_columns(scene: str) -> None:
         assert "not quiet by the end" in text or "quiet after" in text
 
 
-@pytest.mark.parametrize("suffix", [".json", ".toml", ".csv", ".txt"])
-def test_output_formats(scene: str, tmp_path: Path, suffix: str) -> None:
-    for command in (("simulate", scene, "--duration", "20"), ("stability", scene, "--speeds", "5:50")):
-        path = tmp_path / f"{command[0]}{suffix}"
-        assert abu(*command, "--output", str(path), "--quiet").out == "" and path.stat().st_size > 200
-
-
 # what is refused
 @pytest.mark.parametrize(
     ("arguments", "words"),
