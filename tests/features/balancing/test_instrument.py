@@ -11,8 +11,6 @@ from abu_calc.foundation.errors import InputError
 from tests.features.balancing.rig import RIG, ROTOR, Workshop, written
 from tests.rows import for_each
 
-OMEGA = 100 * math.pi
-
 FACTORS = {
     "µm": 1e-6, "mil": 25.4e-6, "mm": 1e-3, "mm/s": 1e-3, "ips": 25.4e-3, "m/s²": 1.0, "g": 9.80665,
 }  # fmt: skip

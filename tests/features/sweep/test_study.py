@@ -12,6 +12,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep.samples import SweepStudy
+from tests.features.sweep.test_store import rows
 from tests.inputs.scenes import LIGHT_BALLS
 from tests.remembered import recalled, remembered
 
@@ -27,14 +28,6 @@ CALM = {
     "start.angle_deg": "choice(20)",
     "autobalancer.rolling_drag_per_s": "choice(15)",
 }
-
-
-def rows(path: Path) -> list[Any]:
-    database = sqlite3.connect(path)
-    try:
-        return database.execute("SELECT * FROM members ORDER BY member").fetchall()
-    finally:
-        database.close()
 
 
 @pytest.fixture(scope="module")
