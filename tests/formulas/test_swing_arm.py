@@ -120,14 +120,6 @@ def test_resonance_at_the_stiffness_limit_is_the_speed() -> None:
     assert resonance(soft, gain) == pytest.approx(680, rel=1e-9)
 
 
-def test_negative_contact_stiffness_at_small_angles() -> None:
-    """f = 0.45, R/l = 0.33: smallest g −0.0220 at 0.144 rad."""
-    grid = [k * 1e-3 for k in range(1, 600)]
-    worst = min(grid, key=lambda z: contact_gain(z, 0.45, 0.33))
-    assert worst == pytest.approx(0.144, abs=2e-3)
-    assert contact_gain(worst, 0.45, 0.33) == pytest.approx(-0.0220, abs=5e-5)
-
-
 def test_parametric_resonance_by_floquet() -> None:
     """At Ω = 2ω₀ the monodromy of ((1+2κcos τ)z')' + 2κ(kσ)z' + k²z = 0 grows at κω₀/2 − h per second."""
     np = pytest.importorskip("numpy")
