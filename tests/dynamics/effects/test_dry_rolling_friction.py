@@ -20,7 +20,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.switching.modes import starting
 from abu_calc.dynamics.switching.stick_slip import Rolling
 from abu_calc.foundation.errors import RangeError
-from tests.dynamics.scenes import dimensionless
+from tests.dynamics.scenes import coupled_scene, dimensionless
 
 RADIUS = 0.1
 SPEED, BALL, IMBALANCE, DAMPING = 2.0, 0.05, 0.02, 0.1
@@ -120,6 +120,14 @@ def test_same_motion_as_friction_smoothed_over_a_tiny_speed(coefficient):
     scene, times = planar_scene(1.6, -1.4, duration=20.0), [5.0, 12.0, 20.0]
     mine = integrate(assemble(rubbing(scene, coefficient)), 1e-9, times)
     np.testing.assert_allclose(mine.y, smoothed(scene, coefficient, times), atol=5e-5)
+
+
+def test_without_a_lever_arm_there_is_no_friction():
+    scene = coupled_scene()
+    t = np.linspace(0, scene.duration, 21)
+    plain, zero = (integrate(assemble(one), 1e-8, t) for one in (scene, rubbing(scene, 0.0)))
+    np.testing.assert_allclose(zero.y, plain.y, atol=1e-6)
+    assert zero.events == 0
 
 
 @pytest.mark.slow

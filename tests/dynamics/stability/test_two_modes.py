@@ -39,7 +39,11 @@ def test_eigenvalues_obey_the_characteristic_equation(speed: float) -> None:
     two = modes()
     x = speed / two.unit
     L = two.polynomial()
-    for value in np.linalg.eigvals(L[0] + L[1] * x + L[2] * x * x) * two.unit:
+    values = np.linalg.eigvals(L[0] + L[1] * x + L[2] * x * x) * two.unit
+    assert [two.growing(speed, least) for least in (-9, 1e-6, 9)] == [
+        (values.real > least).sum() for least in (-9, 1e-6, 9)
+    ]
+    for value in values:
         if abs(value) > 1e-6:
             assert abs(equation(value, speed)) < 1e-6 * abs(equation(1.02 * value + 0.001, speed))
     assert two.likeness == pytest.approx(abs(math.cos(1.3)))

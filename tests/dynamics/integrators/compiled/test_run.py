@@ -301,6 +301,13 @@ def test_code_that_gives_other_numbers_is_done_without(monkeypatch: pytest.Monke
         assert not ready.load(assemble(SCENES["friction"]), "rk45")
 
 
+def test_it_is_taken_where_it_is_asked_for() -> None:
+    equations = assemble(SCENES["friction"])
+    assert choice.choose(equations, "compiled", 1e-6).name == "compiled-dop853"
+    for name in ("compiled-rk45", "compiled-dop853"):
+        assert choice.integrate_with(name, equations, 1e-6, np.array([1.0]), 10**6).integrator == name
+
+
 def test_run_ups_are_met() -> None:
     """Ω' jumps within the run."""
     scene = with_effects(straight_grinder(), RunUpEffect(0.5, 0.7), DryRollingFrictionEffect(8e-6, 0.008))
