@@ -39,38 +39,27 @@ def settled(case: SpaceCase) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("name", "place", "expected"),
+    ("name", "place", "with_balls", "expected"),
     [
-        ("G125", "rear", (12.5264, 2.93740, 8.17211)),
-        ("G125", "side", (19.7999, 18.3292, 39.0305)),
-        ("G230", "rear", (11.7180, 1.62991, 9.09178)),
-        ("G230", "side", (15.0394, 14.5331, 36.8850)),
-        ("G230", "race", (14.5891, 31.8361, 6.45995)),
-        ("V305", "rear", (13.9062, 2.31820, 10.4077)),
-        ("V305", "side", (19.9160, 27.9588, 20.3801)),
+        ("G125", "rear", False, (12.5264, 2.93740, 8.17211)),
+        ("G125", "side", False, (19.7999, 18.3292, 39.0305)),
+        ("G230", "rear", False, (11.7180, 1.62991, 9.09178)),
+        ("G230", "side", False, (15.0394, 14.5331, 36.8850)),
+        ("G230", "race", False, (14.5891, 31.8361, 6.45995)),
+        ("V305", "rear", False, (13.9062, 2.31820, 10.4077)),
+        ("V305", "side", False, (19.9160, 27.9588, 20.3801)),
+        ("G230", "rear", True, (1.37008, 0.674601, 2.47761)),
+        ("G230", "side", True, (2.66239, 3.69102, 11.9759)),
+        ("G230", "race", True, (0.589188, 0.589188, 1.75225)),
+        ("V305", "rear", True, (0.543895, 0.090124, 0.405572)),
+        ("V305", "side", True, (0.773367, 1.07650, 0.787375)),
     ],
 )
-def test_velocities_without_balls(name: str, place: str, expected: tuple[float, float, float]) -> None:
+def test_velocities(name: str, place: str, with_balls: bool, expected: tuple[float, float, float]) -> None:
     case = CASES[name]
     at = case.race if place == "race" else case.handles[place]
-    motion = moving(case).displacement(at, [imbalance_at(case.wheel, case.imbalance)])
-    assert [1e3 * v for v in velocity_rms(motion, case.speed)] == pytest.approx(expected, rel=DIGITS)
-
-
-@pytest.mark.parametrize(
-    ("name", "place", "expected"),
-    [
-        ("G230", "rear", (1.37008, 0.674601, 2.47761)),
-        ("G230", "side", (2.66239, 3.69102, 11.9759)),
-        ("G230", "race", (0.589188, 0.589188, 1.75225)),
-        ("V305", "rear", (0.543895, 0.090124, 0.405572)),
-        ("V305", "side", (0.773367, 1.07650, 0.787375)),
-    ],
-)
-def test_velocities_with_balls(name: str, place: str, expected: tuple[float, float, float]) -> None:
-    case = CASES[name]
-    at = case.race if place == "race" else case.handles[place]
-    motion = moving(case).displacement(at, settled(case).loads)
+    loads = settled(case).loads if with_balls else [imbalance_at(case.wheel, case.imbalance)]
+    motion = moving(case).displacement(at, loads)
     assert [1e3 * v for v in velocity_rms(motion, case.speed)] == pytest.approx(expected, rel=DIGITS)
 
 

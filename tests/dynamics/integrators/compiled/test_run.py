@@ -29,7 +29,6 @@ from abu_calc.dynamics.integrators.compiled import run as compiled
 from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.program import in_order
 from abu_calc.dynamics.scene import Scene, placed
-from abu_calc.foundation import disk_cache as cache
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from tests.dynamics.effects.test_contract import CONTACT
 from tests.dynamics.scenes import (
@@ -258,16 +257,6 @@ def test_plain_code_gives_the_same_numbers(name: str) -> None:
 
 
 # What the compiler may do.
-
-
-@pytest.fixture
-def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
-    """As in a new process with an empty folder."""
-    for name in ("_codes", "_texts", "_loops"):
-        monkeypatch.setattr(compiled_code, name, {})
-    monkeypatch.setattr(ready, "_failures", [])
-    monkeypatch.setenv(cache.FOLDER, str(tmp_path))
-    return tmp_path
 
 
 @pytest.mark.usefixtures("fresh")
