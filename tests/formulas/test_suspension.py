@@ -4,9 +4,7 @@ import math
 
 import pytest
 
-from abu_calc.formulas.rigid_body import Inertia, RigidBody
 from abu_calc.formulas.suspension import Hands, dynamic_stiffness, natural_frequency
-from abu_calc.sizing.case import RigidMachine
 from abu_calc.sizing.housing import groove_radius
 from abu_calc.sizing.strength import hertz_ball_in_toroid, hoop_stress, permitted_pressure
 from abu_calc.sizing.track import carry_over_speed
@@ -14,16 +12,6 @@ from abu_calc.standards.balls import vickers
 from abu_calc.standards.vibration import hand
 
 OMEGA = 5800 * math.pi / 30
-RIGID = RigidMachine(RigidBody(6.4, Inertia(0.10, 0.10, 0.10)), (0.0, 0.0, 0.20))
-
-
-def test_effective_mass_of_the_rigid_body() -> None:
-    assert RIGID.effective_mass() == pytest.approx(1.8, abs=0.005)
-
-
-def test_body_gives_these_inertances() -> None:
-    assert RIGID.inertance((0, 0, 0.1), RIGID.wheel) == pytest.approx(1 / 6.4 + 0.2)
-    assert RIGID.inertance((0, 0, -0.2), RIGID.wheel) == pytest.approx(1 / 6.4 - 0.4)
 
 
 def test_forces_and_stresses_of_the_straight_grinder() -> None:
