@@ -14,7 +14,7 @@ posix = pytest.mark.skipif(os.name == "nt", reason="links need rights there")
 
 MACHINE, TABLE = "m.toml", "t.csv"
 WRITTEN = (
-    ("size", MACHINE, "-o", "x.toml", "-o", "x.toml"),
+    ("size", MACHINE, "-o", "x.toml", "-o", "./x.toml"),
     ("size", MACHINE, "-o", "x.svg", "--figure", "levels=x.svg"),
     ("size", MACHINE, "--figure", "section=x.svg", "--figure", "levels=x.svg"),
     ("simulate", MACHINE, "-o", "x.csv", "--trajectory", "x.csv"),

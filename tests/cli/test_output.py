@@ -104,12 +104,8 @@ def test_commands_without_figures_have_no_option_for_them() -> None:
     assert re.search(r"(?s)--figure NAME=FILE .*\blevels,.*--force", abu("size", "--help").out)
 
 
-def test_several_outputs_are_all_written_and_none_twice(tmp_path: Path) -> None:
+def test_several_outputs_are_all_written(tmp_path: Path) -> None:
     files = [tmp_path / name for name in ("fit.json", "fit.html", "fit.txt")]
     words = [word for file in files for word in ("--output", str(file))]
     assert abu("check-fit", "mmg-3200k-knife-shaft", "--quiet", *words).status == 1
     assert all(file.stat().st_size > 500 for file in files)
-    twice = abu(
-        "check-fit", "mmg-3200k-knife-shaft", "-o", str(tmp_path / "a.txt"), "-o", str(tmp_path / "." / "a.txt")
-    )
-    assert twice.status == 2 and "two outputs name the same file" in twice.err and not (tmp_path / "a.txt").exists()

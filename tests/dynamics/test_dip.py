@@ -78,23 +78,6 @@ def test_a_dip_by_other_equations(up: float) -> None:
     assert effect.at_speed == pytest.approx(up + 0.3)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("low", [LOW, pytest.param(1.3 * NATURAL, marks=pytest.mark.slow)])
-def test_a_pause_frees_balls_that_hang(low: float) -> None:
-    """Run up in one second they hang for good. After a pause below the resonance they turn with the rotor and balance
-    it; one above it changes nothing.
-    """
-    paused = own([(0, 0), (1, FULL), (3.2, low), (5.2, low), (5.9, FULL), (9, FULL)], 1e-5)
-    left = abs(IMBALANCE + BALL * PLACE * np.exp(1j * paused[4:6]).sum()) / IMBALANCE
-    if low < NATURAL:
-        assert np.abs(paused[6:]).max() < 1.0
-        assert left < 0.1
-        hung = own([(0, 0), (1, FULL), (6, FULL)], 1e-5)
-        assert hung[6:].max() < -200
-    else:
-        assert paused[6:].max() < -200
-
-
 def test_a_dip_that_is_none() -> None:
     """Changes nothing of a run-up, and a run has to be long enough for one."""
     bare = scene(RunUpEffect(0.3), 0.5)

@@ -9,13 +9,10 @@ import pytest
 from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
-from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.rotor import STEADY
 from abu_calc.dynamics.support import Unbalance
 from abu_calc.foundation.errors import InputError
-from tests.dynamics.scenes import dimensionless, scene_on
-
-SCENE = dimensionless(2.0, 0.05, 0.01, 0.01, 0.01, (0.0, 1.0), 10.0)
+from tests.dynamics.scenes import scene_on
 
 
 def test_what_a_scene_tells_is_what_its_effects_tell():
@@ -25,15 +22,6 @@ def test_what_a_scene_tells_is_what_its_effects_tell():
     assert scene.balls_meet and scene.holding.friction == pytest.approx(0.2)
     scene = scene_on("planar", TransverseMotionEffect(0.7, 0.1))
     assert scene.ball_states == ("across", "across'")
-
-
-def test_balls_of_all_races_are_told_race_by_race():
-    second = Race(2.0, (0.3,), 0.1, 1.0, (5.0,), (0.0,))
-    scene = replace(SCENE, races=(*SCENE.races, second))
-    assert scene.ball_masses == (0.05, 0.05, 0.3)
-    assert scene.static_moments == (0.05, 0.05, 0.6)
-    assert scene.start_angles == (0.0, 1.0, 5.0)
-    assert scene.static_moment == pytest.approx(0.7)
 
 
 def test_a_revolution_is_a_whole_turn() -> None:
@@ -52,7 +40,7 @@ def test_small_motion_carries_the_balls() -> None:
 
 @pytest.mark.parametrize(("change", "words"), [
     ({"speed": 0.0}, "speed"), ({"start_velocity": (0.0,)}, "one value for each support coordinate"),
-    ({"start_position": (0.0, math.inf)}, "start position"), ({"couple": 0.1}, "tilts"),
+    ({"start_position": (0.0, math.inf)}, "start position"),
 ])  # fmt: skip
 def test_circumstances_that_cannot_be_are_refused(change: dict[str, object], words: str) -> None:
     with pytest.raises(InputError, match=words):

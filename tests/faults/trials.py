@@ -22,26 +22,18 @@ from tests.cli.runner import Seen, abu
 from tests.faults.aim import aimed
 from tests.faults.clusters import cluster
 from tests.faults.stores import MEMBERS, corrupt, edit, members_of
+from tests.inputs.scenes import LIGHT_BALLS
 
-SCENE = """
-[scene]
-mass_kg = 1.0
-stiffness_N_per_m = [1.0, 1.0]
-damping_N_s_per_m = [0.1, 0.1]
-speed_rpm = 24.0
-imbalance_g_mm = 10000.0
-duration_s = 100.0
-[[scene.race]]
-pitch_radius_mm = 1000.0
-ball_masses_g = [20.0, 20.0]
-rolling_drag_per_s = 0.1
-start_angles_deg = [90.0, -90.0]
+SCENE = (
+    LIGHT_BALLS.replace("300.0", "100.0")
+    + """\
 [sweep]
 runs = 16
 [sweep.vary]
 "start.angle_deg" = "uniform(-90, 90)"
 "scene.speed_rpm" = "uniform(6, 24)"
 """
+)
 MODULES = (
     "sqlite3",
     "numpy",

@@ -1,9 +1,6 @@
 """Formulas of a simulation are registered with what their words claim."""
 
-import pytest
-
 from abu_calc.formulas.motion import (
-    ACCURACY,
     EQUATIONS,
     HARDLY,
     QUIET_TIME,
@@ -12,16 +9,7 @@ from abu_calc.formulas.motion import (
     SETTLING_TIME,
     SIMULATE,
 )
-from abu_calc.foundation.errors import RangeError
 from abu_calc.simulation.quiet import GRAZE, GRAZED, LAST
-
-
-@pytest.mark.parametrize("accuracy", [0.0, 0.6, -0.01, float("nan")])
-def test_an_accuracy_that_no_simulation_has_is_refused_by_its_key(accuracy: float) -> None:
-    with pytest.raises(RangeError) as refused:
-        ACCURACY.check(accuracy)
-    assert refused.value.place.key == "accuracy"
-    assert ACCURACY in SIMULATE.checked
 
 
 def test_the_words_of_settling_and_quiet_name_the_shares_that_the_code_uses() -> None:

@@ -12,13 +12,6 @@ def reaction(speed: float) -> complex:
     return complex(2000 - 6 * speed**2, 80 * speed)
 
 
-def test_at_idle_the_motor_gives_what_vibration_takes() -> None:
-    displacement = 2e-3
-    speed = idle_speed(STALL, NO_LOAD, displacement, reaction)
-    assert 0 < speed < NO_LOAD
-    assert STALL * (1 - speed / NO_LOAD) == pytest.approx(displacement**2 * 80 * speed / 2, rel=1e-9)
-
-
 def test_with_linear_damping_the_idle_speed_is_a_quotient() -> None:
     """T(1 − Ω/Ω₀) = ½Δ²bΩ gives Ω = T/(T/Ω₀ + ½Δ²b)."""
     expected = STALL / (STALL / NO_LOAD + 0.5 * 1e-6 * 80)

@@ -70,13 +70,8 @@ def test_band_by_hand_and_its_ends() -> None:
     assert left[-1] == pytest.approx(1e-3, rel=0.03)  # a slow weight matters little beside much friction
 
 
-def test_more_is_left_at_a_higher_speed() -> None:
-    assert remaining_band(20e-6, 300.0) < remaining_band(20e-6, 1000.0) < 20e-6
-
-
 def test_friction_number_and_equivalent_drag_by_hand() -> None:
     speed = 5800 * 2 * math.pi / 60
-    assert friction_number(1e-6, 24e-3, 8e-3, speed) == pytest.approx(1e-6 * 24e-3 * speed**2 / (8e-3 * 9.80665))
     # h_eq = (2/π)·J·Λ·Ω: the friction number times the speed.
     number = friction_number(1e-6, 24e-3, 8e-3, speed)
     assert equivalent_drag(1e-6, 24e-3, 8e-3, speed, 1.4) == pytest.approx(2 / math.pi * 1.4 * number * speed)

@@ -4,10 +4,7 @@ import math
 
 import pytest
 
-from abu_calc.formulas.balls import capacity, half_angle
-from abu_calc.formulas.rigid_body import Inertia, RigidBody
 from abu_calc.formulas.suspension import Hands, dynamic_stiffness, natural_frequency
-from abu_calc.sizing.case import RigidMachine
 from abu_calc.sizing.housing import groove_radius
 from abu_calc.sizing.strength import hertz_ball_in_toroid, hoop_stress, permitted_pressure
 from abu_calc.sizing.track import carry_over_speed
@@ -15,16 +12,6 @@ from abu_calc.standards.balls import vickers
 from abu_calc.standards.vibration import hand
 
 OMEGA = 5800 * math.pi / 30
-RIGID = RigidMachine(RigidBody(6.4, Inertia(0.10, 0.10, 0.10)), (0.0, 0.0, 0.20))
-
-
-def test_effective_mass_of_the_rigid_body() -> None:
-    assert RIGID.effective_mass() == pytest.approx(1.8, abs=0.005)
-
-
-def test_body_gives_these_inertances() -> None:
-    assert RIGID.inertance((0, 0, 0.1), RIGID.wheel) == pytest.approx(1 / 6.4 + 0.2)
-    assert RIGID.inertance((0, 0, -0.2), RIGID.wheel) == pytest.approx(1 / 6.4 - 0.4)
 
 
 def test_forces_and_stresses_of_the_straight_grinder() -> None:
@@ -58,12 +45,6 @@ def test_hertz_pressure_against_elliptic_integrals(ratio: float, tolerance: floa
     r = 1e-4
     found = hertz_ball_in_toroid(142, r, 1 / (1 / r - 2 * small), 1 / (1 / r - 2 * large))
     assert found == pytest.approx(expected, rel=tolerance)
-
-
-@pytest.mark.parametrize(("count", "expected"), [(2, 721), (3, 968), (4, 1094)])
-def test_straight_grinder_by_hand(count: int, expected: float) -> None:
-    held = capacity(count, 16.728e-3, 23e-3, half_angle(8e-3, 23e-3))
-    assert 1e6 * held == pytest.approx(expected, abs=1)
 
 
 @pytest.mark.parametrize("axis", ["x", "y", "z"])

@@ -46,12 +46,6 @@ RIGID = body(*S150, {"front": 0.10, "rear": -0.20})
 POINT = body(*S100)
 
 
-def test_the_weighting_of_both_machines() -> None:
-    for rpm, weight in ((10_000, 0.095713), (5800, 0.165800)):
-        speed = to_si(rpm, "rpm")
-        assert acceleration_per_displacement(speed) / speed**2 == pytest.approx(weight, rel=1e-5)
-
-
 def test_values_without_autobalancer() -> None:
     front, rear = RIGID.gains
     gain = acceleration_per_displacement(to_si(5800, "rpm"))
@@ -132,9 +126,3 @@ def test_estimated_mean_is_near_the_simulated_one() -> None:
 @pytest.mark.parametrize(("count", "low", "high"), [(2, 1.3, 3.2), (3, 1.1, 2.0), (4, 1.0, 1.3), (6, 0.8, 1.0)])
 def test_friction_displacement_lies_in_the_simulated_range(count: int, low: float, high: float) -> None:
     assert low <= friction_displacement(count, 1.0) <= high
-
-
-def test_a_race_in_the_wheel_plane_leaves_nothing_of_the_imbalance() -> None:
-    for machine in (POINT, body(6.0, 10.0, 0.2, 0.2, {"front": 0.1, "rear": -0.3})):
-        for gain in machine.gains:
-            assert math.sqrt(gain.imbalance) < 1e-15

@@ -1,7 +1,6 @@
 """`--patience`: a wall of seconds, past which a check is not done, and never another verdict."""
 
 import time
-from pathlib import Path
 
 import pytest
 
@@ -12,8 +11,6 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.errors import RangeError
 from tests.cli.runner import abu, again
 from tests.dynamics.scenes import straight_grinder
-
-MACHINES = Path(__file__).parents[1] / "machines"
 
 
 def statuses(*arguments: str) -> dict[tuple[str, str], str]:

@@ -98,9 +98,6 @@ def documents(draw: st.DrawFn, text: str) -> dict[str, Any]:
     return document
 
 
-DAMAGE: Final = ("cut", "line", "twice", "swap", "CRLF", "CR", "BOM", "16", "bytes", "deep", "many", "odd")
-
-
 @st.composite
 def damaged(draw: st.DrawFn, text: str) -> bytes:
     """A text with its bytes changed here and there, or written in another way."""

@@ -25,6 +25,21 @@ rolling_drag_per_s = 0.01
 start_angles_deg = [90.0, -90.0]
 """
 
+LIGHT_BALLS = """
+[scene]
+mass_kg = 1.0
+stiffness_N_per_m = [1.0, 1.0]
+damping_N_s_per_m = [0.1, 0.1]
+speed_rpm = 24.0
+imbalance_g_mm = 10000.0
+duration_s = 300.0
+[[scene.race]]
+pitch_radius_mm = 1000.0
+ball_masses_g = [20.0, 20.0]
+rolling_drag_per_s = 0.1
+start_angles_deg = [90.0, -90.0]
+"""
+
 # Every table and key of a scene file, with the values of the published description of the format.
 PLANAR = """\
 [scene]

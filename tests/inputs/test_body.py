@@ -33,29 +33,6 @@ def test_a_range_holds_the_rated_speed_at_its_ends_too(tmp_path: Path) -> None:
         assert list(machine(tmp_path, text).machine.speeds_rpm) == document(f"a = {written}")["a"]
 
 
-def test_a_range_that_falls_or_misses_the_rated_speed_is_refused(tmp_path: Path) -> None:
-    for written, remedy in (("[6000, 5000]", "Write speed_range_rpm = [5000, 6000]"), ("[100, 200]", "Widen")):
-        error = refused(tmp_path, BASIC.replace("speed_rpm = 5800", f"speed_rpm = 5800\nspeed_range_rpm = {written}"))
-        assert error.place.key == "machine.speed_range_rpm" and remedy in (error.remedy or "")
-
-
-@pytest.mark.parametrize("key", ["transverse_inertia_kg_m2", "center_of_mass_to_wheel_mm"])
-def test_half_a_rigid_body_is_refused(tmp_path: Path, key: str) -> None:
-    error = refused(tmp_path, BASIC.replace("mass_kg = 5.6", f"mass_kg = 5.6\n{key} = 100"))
-    assert error.place.key == f"machine.{key}" and "only together" in error.message
-
-
-def test_two_handles_of_one_name_are_refused_at_the_second(tmp_path: Path) -> None:
-    handle = '[[machine.handle]]\nname = "front"\nfrom_center_of_mass_mm = 1\n'
-    assert refused(tmp_path, BASIC + 2 * handle).place.key == "machine.handle[1].name"
-
-
-def test_hands_take_no_frequencies_and_springs_need_them(tmp_path: Path) -> None:
-    hands = refused(tmp_path, BASIC.replace('"springs"', '"hands"'))
-    assert hands.place.key == "suspension.natural_frequencies_hz" and "ISO 10068" in hands.message
-    assert refused(tmp_path, BASIC.replace("damping_ratios", "# ")).place.key == "suspension.damping_ratios"
-
-
 BODY = "center_of_mass_from_wheel_mm = [-95, 0, -48]\ninertia_kg_m2 = [0.004, 0.02, 0.019]\n"
 """A body in space, as lines of [machine]."""
 

@@ -5,16 +5,6 @@ import pytest
 from abu_calc.inputs.recording_columns import column_of
 
 
-@pytest.mark.parametrize(("name", "quantity", "unit"), [
-    ("a [g]", "acceleration", 9.80665), ("vx_mm_per_s", "velocity", 1e-3), ("ax", "acceleration", None),
-    ("disp (µm)", "displacement", 1e-6), ("x_mm", "displacement", 1e-3), ("signal", None, None),
-    ("ускорение [м/с²]", "acceleration", 1.0),
-])  # fmt: skip
-def test_a_name_tells_quantity_and_unit(name: str, quantity: str | None, unit: float | None) -> None:
-    column = column_of(name)
-    assert (column.quantity, column.unit, column.is_time) == (quantity, unit, False)
-
-
 @pytest.mark.parametrize(("name", "unit"), [("t_s", 1.0), ("Time (ms)", 1e-3), ("время", None), ("clock [min]", 60.0)])
 def test_a_name_tells_time(name: str, unit: float | None) -> None:
     column = column_of(name)

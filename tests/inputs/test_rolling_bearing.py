@@ -25,14 +25,10 @@ SIZED = {"bore_mm": 17.0, "outer_mm": 40.0, "width_mm": 12.0}
 
 
 @pytest.mark.parametrize(("given", "words"), [
-    ({}, "has no size"), ({"bore_mm": 17.0}, "is incomplete"), (SIZED | {"designation": "6203"}, "both give the size"),
-    (SIZED | {"outer_mm": 17.0}, "outer_mm must be above bore_mm"),
-    (SIZED | {"shaft_bore_mm": 17.0}, "above shaft_bore"),
-    (SIZED | {"housing_outer_mm": 40.0}, "housing_outer_mm must be"), (SIZED | {"chamfer_mm": 6.0}, "no seat"),
+    (SIZED | {"housing_outer_mm": 40.0}, "housing_outer_mm must be"),
     (SIZED | {"shaft_limits_um": [2.0, 1.0]}, "ascend"), (SIZED | {"asked_interference_um": [5.0, 5.0]}, "ascend"),
     (SIZED | {"ring_temperature_difference_K": -501.0}, "ring_temperature"), (SIZED | {"speed_rpm": -1.0}, "speed_rpm"),
     (SIZED | {"seat_friction": 1.001}, "seat_friction"), (SIZED | {"axial_load_kN": float("nan")}, "axial_load"),
-    (SIZED | {"shaft_fit": "K6"}, "shaft_fit"), (SIZED | {"housing_fit": "k6"}, "housing_fit"),
 ])  # fmt: skip
 def test_a_bearing_that_cannot_be_is_refused(given: dict[str, object], words: str) -> None:
     with pytest.raises(ValueError, match=words):

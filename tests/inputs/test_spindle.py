@@ -84,14 +84,6 @@ def test_a_fault_in_a_list_of_one_has_its_line(tmp_path: Path) -> None:
         read(file)
 
 
-def test_two_wheels_and_one_race_are_refused(tmp_path: Path) -> None:
-    text = read(PRESET).document.text
-    file = tmp_path / "short.toml"
-    file.write_text(text.rpartition("[[autobalancer]]")[0] + "[limits]\n", encoding="utf-8")
-    with pytest.raises(InputError, match="autobalancer"):
-        read(file)
-
-
 TABLE = """
 [[autobalancer]]
 plane_mm = 0.0

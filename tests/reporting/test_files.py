@@ -4,7 +4,6 @@ import csv
 import importlib.util
 import io
 import json
-import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -16,20 +15,7 @@ from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.files import FORMULAS, as_file, check_extra
 from abu_calc.reporting.outcome import Outcome
 from tests.cli.runner import abu, again
-from tests.inputs.samples import BEARINGS
-
-ACTING = re.compile("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\u2028\u2029]")
-"""What acts on a terminal; lines end in \n alone."""
-
-
-HOSTILE = "\\u001b[2Jx\\u009b31m\\u202ey\\u2066\\t"
-
-
-def named(tmp_path: Path, name: str, text: str = BEARINGS) -> Path:
-    """A file of that name for the machine and its bearing."""
-    file = tmp_path / "machine.toml"
-    file.write_text(text.replace('"fleshing roll"', f'"{name}"').replace('"left"', f'"{name}"'), encoding="utf-8")
-    return file
+from tests.reporting.test_text import ACTING, HOSTILE, named
 
 
 @pytest.mark.few(1)

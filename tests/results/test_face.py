@@ -90,12 +90,6 @@ def test_what_is_no_change_is_refused(values: object) -> None:
         abu_calc.read("msh-230").changed(values)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("study", [abu_calc.size, abu_calc.check_fit, abu_calc.simulate, abu_calc.stability])
-def test_a_files_name_is_no_machine(study: object) -> None:
-    with pytest.raises(abu_calc.InputError, match="a machine that was read"):
-        study("msh-230")  # type: ignore[operator]
-
-
 def test_dates_are_no_expected_values() -> None:
     seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", "expected.foo=1979-05-27")
     assert seen.status == 2 and "--set expected.foo" in seen.err and "(found 1979-05-27)" in seen.err

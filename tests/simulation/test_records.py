@@ -21,8 +21,6 @@ from tests.inputs.scenes import SCENE
 from tests.remembered import recalled
 from tests.results.test_face import without_clock
 
-FRICTION = "dry_rolling_friction"
-
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
@@ -115,27 +113,6 @@ def test_a_simulation_hands_on_how_it_moved(file: Path) -> None:
     assert {"motion", "run"}.isdisjoint(result.to_dict())
     # Further states than axis and balls stand in the run.
     assert len(result.run.trajectory.at([5.0])) == 8 and result == replace(result, motion=None)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "key"),
-    [
-        ({"accuracy": 2.0}, "accuracy"),
-        ({"integrator": "euler"}, "integrator"),
-        ({"duration_s": 0.1}, "duration_s"),
-        ({"samples": 1}, "samples"),
-        ({"with_effects": ["motor"]}, "with_effects"),
-        ({"without_effects": ["graviti"]}, "without_effects"),
-        ({"with_effects": ["gravity"], "without_effects": ["gravity"]}, "without_effects"),
-        ({"scene": "idle"}, "scene"),
-        ({"start": "bunch"}, "start"),
-    ],
-    ids=str,
-)
-def test_a_wrong_argument_is_refused_by_its_name(file: Path, arguments: dict, key: str) -> None:
-    with pytest.raises(abu_calc.InputError) as refused:
-        abu_calc.simulate(abu_calc.read_scene(file), **arguments)
-    assert refused.value.place.key == key and refused.value.place.file is None
 
 
 def test_every_effect_says_itself_what_it_is() -> None:

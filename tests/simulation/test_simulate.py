@@ -10,11 +10,11 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
 from abu_calc.dynamics.supports.planar import PlanarSupport
-from abu_calc.dynamics.supports.steady_motion import receptance, unbalanced_amplitude
+from abu_calc.dynamics.supports.steady_motion import receptance
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.simulation import simulate as simulate_module
-from abu_calc.simulation.response import NEVER, amplitude_window, evaluate, needed_times, settling_times
+from abu_calc.simulation.response import amplitude_window, evaluate, needed_times, settling_times
 from abu_calc.simulation.simulate import difference, simulate
 from tests.dynamics.scenes import dimensionless, straight_grinder
 from tests.dynamics.transforms import in_units
@@ -236,28 +236,6 @@ def test_more_samples_on_request():
     assert simulate(scene, sample_times=times.tolist()).trajectory.at(times).shape == (4, 11)
     with pytest.raises(InputError, match="within the run"):
         simulate(scene, sample_times=[scene.duration * 1.01])
-
-
-def test_difference_knows_the_circle_and_equal_balls():
-    scene = dimensionless(3.0, 0.02, 0.02, 0.2, 0.3, (1.0, 2.5, 4.0), 50.0)
-    scene = replace(scene, races=(replace(scene.races[0], ball_masses=(0.02, 0.02, 0.03)),))
-    one = simulate(scene, 0.05).response
-    a, b, c = one.ball_angles
-
-    def moved(*angles: float):
-        return replace(one, ball_angles=angles)
-
-    assert difference(scene, one, moved(b - 2 * math.pi, a + 4 * math.pi, c)) == pytest.approx(0, abs=1e-9)
-    assert difference(scene, one, moved(a, b + 0.03, c)) == pytest.approx(0.03)
-    assert difference(scene, moved(0.01, 3.0, c), moved(3.0, -0.01, c)) == pytest.approx(0.02)
-    assert difference(scene, one, moved(c, b, a)) > 0.1
-    assert difference(scene, one, replace(one, settling_time=None)) == math.inf
-    assert one.quiet_time is not None and one.rest_time is not None
-    for other in (replace(one, quiet=NEVER), replace(one, rest=NEVER)):
-        assert difference(scene, one, other) == math.inf
-    amplitude = unbalanced_amplitude(scene) * 0.01
-    still = replace(one, axis_amplitude=0.0)
-    assert difference(scene, replace(one, axis_amplitude=0.2 * amplitude), still) == pytest.approx(0.2)
 
 
 def test_no_imbalance_and_no_balls_leave_no_level():

@@ -50,17 +50,6 @@ def test_a_race_without_eccentricity_has_one_side() -> None:
     assert len(list(members(design()))) == len(list(members(centred))) + 5  # four starts and the run-up, once more
 
 
-def test_drags_are_the_given_one_a_third_and_three_times() -> None:
-    drags = {member.drag for member in members(design())}
-    assert sorted(drags) == pytest.approx(sorted(share * design().case.drag for share in design().case.drag_shares))
-
-
-def test_a_slow_run_up_is_tried_below_the_doubtful_drag_alone() -> None:
-    drag = design().case.drag
-    slow = [member for member in members(design(), doubtful=1.01 * drag) if member.run_up == 4.0]
-    assert sorted({member.drag for member in slow}) == pytest.approx([drag / 3, drag])
-
-
 def test_the_run_up_is_the_files_or_takes_a_second() -> None:
     assert usual_run_up(design()).run_up == 1.0
     assert usual_run_up(size(machine(**PINNED, run_up={"time_s": 0.7}))).run_up == 0.7

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from abu_calc.sizing import size
-from abu_calc.sizing.budget import displacement_level, fan, ovality_residual, permitted_displacement
+from abu_calc.sizing.budget import displacement_level, fan, permitted_displacement
 from abu_calc.sizing.case import read_case
 from tests.sizing.machines import PINNED, machine
 
@@ -43,10 +43,6 @@ def test_what_the_balls_cannot_carry_stays_in_the_level() -> None:
     rest = left * resonance + math.hypot(one.budget.race_eccentricity, one.budget.rolling_friction)
     assert one.budget.residual == pytest.approx(rest, rel=1e-3)
     assert design.idle.worst.after == pytest.approx(displacement_level(rest, 5800 * math.pi / 30), abs=0.01)
-
-
-def test_two_lobes_are_opposite_balls_at_twice_their_amplitude() -> None:
-    assert ovality_residual(1.5e-6) == pytest.approx(3e-6)
 
 
 def test_a_background_as_loud_as_the_limit_permits_nothing() -> None:

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from abu_calc.formulas.balls import capacity, half_angle
 from abu_calc.foundation.checks import overall
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.reading.table import LEAST
@@ -169,16 +168,6 @@ def test_need_scales_with_all_masses(changes: dict[str, Any], factor: float) -> 
     assert heavy.required == pytest.approx(light.required * factor, rel=1e-9)
     if light.compliant is not None:
         assert heavy.compliant == pytest.approx(light.compliant * factor, rel=1e-9)
-
-
-@given(st.floats(0.2, 5), st.integers(2, 4))
-@RANDOM
-def test_capacity_and_mass_scale_with_geometry(factor: float, count: int) -> None:
-    """All lengths × k: a ball's mass × k³, so capacity × k⁴; the angle of touching balls stays."""
-    beta = half_angle(8e-3, 23e-3)
-    assert half_angle(8e-3 * factor, 23e-3 * factor) == pytest.approx(beta)
-    one = capacity(count, 0.016, 23e-3, beta)
-    assert capacity(count, 0.016 * factor**3, 23e-3 * factor, beta) == pytest.approx(one * factor**4)
 
 
 # The choice.

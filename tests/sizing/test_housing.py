@@ -33,12 +33,6 @@ def test_a_larger_race_is_never_lighter(race: float, step: float, design: Any) -
     assert housing(design, race + step, 8e-3, 20e-3, 2.5e-3).mass > housing(design, race, 8e-3, 20e-3, 2.5e-3).mass
 
 
-def test_the_groove_obeys_five_sevenths() -> None:
-    """5(R − r) = 7(R_g − r)."""
-    race, ball = 31e-3, 8e-3
-    assert 7 * (groove_radius(race, ball) - ball) == pytest.approx(5 * (race - ball))
-
-
 def test_a_straight_race_weighs_less_by_the_fill_of_the_groove() -> None:
     """Volume between cylinder and groove by the midpoint rule over the 16.6 mm between the webs."""
     race, ball, steps = 31e-3, 16e-3, 20000

@@ -53,9 +53,3 @@ def test_a_balance_grade_is_a_speed_of_the_centre_of_mass() -> None:
     imbalance = find_imbalance(read_case(machine(wheel__imbalance_g_mm=None, wheel__balance_grade="G16")))
     assert imbalance.value == pytest.approx(0.6 * 16e-3 / OMEGA)
     assert "G16" in imbalance.source
-
-
-def test_the_imbalance_of_a_point_mass_shakes_it_with_the_velocity_it_was_found_from() -> None:
-    velocity, mass = 0.014, 6.2
-    moment = imbalance_from_level(velocity, OMEGA, 1 / mass)
-    assert moment / mass * OMEGA / math.sqrt(2) == pytest.approx(velocity)  # displacement m₀e/M, rms of its velocity

@@ -124,14 +124,10 @@ def test_a_weighting_that_is_not_defined_names_its_key(table: str, more: tuple[s
 
 
 @pytest.mark.parametrize(("settings", "word"), [
-    (("measured_after.measured_velocity_mm_per_s=5", "measured_after.measured_weighting=Wh"), "acceleration only"),
     (("measured_after={measured_at='front', measured_level_db=100}",), "no handle has this name"),
-    (("measured_after={}",), "exactly one measured value"),
-    (("measured_after={measured_level_db=100, measured_velocity_mm_per_s=5}",), "exactly one measured value"),
     (("measured_after={measured_level_db=[]}",), "too few"),
     (("measured_after={measured_displacement_um=0}",), "above 0"),
     (("measured_after={measured_displacement_um=5, measured_axes=2}",), "1 or 3"),
-    (("wheel.imbalance_g_mm=200", "wheel.measured_axes=3"), "measured value only"),
 ])  # fmt: skip
 def test_what_does_not_go_together_is_refused(settings: tuple[str, ...], word: str) -> None:
     seen = abu("size", "avtovaz-707-222", *(part for one in settings for part in ("--set", one)))

@@ -22,10 +22,6 @@ from tests.sizing.machines import DRUM, check_of, machine
 FORCE, RADIUS, WIDTH, WALL = 139.0, 31e-3, 16.5e-3, 2.5e-3
 
 
-# Friction.
-
-
-# Roundness.
 def test_a_web_bears_two_lobes_as_elasticity_says() -> None:
     """σ_r = −(2A + 6C/r⁴ + 4D/r²), τ = 2A + 6Br² − 6C/r⁴ − 2D/r², times cos 2θ and sin 2θ: four conditions solved,
     then u_r by integrating the strain ε_r = (σ_r − νσ_θ)/E.
@@ -95,6 +91,3 @@ def test_the_search_avoids_races_that_go_oval() -> None:
     ]
     assert lighter and not any(one.stays_round for one in lighter)
     assert check_of(design, "ABU304").status == "pass"
-
-
-# Remedies.

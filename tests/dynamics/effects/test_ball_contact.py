@@ -156,13 +156,6 @@ def test_full_turns_in_the_start_angles_mean_nothing():
     assert gaps.min() > 2 * BETA - 1e-9
 
 
-def test_two_tolerances_agree():
-    scene = scene_of(3.0, bunch(4), 12.0, BallContactEffect(RADIUS, 0.5))
-    t = np.linspace(0, 12, 25)
-    loose, tight = (integrate(assemble(scene), tolerance, t).y for tolerance in (1e-7, 1e-10))
-    np.testing.assert_allclose(loose, tight, atol=1e-4)
-
-
 @pytest.mark.few(0, 2)
 @pytest.mark.slow
 @pytest.mark.parametrize(

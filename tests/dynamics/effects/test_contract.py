@@ -346,6 +346,9 @@ def test_units_do_not_matter(support, name):
     units = units_of(one, length, time)
     np.testing.assert_allclose(other.initial, units * np.array(one.initial), rtol=1e-12)
     np.testing.assert_allclose(other.scales, units * np.array(one.scales), rtol=1e-12)
+    bare = replace(scene, imbalance=0.0)  # scales are taken from something else then
+    scales = [np.array(assemble(each).scales) for each in (bare, in_units(bare, length, mass, time))]
+    np.testing.assert_allclose(scales[1], units * scales[0], rtol=1e-12)
     for sample in samples(scene, 3):
         modes = at_break(other, sample.t * time, other.first_modes)
         state, modes = settled(other, sample.t * time, units * sample.y, modes)

@@ -122,13 +122,6 @@ def test_same_motion_as_friction_smoothed_over_a_tiny_speed(coefficient):
     np.testing.assert_allclose(mine.y, smoothed(scene, coefficient, times), atol=5e-5)
 
 
-def test_two_tolerances_agree():
-    scene = rubbing(planar_scene(1.6, -1.4, 0.3, duration=40.0), 2e-3)
-    t = np.linspace(0, 40, 81)
-    loose, tight = (integrate(assemble(scene), tolerance, t).y for tolerance in (1e-6, 1e-9))
-    np.testing.assert_allclose(loose, tight, atol=1e-4)
-
-
 def test_without_a_lever_arm_there_is_no_friction():
     scene = coupled_scene()
     t = np.linspace(0, scene.duration, 21)

@@ -6,20 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.gravity import GravityEffect
-from abu_calc.dynamics.effects.motor import MotorEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weighing_amplitude
 from abu_calc.foundation.errors import NotTrustworthyError, RangeError
-from tests.dynamics.scenes import scene_on
+from tests.dynamics.scenes import ROTORS, scene_on
 
 STEP = 1e-100
 R, BALL = 0.030, 0.008
@@ -99,17 +96,13 @@ def test_a_ball_that_climbs_out_is_told():
         scipy_.integrate(equations, 1e-6, [0.2])
 
 
-def rotors() -> dict[str, tuple[Effect, ...]]:
-    return {"steady": (), "guided": (RunUpEffect(3.0, 2.0),), "driven": (MotorEffect(2.0, 3.0, 6.0),)}
-
-
 @pytest.mark.parametrize("support", ["planar", "coupled", "hand", "tilting", "swing arm"])
-@pytest.mark.parametrize("rotor", ["steady", "guided", "driven"])
+@pytest.mark.parametrize("rotor", ROTORS)
 @pytest.mark.parametrize("free", [False, True])
 def test_in_the_middle_of_the_groove_nothing_changes(support, rotor, free):
     """Where races do not carry the balls along the spindle as they tilt."""
     effect = TransverseMotionEffect(1.1, 0.3, free_spin=free)
-    bare, scene = scene_on(support, *rotors()[rotor]), scene_on(support, *rotors()[rotor], effect)
+    bare, scene = scene_on(support, *ROTORS[rotor]), scene_on(support, *ROTORS[rotor], effect)
     plain, equations = assemble(bare), assemble(scene)
     first = 2 * len(scene.support.names) + 10
     y = np.random.default_rng(2).normal(size=len(plain.initial))
@@ -118,14 +111,6 @@ def test_in_the_middle_of_the_groove_nothing_changes(support, rotor, free):
     rest = np.concatenate([found[:first], found[first + 5 * len(effect.ball_states) :]])
     np.testing.assert_allclose(rest, plain.rhs(np, 0.3, y, plain.acting), rtol=1e-12, atol=1e-12)
     assert not found[first : first + 5 * len(effect.ball_states)].any()
-
-
-def test_balls_in_the_middle_stay_there():
-    scene = scene_on("planar", TransverseMotionEffect(1.1, 0.3, free_spin=True))
-    y = scipy_.integrate(assemble(scene), 1e-8, [20.0]).y[:, -1]
-    assert not y[14:].any()
-    bare = scipy_.integrate(assemble(scene_on("planar")), 1e-8, [20.0]).y[:, -1]
-    np.testing.assert_allclose(y[:14], bare, atol=1e-5)
 
 
 @pytest.mark.parametrize("free", [False, True])
@@ -152,56 +137,6 @@ def parts(y: np.ndarray, free: bool) -> list[np.ndarray]:
     """q, q', θ, θ', w, w', ν."""
     found = np.split(y, [2, 4, 7, 10, 13, 16])
     return found if free else [*found[:6], 0.0 * found[4]]
-
-
-def relative_energy(t: complex, y: np.ndarray, free: bool) -> complex:
-    """Jacobi's integral T − Ω L_z + V, from places and velocities in space; a ball's spin counts relative to the race.
-
-    Of a sphere that is all the rotor's frame adds: the rest of its spin's energy is constant there.
-    """
-    q, v, theta, rate, w, w_rate, spin = parts(y, free)
-    W, b, m = 1.7, 0.4, np.array((0.2, 0.05, 0.1))
-    gamma, turn = theta + W * t, W * t + 0.7
-    radius = 0.8 - w**2 / (2 * b)
-    nearer = -w * w_rate / b
-    c, s, swing = np.cos(gamma), np.sin(gamma), rate + W
-    x = q[0] + 0.05 * np.cos(turn) + radius * c
-    z = q[1] + 0.05 * np.sin(turn) + radius * s
-    vx = v[0] - 0.05 * W * np.sin(turn) + nearer * c - radius * swing * s
-    vz = v[1] + 0.05 * W * np.cos(turn) + nearer * s + radius * swing * c
-    kinetic = (
-        2.0 * (v @ v) + m @ (vx**2 + vz**2 + w_rate**2) + 0.4 * m @ ((radius * rate) ** 2 + w_rate**2 + spin**2)
-    ) / 2
-    momentum = 2.0 * (q[0] * v[1] - q[1] * v[0]) + m @ (x * vz - z * vx)
-    pull = 0.3 * W**2 * (q[0] * np.cos(W * t + 0.4) + q[1] * np.sin(W * t + 0.4))
-    return kinetic - W * momentum + 5.0 * (q @ q) / 2 - pull
-
-
-@pytest.mark.parametrize("free", [False, True])
-def test_free_motion_keeps_its_energy(free):
-    equations = assemble(free_scene(free))
-    initial = np.array(equations.initial)
-    initial[10:16] = (0.1, -0.12, 0.05, 0.1, 0.1, -0.1)
-    t = np.linspace(0, 5, 41)
-    y = scipy_.integrate(replace(equations, initial=tuple(initial)), 1e-12, t).y
-    energies = [relative_energy(moment, state, free) for moment, state in zip(t, y.T, strict=True)]
-    assert np.abs(y[10:13]).max() > 0.05
-    np.testing.assert_allclose(energies, energies[0], rtol=1e-9)
-
-
-@pytest.mark.parametrize("free", [False, True])
-def test_drag_takes_what_its_power_says(free):
-    """dE/dt by the complex step = −Σ m R_p² h₀ θ'² and what the effect adds, at a state far from the middle."""
-    scene = free_scene(free, drag=0.3)
-    equations = assemble(scene)
-    p, acting = equations.parameters, equations.acting
-    y = np.random.default_rng(6).normal(size=len(equations.initial)) * 0.3
-    slope = equations.rhs(np, 0.4, y, acting)
-    gained = relative_energy(0.4 + 1j * STEP, y + 1j * STEP * slope, free).imag / STEP
-    motion, _, solved = accelerations(np, 0.4, y, acting)
-    added = sum(effect.power(motion, mode, own, solved, p) for effect, mode, own in with_states(y, acting))
-    assert added < 0
-    assert gained == pytest.approx(added - 0.3 * p.masses @ (0.8 * y[7:10]) ** 2, rel=1e-10)
 
 
 @pytest.mark.parametrize("rotor", [(), (RunUpEffect(3.0, 2.0),)], ids=["steady", "guided"])

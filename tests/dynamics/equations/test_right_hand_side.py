@@ -8,21 +8,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.motor import MotorEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.equations.assemble import STEP, assemble
 from abu_calc.dynamics.equations.right_hand_side import motion_of
-from abu_calc.dynamics.parameters import Acting
 from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.planar import LinearSupport
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
-from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
+from tests.dynamics.energy import Bodies, demanded, mass_matrix, resisting
 from tests.dynamics.scenes import ROTORS, SUPPORTS, coupled_scene, dimensionless, scene_on, with_effects
-from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned
 
 GRAVITY, ECCENTRICITY = GravityEffect(0.9), RaceEccentricityEffect(0.1, 0.3)
 MORE = [(), (ECCENTRICITY,), (GRAVITY,), (ECCENTRICITY, GRAVITY)]
@@ -115,90 +112,6 @@ def massless(scene: Scene) -> LinearSupport | SwingArmSupport:
     return replace(scene.support, mass=tuple(tuple(0.0 for _ in row) for row in scene.support.mass))
 
 
-@pytest.mark.few(5)
-@every_scene()
-@settings(deadline=None, derandomize=True, max_examples=4)
-@given(seed=seeds, t=moments, more=st.sampled_from(MORE))
-def test_energy_changes_by_the_power_alone(support, rotor, seed, t, more):
-    scene = scene_on(support, *ROTORS[rotor], *more)
-    y = state_of(scene, seed)
-    rate = energy(scene, t + 1j * STEP, y + 1j * STEP * rhs_of(scene, t, y)).imag / STEP
-    assert rate == pytest.approx(power(scene, t, y), rel=1e-10, abs=1e-10)
-
-
-@pytest.mark.parametrize("support", SUPPORTS)
-def test_without_drag_damping_and_torque_energy_is_kept(support):
-    """A rotor that turns freely, with gravity and an eccentric race."""
-    scene = scene_on(support, MotorEffect(0.0, 1.0, 6.0), ECCENTRICITY, GRAVITY)
-    support_ = scene.support
-    idle = 0.0 if isinstance(support_, SwingArmSupport) else tuple((0.0,) * len(row) for row in support_.damping)
-    races = tuple(replace(race, drag=0.0) for race in scene.races)
-    scene = replace(scene, support=replace(support_, damping=idle), races=races)
-    y = state_of(scene, 1)
-    assert power(scene, 0.3, y) == pytest.approx(0, abs=1e-14)
-    assert energy(scene, 0.3, y + 1j * STEP * rhs_of(scene, 0.3, y)).imag / STEP == pytest.approx(0, abs=1e-11)
-
-
-def turned_effect(effect: Effect, angle: float) -> Effect:
-    return replace(effect, angle=effect.angle + angle) if isinstance(effect, RaceEccentricityEffect) else effect
-
-
-def mirrored_effect(effect: Effect, whole: float) -> Effect:
-    """An angle becomes `whole` less the angle; that is 0 where up and down change places."""
-    if isinstance(effect, RaceEccentricityEffect):
-        return replace(effect, angle=whole - effect.angle)
-    if isinstance(effect, GravityEffect) and whole == 0:
-        return replace(effect, acceleration=-effect.acceleration)
-    if isinstance(effect, MotorEffect):
-        return replace(effect, stall_torque=-effect.stall_torque, no_load_speed=-effect.no_load_speed)
-    return effect
-
-
-@pytest.mark.parametrize("rotor", ROTORS)
-@pytest.mark.parametrize("support", [name for name in SUPPORTS if name != "swing arm"])
-@settings(deadline=None, derandomize=True, max_examples=5)
-@given(seed=seeds, angle=st.floats(-3, 3), t=moments)
-def test_space_knows_no_direction(support, rotor, seed, angle, t):
-    """Everything turned, the frame included: support coordinates and relative angles go on as before."""
-    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY)
-    y = state_of(scene, seed)
-    other = y.copy()
-    first = 2 * len(scene.support.names)
-    other[first : first + 5] += angle
-    computed = rhs_of(turned(scene, angle, turned_effect), t, other)
-    np.testing.assert_allclose(computed, rhs_of(scene, t, y), rtol=1e-9, atol=1e-10)
-
-
-@every_scene()
-@settings(deadline=None, derandomize=True, max_examples=5)
-@given(seed=seeds, t=moments)
-def test_mirror_case_turns_the_other_way(support, rotor, seed, t):
-    """All angles and the sense of rotation reversed; a scene itself always turns from +x to +y."""
-    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY)
-    straight, seen = assemble(scene), assemble(mirrored(scene, mirrored_effect))
-    pairs = zip(scene.effects, straight.first_modes, strict=True)
-    modes = tuple(-mode if isinstance(effect, RunUpEffect) else mode for effect, mode in pairs)
-    acting = Acting(replace(seen.parameters, speed=-scene.speed), modes)
-    y = state_of(scene, seed)
-    computed = seen.rhs(np, t, mirrored_state(scene, y), acting)
-    # Of a rate, the mirror takes no angle away.
-    expected = mirrored_state(scene, straight.rhs(np, t, y, straight.acting)) - mirrored_state(scene, np.zeros(len(y)))
-    np.testing.assert_allclose(computed, expected, rtol=1e-9, atol=1e-10)
-
-
-@every_scene()
-@settings(deadline=None, derandomize=True, max_examples=4)
-@given(seed=seeds, order=st.permutations(range(3)))
-def test_balls_have_no_order(support, rotor, seed, order):
-    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY)
-    y = state_of(scene, seed)
-    index, first = np.arange(len(y)), 2 * len(scene.support.names)
-    for start in (first, first + 5):
-        index[start : start + 3] = [start + k for k in order]
-    moved = rhs_of(reordered(scene, order), 0.7, y[index])
-    np.testing.assert_allclose(moved, rhs_of(scene, 0.7, y)[index], rtol=1e-10, atol=1e-11)
-
-
 @every_scene()
 def test_races_have_no_order(support, rotor):
     scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY)
@@ -208,37 +121,6 @@ def test_races_have_no_order(support, rotor):
     index[first : first + 10] = first + np.array([3, 4, 0, 1, 2, 8, 9, 5, 6, 7])
     moved = rhs_of(replace(scene, races=scene.races[::-1]), 0.7, y[index])
     np.testing.assert_allclose(moved, rhs_of(scene, 0.7, y)[index], rtol=1e-10, atol=1e-11)
-
-
-@every_scene()
-@pytest.mark.parametrize("imbalance", [0.3, 0.0])
-def test_units_do_not_matter(support, rotor, imbalance):
-    """Nor do the scales of the tolerance: they carry the same units, whatever they are taken from."""
-    length, mass, time = 1000.0, 7.0, 60.0
-    scene = replace(scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY), imbalance=imbalance)
-    plain, other = assemble(scene), assemble(in_units(scene, length, mass, time))
-    u = coordinate_units(scene, length)
-    rotor_units = [] if rotor == "steady" else [1.0, 1 / time]
-    units = np.array([*u, *(u / time), *[1.0] * 5, *[1 / time] * 5, *rotor_units])
-    np.testing.assert_allclose(other.initial, units * np.array(plain.initial), rtol=1e-12)
-    np.testing.assert_allclose(other.scales, units * np.array(plain.scales), rtol=1e-12)
-    y = state_of(scene, 3)
-    np.testing.assert_allclose(
-        other.rhs(np, 0.7 * time, units * y, other.acting),
-        units / time * plain.rhs(np, 0.7, y, plain.acting),
-        rtol=1e-9,
-    )
-
-
-@every_scene()
-@pytest.mark.parametrize(
-    "nothing", [GravityEffect(0.0), RaceEccentricityEffect(0.0, 0.3)], ids=lambda effect: effect.name
-)
-def test_an_effect_of_nothing_does_nothing(support, rotor, nothing):
-    scene = scene_on(support, *ROTORS[rotor])
-    y = state_of(scene, 7)
-    computed = rhs_of(with_effects(scene, *scene.effects, nothing), 0.7, y)
-    np.testing.assert_array_equal(computed, rhs_of(scene, 0.7, y))
 
 
 def test_a_rotor_guided_at_constant_speed_is_steady():

@@ -28,28 +28,6 @@ def test_two_balls_have_one_arrangement(imbalance: float) -> None:
     assert sorted(turns, key=np.imag) == pytest.approx(sorted(np.exp(1j * np.array(expected)), key=np.imag), abs=1e-7)
 
 
-@pytest.mark.parametrize("masses", [(0.3, 0.5, 0.4), (0.1,) * 7, (1.0, 0.2, 0.9), (0.5, 0.3, 0.3, 0.1)])
-def test_balls_and_imbalance_add_up_to_nothing(masses: tuple[float, ...]) -> None:
-    angles = resting_angles(scene(0.2, *masses))
-    assert angles is not None
-    total = 0.2 * np.exp(0.4j) + np.array(masses) @ np.exp(1j * np.array(angles))
-    assert abs(total) < 1e-12
-
-
-@pytest.mark.parametrize(("imbalance", "masses"), [(2.1, (1.0, 1.0)), (0.5, (1.0,)), (0.1, (1.0, 0.3, 0.3)), (0.1, ())])
-def test_without_a_polygon_nothing_balances(imbalance: float, masses: tuple[float, ...]) -> None:
-    """No side may be longer than all others together."""
-    assert resting_angles(scene(imbalance, *masses)) is None
-
-
-def test_balls_of_a_size_need_room_beside_each_other() -> None:
-    """Three balls of an imbalance of 2.9 of 3 stand close: wide ones do not fit."""
-    close = scene(2.9, 1.0, 1.0, 1.0)
-    angles = resting_angles(close)
-    assert angles is not None and resting_angles(close, narrowest_gap(angles) / 2) is not None
-    assert resting_angles(close, narrowest_gap(angles) / 2 + 1e-6) is None
-
-
 def test_gaps_go_round_the_circle() -> None:
     assert narrowest_gap((0.1, 2 * math.pi - 0.1, 3.0)) == pytest.approx(0.2)
     assert narrowest_gap((1.0,)) == pytest.approx(2 * math.pi) and narrowest_gap(()) == math.inf

@@ -88,17 +88,6 @@ def test_above_its_natural_frequency_the_arm_is_balanced(ratio):
     assert np.abs(angle - angle.mean()).max() < 0.01 * without
 
 
-@pytest.mark.slow  # by the command in every run: tests/cli/test_published.py
-@pytest.mark.parametrize(("ratio", "larger"), [(0.75, 2.3), (0.5, 2.5)])
-def test_below_it_the_balls_make_it_worse(ratio, larger):
-    """Both in one place on the heavy side: at most (400 + 2 · 300)/400 = 2.5, less as the drag holds them back."""
-    scene, angle, balls = balanced(ratio, 4.0)
-    assert balls[0] == pytest.approx(balls[1], abs=0.01)
-    assert np.abs(balls).max() < 60
-    bare = scipy_.integrate(assemble(replace(scene, races=())), 1e-6, np.linspace(3.8, 4.0, 2001)).y[0]
-    assert np.ptp(angle) / np.ptp(bare) == pytest.approx(larger, abs=0.1)
-
-
 def cutting(**changes: float) -> tuple[SwingArmSupport, Arm]:
     """The arm that cuts, and as the sizing of the arm knows it."""
     numbers = {

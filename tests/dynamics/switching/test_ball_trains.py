@@ -83,7 +83,6 @@ def test_the_order_of_impacts_is_worth_a_hundredth_of_the_speed() -> None:
     ahead = in_turn(6, 0.5, lambda _, approaching: int(approaching[-1]))
     assert np.abs(ahead - fastest).max() == pytest.approx(0.0091 * SPEED, rel=0.02)
     np.testing.assert_allclose(starting(train(6, 0.5))[0][-6:], fastest, atol=2e-5 * SPEED)
-    assert pytest.approx(2.0, rel=0.02) == 1200 * 0.0091 * 0.18
 
 
 def test_a_rebound_counts_by_the_tolerance() -> None:

@@ -28,7 +28,8 @@ def test_the_heavy_spot_is_drawn_against_the_rotation(result: BalanceResult, tur
         assert spot.centre[0] - middle == pytest.approx(side * RADIUS * math.sin(angle))
         assert spot.centre[1] == pytest.approx(RADIUS * math.cos(angle))
     assert "remove 12.00 g at 205.0°" in drawing.description
-    assert [shape.text for shape in drawing.shapes if isinstance(shape, Text)].count("−") == 2
+    texts = [shape.text for shape in drawing.shapes if isinstance(shape, Text)]
+    assert texts.count("−") == 2 and "− 12.00 g at 205.0°" in texts
 
 
 def test_a_plane_without_imbalance_is_left(result: BalanceResult) -> None:

@@ -5,12 +5,8 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.read import readings_template
-from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.reading.document import parsed
-from abu_calc.inputs.reading.schema import schema_of
-from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, written
+from tests.features.balancing.rig import RIG, ROTOR, Workshop, written
 
 
 def test_a_changed_entry_leaves_the_others(tmp_path: Path) -> None:
@@ -37,16 +33,3 @@ def test_a_record_is_looked_for_beside_the_file(tmp_path: Path, monkeypatch: pyt
     readings = abu_calc.read_readings(file)
     assert readings.beside("record.csv") == tmp_path / "below" / "record.csv"
     assert readings.beside("/elsewhere/record.csv") == Path("/elsewhere/record.csv")
-
-
-def test_a_file_of_another_kind_is_refused() -> None:
-    with pytest.raises(InputError, match="abu size"):
-        abu_calc.read_readings("msh-230")
-
-
-def test_the_template_is_whole_and_the_schema_knows_its_tables(tmp_path: Path) -> None:
-    text = readings_template()
-    ReadingsFile.model_validate(parsed(text, ""))
-    assert {"rotor", "run"} <= schema_of("readings")["definitions"][ReadingsFile.__name__]["properties"].keys()
-    with pytest.raises(InputError):
-        abu_calc.read_readings(written(tmp_path, BARE_ROTOR))  # no run

@@ -170,15 +170,6 @@ def test_what_is_unusual_is_warned_of(tmp_path: Path) -> None:
     assert "transverse_inertia_kg_m2 = 95" in second and "the two ends would have" in second
 
 
-def test_a_change_takes_the_place_of_a_key(tmp_path: Path) -> None:
-    readings = read_readings(written(tmp_path, RIG, ROTOR, RUN))
-    changed = readings.changed({"run[0].left.amplitude": 0.05, "rig.damping_ratio": 0.02})
-    assert changed.tables.run[0].left is not None and changed.tables.run[0].left.amplitude == 0.05
-    assert readings.tables.rig is not None and readings.tables.rig.damping_ratio == 0
-    with pytest.raises(InputError, match="damping_ratio"):
-        readings.changed({"rig.damping_ratio": "much"})
-
-
 # Kinds of files
 
 

@@ -3,19 +3,14 @@
 import json
 import tomllib
 from pathlib import Path
-from typing import Any
 
 import jsonschema
 import pytest
 
-from abu_calc.cli.app import COMMANDS
 from tests.cli.runner import abu, once
+from tests.features.compare.test_study import of
 
 SHAFT = ("compare", "mmg-3200k-knife-shaft", "--variant", "bearing[0].shaft_fit=m6")
-
-
-def of(part: str, rows: Any) -> dict[str, list[Any]]:
-    return {row["path"]: row["values"] for row in rows if row["part"] == part}
 
 
 @pytest.mark.slow
@@ -84,7 +79,3 @@ def test_three_and_more_machines_fit_the_screen() -> None:
 def test_wrong_ones_are_refused(arguments: tuple[str, ...], told: str) -> None:
     seen = abu("compare", *arguments)
     assert seen.status == 2 and told in seen.err and "Traceback" not in seen.err and not seen.out
-
-
-def test_it_is_a_command() -> None:
-    assert "compare" in COMMANDS

@@ -77,13 +77,6 @@ def test_no_raw_keys_and_every_line_that_is_left_out_is_counted() -> None:
     assert f"{equal} entries of\n  the files" in table or f"{equal} entries of the files" in table
 
 
-@pytest.mark.slow
-def test_nothing_differs_in_a_machine_and_itself() -> None:
-    shaft = abu_calc.read("mmg-3200k-knife-shaft")
-    screen = as_text(compare_screen(abu_calc.compare([shaft, shaft])))
-    assert "Nothing differs." in screen and "Checks that differ" not in screen
-
-
 def test_keys_as_words() -> None:
     assert words_of("limits.quiet_time_s") == "Limits: quiet time, s"
     assert words_of("bearing[1].name") == "Bearing 2: name"

@@ -17,7 +17,6 @@ from abu_calc.reporting.text import as_text
 from tests.cli.runner import abu
 from tests.remembered import recalled
 
-SHAFT = ("compare", "mmg-3200k-knife-shaft", "--variant", "bearing[0].shaft_fit=m6")
 CHANGE = {"autobalancer.max_outer_diameter_mm": 40.0, "wheel.runout_angle_deg": 0.0}
 
 

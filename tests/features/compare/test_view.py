@@ -9,7 +9,6 @@ import abu_calc
 from abu_calc.features.compare.study import CompareResult, Difference
 from abu_calc.features.compare.view import (
     ComparisonTable,
-    compare_blocks,
     compare_extras,
     label_of,
     table_blocks,
@@ -17,7 +16,6 @@ from abu_calc.features.compare.view import (
 )
 from abu_calc.reporting.blocks import Grid, Heading, Paragraph
 from abu_calc.reporting.charts.chart import Bars
-from abu_calc.reporting.text import as_text
 
 
 @cache
@@ -54,13 +52,6 @@ def test_long_cells_stand_below_the_table() -> None:
     assert heading == Heading("Entries of the files") and isinstance(grid, Grid) and grid.rows == (("short", "a", "b"),)
     assert label == Paragraph("long")
     assert [value.text for value in values if isinstance(value, Paragraph)] == ["A  " + "a" * 25, "B  b"]
-
-
-@pytest.mark.slow
-def test_the_short_report_says_that_it_is_short() -> None:
-    short = as_text(compare_blocks(seats(), full=False))
-    whole = as_text(compare_blocks(seats()))
-    assert "Left out because equal: " in short and "≠" not in short and "Left out" not in whole
 
 
 def test_bars_stand_for_machines_that_have_the_number() -> None:

@@ -41,6 +41,23 @@ def evaluated(path: str) -> MeasuredDeclareResult:
     return declare_recordings(read_recordings(path))
 
 
+def by_list(folder: Path, *entries: str) -> MeasuredDeclareResult:
+    """By a list of recordings that has these entries."""
+    path = folder / "list.toml"
+    path.write_text("".join(f"[[recording]]\n{entry}\n" for entry in entries), encoding="utf-8")
+    return evaluated(str(path))
+
+
+def wav_file(folder: Path, name: str, channels: np.ndarray) -> str:
+    """Of one column a channel, 50 m/s² at full scale; the entry of a list."""
+    with wave_files.open(str(folder / name), "wb") as file:
+        file.setnchannels(channels.shape[1])
+        file.setsampwidth(2)
+        file.setframerate(RATE)
+        file.writeframes(np.clip(channels / 50 * 32767, -32768, 32767).astype("<i2").tobytes())
+    return f'file = "{name}"\nscale = 50.0\nquantity = "acceleration"'
+
+
 @pytest.mark.slow
 def test_fifteen_recordings_have_their_value(tmp_path: Path) -> None:
     """a_hd = mean of the operators' means; s_R is theirs, since it exceeds 0.06 a + 0.3."""
@@ -88,10 +105,8 @@ def test_operators_that_differ_decide_the_uncertainty(tmp_path: Path) -> None:
         for run in (1, 2):
             name = f"{operator}{run}.csv"
             run_file(tmp_path, name, size * (1 + 0.01 * run))
-            names.append(f'[[recording]]\nfile = "{name}"\noperator = "{operator}"\n')
-    path = tmp_path / "list.toml"
-    path.write_text("\n".join(names), encoding="utf-8")
-    result = evaluated(str(path))
+            names.append(f'file = "{name}"\noperator = "{operator}"')
+    result = by_list(tmp_path, *names)
     spread = TOTAL * stdev([1.015, 3 * 1.015, 5 * 1.015])
     assert result.s_R_m_per_s2 == pytest.approx(spread, rel=1e-4)
     assert {check.code: check.status for check in result.checks}["ABU442"] == "warn"
@@ -118,10 +133,8 @@ def test_axes_in_files_of_their_own(tmp_path: Path) -> None:
     for run in (1, 2):
         for axis, share in zip("xyz", AXES, strict=True):
             run_file(tmp_path, f"{axis}{run}.csv", share / AXES[0], axes=1)
-            entries.append(f'[[recording]]\nfile = "{axis}{run}.csv"\nrun = {run}\naxis = "{axis}"\n')
-    path = tmp_path / "list.toml"
-    path.write_text("\n".join(entries), encoding="utf-8")
-    result = evaluated(str(path))
+            entries.append(f'file = "{axis}{run}.csv"\nrun = {run}\naxis = "{axis}"')
+    result = by_list(tmp_path, *entries)
     assert result.a_hd_m_per_s2 == pytest.approx(TOTAL, rel=1e-4)
     assert [axis.name for axis in result.runs[0].axes] == ["x", "y", "z"]
 
@@ -153,18 +166,8 @@ def test_an_overload_fails(tmp_path: Path) -> None:
 def test_a_clipped_wav_file_fails_and_names_its_channel(tmp_path: Path) -> None:
     """Other commands refuse such a file; a type test keeps the other runs and says which one to repeat."""
     _, values = wave(1.0, seconds=1.5)
-    for run, gain in ((1, 1.0), (2, 40.0)):
-        both = np.column_stack([values, gain * values])
-        samples = np.clip(both / 50 * 32767, -32768, 32767).astype("<i2")
-        with wave_files.open(str(tmp_path / f"{run}.wav"), "wb") as file:
-            file.setnchannels(2)
-            file.setsampwidth(2)
-            file.setframerate(RATE)
-            file.writeframes(samples.tobytes())
-    path = tmp_path / "list.toml"
-    entries = (f'[[recording]]\nfile = "{run}.wav"\nscale = 50.0\nquantity = "acceleration"\n' for run in (1, 2))
-    path.write_text("\n".join(entries), encoding="utf-8")
-    result = evaluated(str(path))
+    files = (wav_file(tmp_path, f"{gain}.wav", np.column_stack([values, gain * values])) for gain in (1, 40))
+    result = by_list(tmp_path, *files)
     check = next(check for check in result.checks if check.code == "ABU444")
     assert (result.status, check.status) == ("fail", "fail")
     assert "run 2, handle, channel 2" in check.message and "channel 1" not in check.message
@@ -175,9 +178,8 @@ def test_a_clipped_wav_file_fails_and_names_its_channel(tmp_path: Path) -> None:
 def test_a_recording_listed_twice_warns(tmp_path: Path) -> None:
     """Its series would scatter by nothing."""
     run_file(tmp_path, "a.csv", 2.0)
-    path = tmp_path / "list.toml"
-    path.write_text('[[recording]]\nfile = "a.csv"\n' * 2, encoding="utf-8")
-    check = next(check for check in evaluated(str(path)).checks if check.code == "ABU442")
+    result = by_list(tmp_path, *['file = "a.csv"'] * 2)
+    check = next(check for check in result.checks if check.code == "ABU442")
     assert check.status == "warn"
     assert "run 2, handle: the same recording as operator 1, run 1" in check.message
 
@@ -269,16 +271,8 @@ def test_a_run_too_short_leaves_no_value(tmp_path: Path) -> None:
 
 def test_wav_files_with_a_scale(tmp_path: Path) -> None:
     _, values = wave(1.0, seconds=1.5)
-    for run in (1, 2):
-        with wave_files.open(str(tmp_path / f"{run}.wav"), "wb") as file:
-            file.setnchannels(1)
-            file.setsampwidth(2)
-            file.setframerate(RATE)
-            file.writeframes((values / 50 * 32767).astype("<i2").tobytes())
-    path = tmp_path / "list.toml"
-    entries = (f'[[recording]]\nfile = "{run}.wav"\nscale = 50.0\nquantity = "acceleration"\n' for run in (1, 2))
-    path.write_text("\n".join(entries), encoding="utf-8")
-    assert evaluated(str(path)).a_hd_m_per_s2 == pytest.approx(1.0, rel=1e-3)
+    files = (wav_file(tmp_path, f"{run}.wav", values[:, None]) for run in (1, 2))
+    assert by_list(tmp_path, *files).a_hd_m_per_s2 == pytest.approx(1.0, rel=1e-3)
 
 
 WRONG = {
@@ -293,6 +287,7 @@ WRONG = {
     "an operator that is no name": ('file = "good.csv"\noperator = true', "operator"),
     "no such column": ('file = "good.csv"\ncolumns = ["aw_m_per_s2"]', "no such channel"),
     "scale and sensitivity": ('file = "mv.csv"\nscale = 2.0\nsensitivity = 10.0', "both a scale"),
+    "the same run twice": ('file = "good.csv"\nrun = 1\n[[recording]]\nfile = "good.csv"\nrun = 1', "twice"),
     "a quantity unknown": ('file = "good.csv"\nquantity = "noise"', "quantity"),
 }
 
@@ -301,20 +296,8 @@ WRONG = {
 def test_wrong_lists_are_refused(tmp_path: Path, entry: str, word: str) -> None:
     run_file(tmp_path, "good.csv", 1.0)
     run_file(tmp_path, "mv.csv", 1.0, unit="mV", per_unit=MV)
-    path = tmp_path / "list.toml"
-    path.write_text(f"[[recording]]\n{entry}\n", encoding="utf-8")
     with pytest.raises(InputError, match=word):
-        evaluated(str(path))
-
-
-def test_the_same_run_twice_is_refused(tmp_path: Path) -> None:
-    run_file(tmp_path, "a.csv", 1.0)
-    path = tmp_path / "list.toml"
-    path.write_text(
-        '[[recording]]\nfile = "a.csv"\nrun = 1\n[[recording]]\nfile = "a.csv"\nrun = 1\n', encoding="utf-8"
-    )
-    with pytest.raises(InputError, match="twice"):
-        evaluated(str(path))
+        by_list(tmp_path, *entry.split("[[recording]]"))
 
 
 @pytest.mark.parametrize("text", ["", "[type_test]\nname = 'x'\n", "[[calibration]]\nfile = 'a.csv'\n"])

@@ -180,8 +180,7 @@ def test_a_break_even_eccentricity_beyond_the_capacity_is_told(tmp_path: Path, r
     need = 65 * 1.0517 + 1e3 * even * tight.model.effective_mass_kg
     capacity = next(check.value for check in tight.checks if check.code == "ABU433")
     assert capacity is not None
-    assert any("larger balls" in remark for remark in tight.warnings) == (need > capacity)
-    assert need > capacity
+    assert any("larger balls" in remark for remark in tight.warnings) and need > capacity
 
 
 def test_a_test_wheel_beyond_the_capacity(tmp_path: Path) -> None:

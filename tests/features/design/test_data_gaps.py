@@ -93,12 +93,6 @@ def test_the_value_that_decides_the_verdict_is_first(machine: Machine, sized: Si
         assert ranks == sorted(ranks, reverse=True)
 
 
-def test_a_value_that_was_measured_is_not_listed(machine: Machine) -> None:
-    other = machine.changed({"autobalancer.rolling_friction_mm": 0.0021})
-    assert "autobalancer.rolling_friction_mm" in dict(assumed_values(machine.whole("size")))
-    assert "autobalancer.rolling_friction_mm" not in dict(assumed_values(other.whole("size")))
-
-
 def test_defaults_are_the_assumed_figures() -> None:
     for key, usual in RANGES.items():
         place, name = key.split(".")

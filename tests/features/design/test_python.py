@@ -11,7 +11,6 @@ import pytest
 import abu_calc
 from abu_calc.features.design.start_rules import RULES
 from abu_calc.features.files.result_schema import RESULTS
-from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, OutputError
 from abu_calc.foundation.quantity import LEVEL_AFTER, Record, parts_of_type, quantities
 from abu_calc.foundation.units import unit_of
@@ -213,7 +212,3 @@ def test_members_of_a_sweep_as_tables() -> None:
     pytest.importorskip("xarray")
     data = sweep.members.to_xarray()
     assert data["level_db"].attrs["units"] == "dB" and data.sizes["member"] == 3
-
-
-def test_checks_are_checks(result: abu_calc.SizeResult) -> None:
-    assert all(isinstance(check, Check) for check in result.checks)

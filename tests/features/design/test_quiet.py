@@ -9,13 +9,10 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.records import FrictionBound
-from abu_calc.features.design.start_rules import StartFacts, checks_of_starts
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.simulate.study import SimulateResult
 from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.ensemble_results import Ensemble
-from abu_calc.sizing.design import Design
 from tests.remembered import recalled
 
 GRINDER = """\
@@ -190,76 +187,3 @@ def test_the_bound_of_friction_alone_is_no_warning(sized: SizeResult) -> None:
 
 
 # limits
-
-
-@pytest.mark.parametrize("name", ["quiet_time_s", "settling_time_s"])
-@pytest.mark.slow
-def test_each_name_of_the_limit_is_judged(name: str) -> None:
-    """Between 0.05 and 0.15 s lies the quiet time of balls that start bunched."""
-    machine = abu_calc.read(PRESET)
-    for limit, status in ((0.15, "pass"), (0.05, "fail")):
-        asked = machine.changed({f"limits.{name}": limit})
-        assert asked.whole("size").limits.longest_quiet_time == limit
-        told = check_of(abu_calc.simulate(asked).checks, "ABU702")
-        assert (told.status, told.limit) == (status, limit)
-
-
-def test_two_names_of_one_limit_are_refused() -> None:
-    with pytest.raises(abu_calc.InputError) as refused:
-        abu_calc.read(GRINDER + "[limits]\nquiet_time_s = 1.0\nsettling_time_s = 1.0\n").whole("size")
-    assert "settling_time_s" in str(refused.value) and "Keep quiet_time_s" in str(refused.value)
-
-
-@pytest.mark.parametrize(("old", "new"), [("quiet_time_s", "settling_time_s"), ("settling_time_s", "quiet_time_s")])
-def test_an_entry_takes_the_place_of_the_other_name(old: str, new: str) -> None:
-    machine = abu_calc.read(f"{GRINDER}[limits]\n{old} = 2.0\n")
-    assert machine.whole("size").limits.longest_quiet_time == 2.0
-    assert machine.changed({f"limits.{new}": 0.7}).whole("size").limits.longest_quiet_time == 0.7
-
-
-def with_rest(design: Design, limit: float | None) -> Design:
-    """A design whose balls must rest within a time [s]."""
-    table = design.case.table
-    limits = table.limits.model_copy(update={"rest_time_s": limit})
-    return replace(design, case=replace(design.case, table=table.model_copy(update={"limits": limits})))
-
-
-def judged(sized: SizeResult, limit: float | None, changed: Ensemble | None = None) -> Check:
-    """The check of the start cases of a result under a limit of the rest time [s]."""
-    assert sized.starts.of is not None
-    design, ensemble, _ = sized.starts.of
-    return check_of(checks_of_starts(StartFacts(with_rest(design, limit), changed or ensemble)), "ABU702")
-
-
-def test_the_rest_time_is_judged_where_the_file_limits_it(sized: SizeResult) -> None:
-    """At the given drag rate a late one fails, in hot or cold oil it warns; without the limit it is told alone."""
-    assert sized.starts.of is not None
-    _, ensemble, _ = sized.starts.of
-    given, all_oils = (max(outcome.rest_time_or_inf for outcome in group)
-                       for group in (ensemble.given, ensemble.outcomes))  # fmt: skip
-    assert given < all_oils < math.inf
-    assert f"The balls rest after {given:#.3g} s at the latest" in judged(sized, None).message
-    statuses = {limit: judged(sized, limit).status for limit in (0.99 * given, 1.01 * given, 1.01 * all_oils)}
-    assert list(statuses.values()) == ["fail", "warn", "pass"] and judged(sized, None).status == "pass"
-    assert f"(limit {1.01 * given:g} s)" in judged(sized, 1.01 * given).message
-
-
-def test_balls_that_creep_warn_and_never_rest(sized: SizeResult) -> None:
-    """Without a limit of the rest time a start case that still creeps warns; with one it fails."""
-    assert sized.starts.of is not None
-    _, ensemble, _ = sized.starts.of
-    first, *others = ensemble.outcomes
-    creeps = replace(ensemble, outcomes=(replace(first, rest_time=None, creeping=True), *others))
-    told = judged(sized, None, creeps)
-    assert told.status == "warn" and "The balls still creep at the end of 1 start case: " in told.message
-    assert judged(sized, 100.0, creeps).status == "fail"
-
-
-@pytest.mark.slow
-def test_one_run_is_judged_by_its_rest_time_too(sized: SizeResult) -> None:
-    machine, alone = abu_calc.read(PRESET), sized.simulation[0]
-    assert alone.rest_time_s is not None and alone.quiet_time_s is not None and alone.rest_time_s > alone.quiet_time_s
-    for share, status in ((0.9, "fail"), (1.1, "pass")):
-        run = abu_calc.simulate(machine.changed({"limits.rest_time_s": share * alone.rest_time_s}))
-        told = check_of(run.checks, "ABU702")
-        assert told.status == status and told.value == run.quiet_time_s

@@ -128,13 +128,6 @@ def test_modes_of_a_machine_in_hands_with_the_damped_one() -> None:
 FLUTTERING = ('suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1")
 
 
-@pytest.mark.hard
-def test_hands_that_let_the_balls_flutter_fail() -> None:
-    """Not stable and a pass cannot stand together."""
-    region = region_of("msh-230", *FLUTTERING)
-    assert region.stable is False and region.check.status == "fail"
-
-
 HANDS = str(Path(__file__).parents[2] / "machines" / "angle-grinder-hands.toml")
 
 
@@ -187,8 +180,9 @@ def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
 
 @pytest.mark.slow
 def test_friction_that_does_not_hold_every_start_fails() -> None:
-    check = region_of("msh-230", *FLUTTERING).check
-    assert check.status == "fail" and " simulated start cases" in check.message
+    region = region_of("msh-230", *FLUTTERING)
+    assert region.stable is False and region.check.status == "fail"
+    assert " simulated start cases" in region.check.message
 
 
 def test_a_disturbance_that_hardly_decays_is_not_said_to_die_out() -> None:

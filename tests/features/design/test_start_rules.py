@@ -91,6 +91,8 @@ def test_rest_is_judged_only_if_the_file_limits_it() -> None:
         facts = StartFacts(limited, Ensemble(DRAG, (outcome(), late), ()))
         judged = {one.code: one for one in checks_of_starts(facts)}["ABU702"]
         assert (judged.status, judged.value) == (status, 0.2) and f"(limit {longest:g} s)" in judged.message
+    creeps = Ensemble(DRAG, (outcome(), outcome(rest_time=None, creeping=True)), ())
+    assert {one.code: one for one in checks_of_starts(StartFacts(limited, creeps))}["ABU702"].status == "fail"
     other = Ensemble(DRAG, (outcome(), outcome(Member("bunched", 3 * DRAG), rest_time=1.7)), ())
     assert {one.code: one for one in checks_of_starts(StartFacts(limited, other))}["ABU702"].status == "warn"
 

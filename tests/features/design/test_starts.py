@@ -126,14 +126,6 @@ def test_times_count_from_full_speed_in_a_scene_file_too() -> None:
 
 
 @pytest.mark.slow
-def test_the_race_centre_is_for_machines() -> None:
-    with pytest.raises(abu_calc.InputError, match="for machines only"):
-        abu_calc.simulate(abu_calc.simulate(abu_calc.read("avtovaz-707-222")).run.scene, race_centre_deg=0.0)
-    with pytest.raises(abu_calc.InputError, match="race's centre"):
-        abu_calc.simulate(abu_calc.read("avtovaz-707-222"), race_centre_deg=400.0)
-
-
-@pytest.mark.slow
 def test_samples_change_no_time() -> None:
     """Balls creep by friction at the end of this scene, so that the run is followed for longer, to its last sample."""
     source = abu_calc.read("avtovaz-707-305")

@@ -4,8 +4,6 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.study import merged
-from abu_calc.simulation.design_scenes import not_simulated, simulated
-from abu_calc.sizing import size as size_design
 from tests.cli.runner import once
 
 
@@ -20,16 +18,6 @@ def test_all_scenes_a_file_calls_for_are_simulated() -> None:
         assert all(effect.included for effect in run.effects)
         assert run.error_estimate <= 0.01
     assert model["swing-arm-idle"]["states"][:2] == ["arm_angle", "arm_angle'"]
-
-
-@pytest.mark.slow
-def test_a_scene_that_cannot_be_simulated_leaves_the_others() -> None:
-    """An arm that does not stand at the work."""
-    machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.contact_angle_deg": 5.0})
-    runs, (fault,) = simulated(size_design(machine.whole("size")), 0.01)
-    assert [run.ledger.scene.name for run in runs] == ["idle", "swing-arm-idle"]
-    check = not_simulated(fault.scene, fault.reason, answered=True)
-    assert (check.code, check.status) == ("ABU703", "not-done") and "swing-arm-cutting" in check.name
 
 
 @pytest.mark.hard

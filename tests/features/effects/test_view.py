@@ -3,9 +3,8 @@
 from dataclasses import replace
 
 from abu_calc.dynamics.effects.gravity import GravityEffect
-from abu_calc.features.effects.study import effects, known_effects
-from abu_calc.features.effects.view import effects_blocks, effects_grid, effects_screen, known_blocks
-from abu_calc.reporting.blocks import Grid
+from abu_calc.features.effects.study import effects
+from abu_calc.features.effects.view import effects_blocks, effects_grid, effects_screen
 from abu_calc.reporting.text import as_text, height
 from abu_calc.simulation.effect_selection import EffectEntry
 from tests.dynamics.scenes import dimensionless
@@ -24,19 +23,9 @@ def test_an_effect_without_an_estimate_has_a_question_mark() -> None:
     assert [row[:3] for row in grid.rows] == [("gravity", "no", "0.0023"), ("motor", "yes", "?")]
 
 
-def test_every_known_effect_has_a_row() -> None:
-    result = known_effects()
-    (grid,) = (block for block in known_blocks(result) if isinstance(block, Grid))
-    assert [row[0] for row in grid.rows] == [effect.name for effect in result.effects]
-
-
 def test_the_screen_leaves_out_the_rule_that_the_whole_report_tells() -> None:
     result = effects(WEIGHED)
     whole, screen = as_text(effects_blocks(result)), as_text(effects_screen(result))
     assert "The estimated influence says" in whole and "The estimated influence says" not in screen
     assert "Left out: 1 effect" in whole and "gravity" in screen
     assert height(effects_screen(result)) <= 48
-
-
-def test_a_scene_without_data_says_so() -> None:
-    assert "The file has data for no effect." in as_text(effects_blocks(effects(SCENE)))

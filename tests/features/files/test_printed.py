@@ -32,11 +32,6 @@ def test_a_preset_is_printed_as_its_file_is() -> None:
     assert outcome.plain_suffix == ".toml"
 
 
-def test_an_unknown_preset_is_refused() -> None:
-    with pytest.raises(InputError, match="no preset of this name"):
-        presets("msh-231")
-
-
 @pytest.mark.few(2)
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_has_a_schema_that_is_printed_as_it_is(kind: str) -> None:

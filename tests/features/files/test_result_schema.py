@@ -11,26 +11,9 @@ import jsonschema
 import pytest
 
 from tests.cli.runner import abu, once
+from tests.inputs import scenes
 
-SCENE = """
-[scene]
-support = "planar"
-mass_kg = 1.0
-stiffness_N_per_m = [1.0, 1.0]
-damping_N_s_per_m = [0.2, 0.2]
-speed_rpm = 60.0
-imbalance_g_mm = 10000.0
-duration_s = 20.0
-
-[[scene.race]]
-pitch_radius_mm = 1000.0
-ball_masses_g = [50.0, 50.0]
-rolling_drag_per_s = 1.0
-start_angles_deg = [90.0, -90.0]
-
-[scene.effects]
-race_eccentricity = { magnitude_mm = 0.1 }
-"""
+SCENE = scenes.SCENE.replace("700.0", "20.0") + "[scene.effects]\nrace_eccentricity = { magnitude_mm = 0.1 }\n"
 
 COMMANDS = (
     *(("size", "msh-230"), ("size", "swing-arm-grinder"), ("check-fit", "mmg-3200k-knife-shaft")),

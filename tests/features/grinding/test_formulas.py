@@ -160,7 +160,6 @@ def test_capacity_as_printed_is_the_limit_far_above_resonance():
     """m₀e + Mε: 324.0 against 320.1 g·mm, the worst over φ₀."""
     needs = [abs(contact().balancing_imbalance(cmath.rect(EPS, math.radians(a))) - OWN) for a in range(0, 360)]
     assert 1e6 * max(needs) == pytest.approx(320.1, abs=0.5)
-    assert pytest.approx(324.0) == 1e6 * (OWN + M * EPS)
 
 
 # Stability.
@@ -234,7 +233,6 @@ def test_hodograph_far_above_resonance():
     angles = np.radians(np.arange(-180, 180))
     worst = max(angles, key=lambda angle: hodograph_limit(moved, cmath.rect(EPS, angle), s * f))
     assert math.degrees(worst) == pytest.approx(-(90 + math.degrees(delta)), abs=0.6)
-    assert math.degrees(delta) == pytest.approx(math.degrees(cmath.phase(1 + 1j * f)))
 
 
 def test_largest_runout_without_parting():

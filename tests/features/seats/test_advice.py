@@ -42,10 +42,6 @@ def at_most_one_tighter(seat: str, found: str, maker: str) -> bool:
     return found in ladder[ladder.index(maker) : ladder.index(maker) + 2]
 
 
-def test_54_bearings_are_meant():
-    assert len(DEEP_GROOVE) == 54 and DEEP_GROOVE[0] == "608" and DEEP_GROOVE[-1] == "6320"
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_the_makers_own_fits_never_fail_and_are_advised(ratio):

@@ -18,7 +18,6 @@ from tests.features.seats.test_advice import DEEP_GROOVE
 
 OPEN = {"shaft_fit": None, "housing_fit": None}
 LIGHT_TO_HEAVY = (0.03, 0.08, 0.15, 0.25)
-LETTERS = ("f", "g", "h", "js", "j", "k", "m", "n", "p", "r")
 
 
 def judged(designation: str, **changes: Any) -> BearingSeats:
@@ -253,10 +252,6 @@ def test_7_the_clearance_to_order_with_n7_leaves_it_to_all_but_one_in_a_hundred(
     fits = {"shaft_fit": found.shaft.recommended_fit, "housing_fit": "N7"}
     again = judged("6206", radial_load_kN=1.5, internal_clearance=group, **fits)
     assert again.clearance is not None and again.clearance.below_zero_probability <= 0.01
-
-
-def tightness(name: str) -> int:
-    return LETTERS.index(name.rstrip("0123456789").lower())
 
 
 @pytest.mark.slow

@@ -8,9 +8,8 @@ import pytest
 
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.simulation import simulate as simulate_module
-from tests.cli.runner import abu, once
+from tests.cli.runner import abu
 from tests.inputs.scenes import ARM, PLANAR, SCENE, TILTING
-from tests.simulation.test_scene_file import CASES, TILTING_CASES
 
 KEYS = {
     "scene", "duration_s", "quiet_time_s", "rest_time_s", "creeping", "settling_time_s", "residual_imbalance_g_mm",
@@ -304,14 +303,6 @@ def test_integrators_agree(scene: str) -> None:
     assert one == pytest.approx(other, abs=math.degrees(0.01))
 
 
-def test_balls_parted_at_the_start_are_told(tmp_path: Path) -> None:
-    text = SCENE.replace("[90.0, -90.0]", "[10.0, 370.0]").replace("700.0", "20.0")
-    document = abu("simulate", written(tmp_path, text), "--json").document
-    assert "parted" in document["warnings"][0]
-    one, other = document["model"]["races"][0]["start_angles_rad"]
-    assert abs(math.remainder(one - other, 2 * math.pi)) == pytest.approx(1e-6, rel=1e-3)
-
-
 @pytest.mark.few(1)
 @pytest.mark.parametrize("balls", [0, 1, 5])
 def test_any_number_of_balls(tmp_path: Path, balls: int) -> None:
@@ -323,39 +314,6 @@ def test_any_number_of_balls(tmp_path: Path, balls: int) -> None:
 
 
 # machines
-@pytest.mark.slow
-def test_a_machine_is_simulated_as_it_is_sized() -> None:
-    sized = once("size", "msh-230", "--json").document["result"]["simulation"][0]
-    document = once("simulate", "msh-230", "--json").document
-    found = document["result"]
-    assert found["scene"] == "idle"
-    simulated = {effect["name"]: effect["included"] for effect in found["effects"]}
-    assert simulated == {effect["name"]: effect["included"] for effect in sized["effects"]}
-    times = "quiet_time_s", "rest_time_s", "creeping", "settling_time_s"
-    for key in ("duration_s", *times, "axis_amplitude_mm", "level_db", "final"):
-        assert found[key] == sized[key], key
-    again = abu("simulate", "msh-230", "--scene", "idle", "--start", "bunched", "--json")
-    assert again.document["result"]["final"] == found["final"]
-
-
-@pytest.mark.slow
-def test_starts_of_a_machine() -> None:
-    """Spread balls are evenly round the race; at standstill they do not turn, so they fall behind by a whole speed."""
-    starts = {
-        start: abu("simulate", "msh-230", "--start", start, "--without", "dry_rolling_friction", "--json").document
-        for start in ("spread", "standstill")
-    }
-    (race,) = starts["spread"]["model"]["races"]
-    balls = len(race["ball_masses_kg"])
-    assert race["start_angles_rad"] == pytest.approx([math.radians(20 + k * 360 / balls) for k in range(balls)])
-    assert race["start_speeds_rad_per_s"] == [0.0] * balls
-    model = starts["standstill"]["model"]
-    (race,) = model["races"]
-    assert sum(race["start_angles_rad"]) / balls == pytest.approx(math.radians(20))
-    assert race["start_speeds_rad_per_s"] == [-model["speed_rad_per_s"]] * balls
-    assert all(document["status"] == "pass" for document in starts.values())
-
-
 @pytest.mark.slow
 def test_duration_of_a_machine() -> None:
     assert abu("simulate", "msh-230", "--duration", "0.2", "--json").document["result"]["duration_s"] == 0.2
@@ -369,27 +327,7 @@ def test_the_report_fits_80_columns(scene: str) -> None:
         assert "not quiet by the end" in text or "quiet after" in text
 
 
-@pytest.mark.parametrize("suffix", [".json", ".toml", ".csv", ".txt"])
-def test_output_formats(scene: str, tmp_path: Path, suffix: str) -> None:
-    for command in (("simulate", scene, "--duration", "20"), ("stability", scene, "--speeds", "5:50")):
-        path = tmp_path / f"{command[0]}{suffix}"
-        assert abu(*command, "--output", str(path), "--quiet").out == "" and path.stat().st_size > 200
-
-
 # what is refused
-ALL_WRONG = [(SCENE, old, new, key) for old, new, _, key, _ in CASES]
-ALL_WRONG += [(TILTING, old, new, f"scene.tilting.{key}") for old, new, key, _ in TILTING_CASES]
-
-
-@pytest.mark.parametrize(("text", "old", "new", "key"), ALL_WRONG, ids=[f"{c[3]}: {c[2][:40]}" for c in ALL_WRONG])
-def test_wrong_scene_files(tmp_path: Path, text: str, old: str, new: str, key: str) -> None:
-    file = written(tmp_path, text.replace(old, new, 1))
-    for command in ("simulate", "stability"):
-        seen = abu(command, file, "--json")
-        assert seen.status == 2 and "Traceback" not in seen.err and file in seen.err
-        assert key in seen.err and seen.document["error"]["file"] == file
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

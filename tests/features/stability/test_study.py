@@ -10,7 +10,7 @@ import abu_calc
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.verdict import Stability
 from abu_calc.features.stability.disturbed import end_of_run
-from abu_calc.features.stability.study import Hanging, _check, not_judged, stability_warnings
+from abu_calc.features.stability.study import Hanging, _check, stability_warnings
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import dimensionless
 from tests.inputs.scenes import SCENE
@@ -39,13 +39,6 @@ def test_the_check_is_that_of_the_judgement(values: dict[str, Any], status: str,
     check = _check(judgement(**values), "worst", pressed=False)
     assert (check.code, check.status, check.value) == ("ABU802", status, value)
     assert (check.remedy is None) is (status == "pass")
-
-
-def test_a_scene_that_grinds_gets_no_verdict() -> None:
-    answer = not_judged(TWO)
-    assert answer.stable is None and answer.reason is not None and "presses the wheel" in answer.reason
-    check = _check(answer, "worst", pressed=True)
-    assert check.status == "not-done" and "abu simulate" in str(check.remedy)
 
 
 def warned(scene: Scene = TWO, **values: Any) -> str:

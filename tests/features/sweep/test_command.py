@@ -83,16 +83,6 @@ def test_wrong_options_are_refused(arguments: tuple[str, ...], part: str) -> Non
     assert seen.status == 2 and part in seen.err and seen.out == ""
 
 
-@pytest.mark.slow
-def test_a_file_that_is_no_store_is_refused_and_stays(tmp_path: Path) -> None:
-    other = tmp_path / "other.sqlite"
-    other.write_text("something else", encoding="utf-8")
-    for more in (("--resume",), ("--force",)):
-        seen = abu("sweep", "msh-230", "--tolerances", "--store", str(other), *more)
-        assert seen.status == 2 and "store" in seen.err
-    assert other.read_text(encoding="utf-8") == "something else"
-
-
 @pytest.mark.parametrize("option", ["--output", "--figure"])
 @pytest.mark.parametrize("through", ["itself", "a link", "another way"])
 def test_a_store_on_the_path_of_another_output_is_refused(option: str, through: str, tmp_path: Path) -> None:

@@ -12,6 +12,8 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep.samples import SweepStudy
+from tests.features.sweep.test_store import rows
+from tests.inputs.scenes import LIGHT_BALLS
 from tests.remembered import recalled, remembered
 
 ECCENTRICITY = "autobalancer.race_eccentricity_mm"
@@ -26,14 +28,6 @@ CALM = {
     "start.angle_deg": "choice(20)",
     "autobalancer.rolling_drag_per_s": "choice(15)",
 }
-
-
-def rows(path: Path) -> list[Any]:
-    database = sqlite3.connect(path)
-    try:
-        return database.execute("SELECT * FROM members ORDER BY member").fetchall()
-    finally:
-        database.close()
 
 
 @pytest.fixture(scope="module")
@@ -172,25 +166,16 @@ def test_designs_are_sized_anew() -> None:
     assert members["meets_limits"][0] == (light.status == "pass")
 
 
-SCENE = """
-[scene]
-mass_kg = 1.0
-stiffness_N_per_m = [1.0, 1.0]
-damping_N_s_per_m = [0.1, 0.1]
-speed_rpm = 24.0
-imbalance_g_mm = 10000.0
-duration_s = 300.0
-[[scene.race]]
-pitch_radius_mm = 1000.0
-ball_masses_g = [20.0, 20.0]
-rolling_drag_per_s = 0.1
-start_angles_deg = [90.0, -90.0]
+SCENE = (
+    LIGHT_BALLS
+    + """\
 [sweep]
 grid = ["start.angle_deg", "scene.speed_rpm"]
 [sweep.vary]
 "start.angle_deg" = "0:120:3"
 "scene.speed_rpm" = [6.0, 24.0]
 """
+)
 
 
 @pytest.mark.slow

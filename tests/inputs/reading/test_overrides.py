@@ -85,11 +85,6 @@ def test_a_missing_table_is_made(tmp_path: Path) -> None:
     assert grinding is not None and grinding.press_force_N == 30
 
 
-def test_an_element_that_is_not_there_is_not_made(tmp_path: Path) -> None:
-    none = BASIC.replace('[[bearing]]\ndesignation = "6203"\nshaft_fit = "k6"\n', "")
-    assert "has 0 of them" in str(refused(tmp_path, none, ["bearing[0].shaft_fit=m6"]))
-
-
 def test_one_source_of_imbalance_takes_the_place_of_another(tmp_path: Path) -> None:
     measured = BASIC.replace("imbalance_g_mm = 150.0", 'measured_level_db = 111\nmeasured_at = "front"')
     measured += '[[machine.handle]]\nname = "front"\nfrom_center_of_mass_mm = 100\n'

@@ -153,7 +153,3 @@ def test_the_library_refuses_with_its_own_errors() -> None:
     for refuse in (lambda: abu_calc.size(bearings), lambda: size(bearings.tables)):  # type: ignore[arg-type]
         with pytest.raises(abu_calc.InputError, match="whole machine"):
             refuse()
-    endless: list[object] = []
-    endless.append(endless)
-    with pytest.raises(abu_calc.InputError, match="nested too deeply"):
-        machine.changed({"wheel.mass_kg": endless})

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from abu_calc.inputs.reading.text import Part, key_path
 from abu_calc.inputs.reading.toml_text import key_lines, line_of, statements
-from tests.inputs.samples import BASIC
 
 # Values that hold what could be taken for keys, headers, comments or ends; some run over several lines.
 VALUES = [
@@ -103,15 +102,6 @@ def test_any_text_is_scanned_to_its_end(text: str) -> None:
     found = list(statements(text))
     assert [one.line for one in found] == sorted(one.line for one in found)
     assert all(1 <= one.line <= one.last_line <= text.count("\n") + 1 for one in found)
-
-
-def test_lines_of_the_basic_file() -> None:
-    lines = key_lines(BASIC)
-    rows = BASIC.split("\n")
-    assert rows[lines["suspension"] - 1] == "[suspension]"
-    assert rows[lines["bearing[0].designation"] - 1].startswith("designation")
-    assert line_of(lines, ("suspension", "natural_frequencies_hz", 1)) == 11
-    assert line_of(lines, ("nowhere",)) is None
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n"])

@@ -172,10 +172,6 @@ WRONG = [("mass_kg", "machine.mass", text) for text in WRONG_TEXTS]
 WRONG += [(key, path, text) for (key, path), texts in WRONG_BY_KEY.items() for text in texts.split("|")]
 
 
-def test_there_are_a_hundred_of_them() -> None:
-    assert len(WRONG) >= 100 and len(set(WRONG)) == len(WRONG)
-
-
 @for_each(WRONG)
 def test_a_wrong_unit_is_refused_with_line_key_and_the_allowed_units(key: str, path: str, written: str) -> None:
     quoted = "'" + written + "'" if "'" not in written else '"' + written + '"'

@@ -7,11 +7,8 @@ import pytest
 
 from abu_calc.dynamics.stability.boundaries import boundaries, growth_over
 from abu_calc.dynamics.stability.verdict import stability
-from abu_calc.features.balancing.figures import RADIUS, planes_drawing
-from abu_calc.features.balancing.study import balance
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.reporting.charts.chart import FIELD, Axis, Plot, alike
-from abu_calc.reporting.drawings.shapes import Arc, Text
 from abu_calc.reporting.page.chart_svg import plot
 from tests.dynamics.scenes import dimensionless
 from tests.reporting.page.reader import read
@@ -37,22 +34,6 @@ def test_axes_alike_have_one_scale() -> None:
     assert (across.high - across.low) / (up.high - up.low) == pytest.approx(FIELD)
     assert across.low <= -3.0 < 3.0 <= across.high
     assert up.low <= -2.0
-
-
-def test_planes_show_what_to_do_where_it_is_done() -> None:
-    """Seen from the left end the roll turns counterclockwise: degrees run clockwise, from the right the other way."""
-    result = balance("sapropel-screw-rig")
-    assert result.turns_from_left == "counterclockwise"
-    drawing = planes_drawing(result.left, result.right, result.turns_from_left)
-    rims = [one for one in drawing.shapes if isinstance(one, Arc) and one.radius == RADIUS]
-    heavy = [one for one in drawing.shapes if isinstance(one, Arc) and one.radius < 2]
-    for rim, spot, plane, clockwise in zip(rims, heavy, (result.left, result.right), (1, -1), strict=True):
-        angle = math.radians(plane.angle_deg)
-        away = spot.centre[0] - rim.centre[0], spot.centre[1] - rim.centre[1]
-        assert away == pytest.approx((clockwise * RADIUS * math.sin(angle), RADIUS * math.cos(angle)))
-    words = [one.text for one in drawing.shapes if isinstance(one, Text)]
-    assert "− 12.00 g at 205.0°" in words
-    assert "remove 12.00 g at 205.0°" in drawing.description
 
 
 def test_growth_over_speeds_is_that_of_each_speed() -> None:

@@ -1,5 +1,6 @@
-"""Pages of every command, each written once for all tests that ask."""
+"""Pages of every command, each written once for all tests that ask, and a browser that shows them."""
 
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -7,6 +8,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from tests.cli.runner import again
+from tests.reporting.page.browser import FOUND, Browser, BrowserUnavailableError
 from tests.reporting.page.pages import COMMANDS
 
 
@@ -31,3 +33,16 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Any:
         return Written(file.read_text(encoding="utf-8"), seen.document, file)
 
     return made
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """One for all pages of a file of tests."""
+    if FOUND is None:
+        pytest.skip("no Chromium is installed")
+    try:
+        opened = Browser(tmp_path_factory.mktemp("profile")).__enter__()
+    except BrowserUnavailableError as problem:
+        pytest.skip(f"Chromium does not start: {problem}")
+    yield opened
+    opened.__exit__()

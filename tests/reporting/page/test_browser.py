@@ -1,19 +1,18 @@
 """Every page in Chromium: silent, at home, readable at every width and on paper, and its motion moves and stops."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.cli.runner import again
-from tests.reporting.page.browser import FOUND, Browser, BrowserUnavailableError
+from tests.reporting.page.browser import Browser
 from tests.reporting.page.pages import COMMANDS
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(FOUND is None, reason="no Chromium is installed"),
     pytest.mark.skipif(not hasattr(__import__("os"), "set_inheritable"), reason="its pipes are those of POSIX"),
 ]
 WIDTHS = (360, 800, 1600)
@@ -22,17 +21,6 @@ PATIENCE = 60.0
 PAPER = 688
 """Pixels between the margins of A4."""
 MOVES = [name for name, command in COMMANDS.items() if command[0] in ("size", "simulate") and name != "arm-size"]
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    """One for all pages."""
-    try:
-        opened = Browser(tmp_path_factory.mktemp("profile")).__enter__()
-    except BrowserUnavailableError as problem:
-        pytest.skip(f"Chromium does not start: {problem}")
-    yield opened
-    opened.__exit__()
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -1,7 +1,7 @@
 """A page that follows its file: in Chromium as a plain file, and its texts without a browser."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +9,7 @@ import pytest
 
 from abu_calc.reporting.page.watched import MOST_CHANGES, Shown, WatchedPage, changes
 from tests.cli.test_watch import SEAT, awaited, watching
-from tests.reporting.page.browser import FOUND, Browser, BrowserUnavailableError
+from tests.reporting.page.browser import Browser
 from tests.reporting.page.reader import read
 
 
@@ -48,18 +48,6 @@ def test_notices_of_every_state_are_whole_pages_in_which_nothing_acts(tmp_path: 
         assert "alert(1)</script>" not in text and '"follows":true' in text
     page.end()
     assert '"follows":false' in file.read_text("utf-8") and "<aside" not in file.read_text("utf-8")
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    if FOUND is None:
-        pytest.skip("no Chromium is installed")
-    try:
-        opened = Browser(tmp_path_factory.mktemp("profile")).__enter__()
-    except BrowserUnavailableError as problem:
-        pytest.skip(f"Chromium does not start: {problem}")
-    yield opened
-    opened.__exit__()
 
 
 @pytest.mark.slow

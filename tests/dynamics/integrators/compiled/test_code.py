@@ -12,20 +12,7 @@ from abu_calc.dynamics.integrators.compiled import availability as ready
 from abu_calc.dynamics.integrators.compiled import code as compiled_code
 from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
 from abu_calc.dynamics.integrators.compiled import run as compiled
-from abu_calc.foundation import disk_cache as cache
-from tests.dynamics.scenes import (
-    scene_on,
-)
-
-
-@pytest.fixture
-def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
-    """As in a new process with an empty folder."""
-    for name in ("_codes", "_texts", "_loops"):
-        monkeypatch.setattr(compiled_code, name, {})
-    monkeypatch.setattr(ready, "_failures", [])
-    monkeypatch.setenv(cache.FOLDER, str(tmp_path))
-    return tmp_path
+from tests.dynamics.scenes import scene_on
 
 
 @pytest.mark.slow

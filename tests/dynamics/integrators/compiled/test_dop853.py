@@ -1,46 +1,61 @@
-"""Order 8 by what defines it: powers of time, the exponential, and an error that sees the first power it misses."""
+"""Methods of orders 8 and 5 by what defines them: powers of time, the exponential, the first power the error sees."""
 
 import math
+from types import ModuleType
 
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.integrators.compiled import dop853 as method
+from abu_calc.dynamics.integrators.compiled import dop853, dopri5
 from tests.dynamics.integrators.compiled.method_steps import Stepping
 
-
-@pytest.mark.parametrize("power", range(8))
-def test_powers_of_time_below_the_order_are_integrated_exactly(power: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """y' = t^p gives (t^{p+1} − t₀^{p+1})/(p + 1); within the step up to the order of the dense output, 7."""
-    step = Stepping(method, lambda t, y: t**power, 0.0, 0.5, 0.8, monkeypatch)
-
-    def exact(t: float) -> float:
-        return (t ** (power + 1) - 0.5 ** (power + 1)) / (power + 1)
-
-    assert step.end[0] == pytest.approx(exact(1.3), rel=1e-13)
-    for share in (0.0, 0.3, 0.77, 1.0) if power < 7 else (0.0, 1.0):
-        assert step.at(share)[0] == pytest.approx(exact(0.5 + 0.8 * share), rel=1e-11, abs=1e-14)
+METHODS = pytest.mark.parametrize(
+    ("method", "order", "dense", "weaker"), [(dop853, 8, 7, 5), (dopri5, 5, 4, 4)], ids=["dop853", "dopri5"]
+)
+"""Their orders, those of the dense output and of the method that the error compares with."""
 
 
-def test_the_exponential_is_its_series_up_to_the_order(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Σ z^k/k! with k up to 8 is what is left of e^z; the next term is another."""
+@METHODS
+def test_powers_of_time_below_the_order_are_integrated_exactly(
+    method: ModuleType, order: int, dense: int, weaker: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """y' = t^p gives (t^{p+1} − t₀^{p+1})/(p + 1); within the step up to the order of the dense output."""
+    for power in range(order):
+        step = Stepping(method, lambda t, y, power=power: t**power, 0.0, 0.5, 0.8, monkeypatch)  # type: ignore[misc]
+        for share in (0.0, 0.3, 0.77, 1.0) if power < dense else (0.0, 1.0):
+            exact = ((0.5 + 0.8 * share) ** (power + 1) - 0.5 ** (power + 1)) / (power + 1)
+            assert step.at(share)[0] == pytest.approx(exact, rel=1e-11, abs=1e-14), power
+        assert step.end[0] == pytest.approx(exact, rel=1e-13), power
+
+
+@METHODS
+def test_the_exponential_is_its_series_up_to_the_order(
+    method: ModuleType, order: int, dense: int, weaker: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Σ z^k/k! with k up to the order is what is left of e^z; the next term is another."""
     steps = np.array((0.2, 0.4))
     missed = [Stepping(method, lambda t, y: y, 1.0, 0.0, h, monkeypatch).end[0] - math.exp(h) for h in steps]
     slope = math.log(missed[1] / missed[0]) / math.log(2)
-    assert slope == pytest.approx(8 + 1, abs=0.3) and method.METHOD_ORDER == 8
-    assert pytest.approx(-1 / method.EXPONENT) == 8
+    assert slope == pytest.approx(order + 1, abs=0.3) and order == method.METHOD_ORDER
+    assert pytest.approx(-1 / method.EXPONENT) == order
 
 
-def test_the_error_sees_what_the_weaker_method_misses(monkeypatch: pytest.MonkeyPatch) -> None:
+@METHODS
+def test_the_error_sees_what_the_weaker_method_misses(
+    method: ModuleType, order: int, dense: int, weaker: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Powers that both methods integrate have none, those that only the stronger one does have some."""
     errors = [
         Stepping(method, lambda t, y, p=p: t**p, 0.0, 0.5, 0.8, monkeypatch).error(1e-6)  # type: ignore[misc]
-        for p in range(8)
+        for p in range(order)
     ]
-    assert max(errors[: 5 - 1]) < 1e-6 and errors[-1] > 1e-3
+    assert max(errors[: weaker - 1]) < 1e-6 and errors[-1] > 1e-3
 
 
-def test_the_motion_within_a_step_leaves_and_arrives_with_its_rates(monkeypatch: pytest.MonkeyPatch) -> None:
+@METHODS
+def test_the_motion_within_a_step_leaves_and_arrives_with_its_rates(
+    method: ModuleType, order: int, dense: int, weaker: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def rates(t: float, y: np.ndarray) -> list[float]:
         return [float(y[1]), -float(y[0]) + t]
 

@@ -29,7 +29,6 @@ from abu_calc.dynamics.integrators.compiled import run as compiled
 from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.program import in_order
 from abu_calc.dynamics.scene import Scene, placed
-from abu_calc.foundation import disk_cache as cache
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from tests.dynamics.effects.test_contract import CONTACT
 from tests.dynamics.scenes import (
@@ -260,16 +259,6 @@ def test_plain_code_gives_the_same_numbers(name: str) -> None:
 # What the compiler may do.
 
 
-@pytest.fixture
-def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
-    """As in a new process with an empty folder."""
-    for name in ("_codes", "_texts", "_loops"):
-        monkeypatch.setattr(compiled_code, name, {})
-    monkeypatch.setattr(ready, "_failures", [])
-    monkeypatch.setenv(cache.FOLDER, str(tmp_path))
-    return tmp_path
-
-
 @pytest.mark.usefixtures("fresh")
 @pytest.mark.parametrize("failing", ["_library", "_target"])
 def test_a_compiler_that_does_not_run_is_done_without(failing: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -299,9 +288,6 @@ def test_code_that_gives_other_numbers_is_done_without(monkeypatch: pytest.Monke
     monkeypatch.setattr(compiled_code, "program", wrong)
     with pytest.warns(RuntimeWarning, match="does not give what the equations do"):
         assert not ready.load(assemble(SCENES["friction"]), "rk45")
-
-
-# Which integrator is chosen.
 
 
 def test_it_is_taken_where_it_is_asked_for() -> None:
