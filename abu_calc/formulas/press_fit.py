@@ -5,13 +5,12 @@ from typing import Final
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import to_si
 
 ASSEMBLY_TEMPERATURE: Final = 20.0
 """Temperature at which limits of size hold [°C] (ISO 1)."""
 FRICTION: Final = 0.12
 """Coefficient of friction of a dry press fit and of clamped faces, steel or aluminium (assumed, low; DIN 7190-1)."""
-SMOOTHING: Final = to_si(2.5, "um")
+SMOOTHING: Final = 2.5e-6
 """Interference that is lost when ground surfaces are pressed together [m]: 0.8·(Rz + Rz), Rz 1.6 µm (DIN 7190-1)."""
 
 

@@ -231,10 +231,10 @@ def coded(
 
 
 def _for_readers(value: float | EllipsisType | None, unit: str | None) -> float | None:
-    """An SI number in a unit; unchanged if the unit is no SI one."""
+    """An SI number in a unit, freed of the noise of the conversion; unchanged if the unit is no SI one."""
     if value is None or isinstance(value, EllipsisType):
         return None
-    return from_si(value, unit) if unit in SI_PER_UNIT else value
+    return float(f"{from_si(value, unit):.15g}") if unit in SI_PER_UNIT else value
 
 
 def first_of(checks: Iterable[Check], key: str) -> Check | None:

@@ -1,6 +1,6 @@
 """Conversions between the units that people write and read, and SI; there are no others.
 
-A unit is named as in the keys of the files, so `imbalance_g_mm` is read with `to_si(value, "g_mm")`. The field's
+A unit is named as in the keys of the files, so `imbalance_g_mm` is read with `to_si` by "g_mm". The field's
 levels are 20 lg(v / 5e-8 m/s), v rms (GOST 12.1.012, ISO 5349 practice); amplitudes are 0–peak.
 """
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, shown, to_si
+from abu_calc.foundation.units import from_si, shown
 from abu_calc.inputs.oil import oil_name
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
@@ -14,14 +14,14 @@ from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.closure import filling_gap_of
 from abu_calc.sizing.manufacture.construction import Construction
 from abu_calc.sizing.manufacture.cover import seat_name
-from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
+from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit, microns
 from abu_calc.sizing.manufacture.race_quality import RaceQuality
 from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.track import Track
 from abu_calc.standards.tolerance_classes import DeviationLimits
 
-SOFT_ARM = to_si(10, "um")
+SOFT_ARM = 10e-6
 """Lever arm of rolling friction on a soft race (assumed; 10–50 µm)."""
 
 
@@ -80,17 +80,18 @@ def _eccentricity(case: Case, candidate: Candidate, split: EccentricitySplit) ->
     return (
         _line(
             "race to bore, total",
-            f"eccentricity {_um(split.total)} µm at most, {whole} of race {_um(split.race)}, {fit} "
-            f"{_um(split.clearance)}, spindle {_um(split.spindle)}, imbalance of the housing {_um(split.housing)} µm",
+            f"eccentricity {microns(split.total)} µm at most, {whole} of race {microns(split.race)}, {fit} "
+            f"{microns(split.clearance)}, spindle {microns(split.spindle)}, imbalance of the housing "
+            f"{microns(split.housing)} µm",
             _cost(others, case.race_eccentricity),
         ),
         _line(
             "race run-out",
-            f"{_um(2 * split.race)} µm TIR to the bore; {_how_round(split)}",
+            f"{microns(2 * split.race)} µm TIR to the bore; {_how_round(split)}",
             _cost(others, split.race),
         ),
         _line(
-            "spindle run-out", f"{_um(2 * split.spindle)} µm TIR at the seat, on its own bearings",
+            "spindle run-out", f"{microns(2 * split.spindle)} µm TIR at the seat, on its own bearings",
             _cost(others, split.spindle),
         ),
     )  # fmt: skip
@@ -100,7 +101,7 @@ def _how_round(split: EccentricitySplit) -> str:
     """How the run-out of the race is attained."""
     if not split.ring_class:
         return "grind bore and race in one set-up"
-    return f"a ring of class {split.ring_class} (ISO 492) has {_um(split.ring_run_out)} µm of it, its seat the rest"
+    return f"a ring of class {split.ring_class} (ISO 492) has {microns(split.ring_run_out)} µm of it, its seat the rest"
 
 
 def _construction(case: Case, construction: Construction) -> Iterator[DrawingLine]:
@@ -127,7 +128,7 @@ def _construction(case: Case, construction: Construction) -> Iterator[DrawingLin
         low, high = abu.temperature_range_C
         yield _line(
             "seat of the ring",
-            f"{named}{limits}, ring {seat.ring_class}; {_um(seat.left)} µm of interference left at least at "
+            f"{named}{limits}, ring {seat.ring_class}; {microns(seat.left)} µm of interference left at least at "
             f"{low:g} … {high:g} °C; join with the body at {seat.joining:.0f} °C",
         )
 
@@ -142,25 +143,25 @@ def _race(case: Case, candidate: Candidate, track: Track, quality: RaceQuality) 
         _line("groove", f"{_across(track.groove_radius)} (helps to shake out friction; no effect on the level)", 0.0),
         _line(
             "race circularity",
-            f"{_um(quality.circularity)} µm; two lobes of {_um(quality.circularity / 2)} µm leave "
-            f"{_um(quality.circularity)} µm",
+            f"{microns(quality.circularity)} µm; two lobes of {microns(quality.circularity / 2)} µm leave "
+            f"{microns(quality.circularity)} µm",
             _cost(budget.residual, quality.circularity),
         ),
         _line(
             "race waviness",
-            f"n_k lobes of amplitude a_k leave n_k·a_k: {_um(quality.waviness)} µm at most, such as 5 × "
-            f"{_um(quality.waviness / 5)} µm",
+            f"n_k lobes of amplitude a_k leave n_k·a_k: {microns(quality.waviness)} µm at most, such as 5 × "
+            f"{microns(quality.waviness / 5)} µm",
             _cost(budget.residual, quality.waviness),
         ),
         _line(
             "race surface",
-            f"Ra ≤ {_um(quality.roughness)} µm, no dents: a dent {_um(quality.dent)} µm deep holds a ball",
+            f"Ra ≤ {microns(quality.roughness)} µm, no dents: a dent {microns(quality.dent)} µm deep holds a ball",
             _cost(budget.residual, quality.dent * candidate.pitch_radius / _dent_half_width(candidate, quality.dent)),
         ),
         _line(
             "race hardness",
             f"{hardness_text(quality)}, through-hardened (given: {abu.race_hardness_HRC:g}); a soft race has a lever "
-            f"arm of {_um(SOFT_ARM)} µm",
+            f"arm of {microns(SOFT_ARM)} µm",
             _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction),
         ),
         _line(
@@ -191,7 +192,7 @@ def _seat_and_balls(
     named = "no standard fit" if fit is None else (
         f"bore Ø{bore} {fit.bore_class} ({_limits(fit.bore)}), spindle Ø{bore} {fit.spindle_class} "
         f"({_limits(fit.spindle)} mm); {_clearance(fit)}; the largest clearance gives "
-        f"{_um(split.clearance)} µm of the eccentricity"
+        f"{microns(split.clearance)} µm of the eccentricity"
     )  # fmt: skip
     return (
         _line("bore and spindle", named, None if fit is None else _cost(rest, split.clearance)),
@@ -202,7 +203,7 @@ def _seat_and_balls(
         _line(
             "housing without balls",
             f"balanced to {split.balance_grade} (ISO 21940-11); the balls balance the static rest, the couple counts "
-            f"as {_um(split.housing)} µm of the eccentricity",
+            f"as {microns(split.housing)} µm of the eccentricity",
             0.0,
         ),
     )  # fmt: skip
@@ -219,7 +220,7 @@ def _clearance(fit: Fit) -> str:
         return f"clearance {shown((-fit.tightest, -fit.loosest), 'um')}"
     if fit.loosest >= 0:
         return f"interference {shown((fit.loosest, fit.tightest), 'um')}"
-    return f"clearance {_um(-fit.loosest)} to interference {_um(fit.tightest)} µm"
+    return f"clearance {microns(-fit.loosest)} to interference {microns(fit.tightest)} µm"
 
 
 def _running(case: Case, candidate: Candidate) -> tuple[DrawingLine, ...]:
@@ -236,15 +237,12 @@ def _running(case: Case, candidate: Candidate) -> tuple[DrawingLine, ...]:
         _line(
             "web and cover",
             "both must carry the wall, the cover without clearance: two-lobe ovality then leaves "
-            f"{_um(ovality_residual(oval.lobes))} µm, with one web alone {_um(ovality_residual(oval.unaided))} µm; "
-            f"the diameter of a free ring would grow by {_um(oval.free_ring)} µm",
+            f"{microns(ovality_residual(oval.lobes))} µm, with one web alone "
+            f"{microns(ovality_residual(oval.unaided))} µm; the diameter of a free ring would grow by "
+            f"{microns(oval.free_ring)} µm",
         ),
         _line("proof", f"cover and seal; overspeed test at {overspeed}, 1.2 × the highest speed"),
     )
-
-
-def _um(length: float) -> str:
-    return f"{from_si(length, 'um'):.3g}"
 
 
 def _cost(rest: float, part: float) -> float | None:

@@ -7,7 +7,7 @@ from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.foundation.checks import Bound, Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import shown
+from abu_calc.foundation.units import shown, to_si
 from abu_calc.foundation.validity import Range
 from abu_calc.sizing.case import Case, working_speeds
 
@@ -146,7 +146,7 @@ def motor_checks(case: Case) -> tuple[Check, ...]:
     """
     if case.idle_speed is None:
         return ()
-    (low, high), idle = case.table.machine.speed_range, case.idle_speed
+    (low, high), idle = (to_si(speed, "rpm") for speed in case.table.machine.speeds_rpm), case.idle_speed
     bound: Bound = "least" if idle < low else "most"
     limit = low if bound == "least" else high
     kept = case.speed_range == working_speeds(case.table)

@@ -13,7 +13,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.features.identification.results import BenchRecord, IdentifiedValue
 from abu_calc.features.identification.tracks import Array
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.units import GRAVITY, to_si
+from abu_calc.foundation.units import GRAVITY
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.recording_files import content_of
 from abu_calc.inputs.recording_table import decoded, table_of
@@ -51,7 +51,7 @@ def read_decay(file: str) -> tuple[Array, Array]:
         )
     for angle in (float(angles.min()), float(angles.max())):
         ANGLE.check(angle)
-    return times - times[0], np.asarray(to_si(1.0, "deg") * angles)
+    return times - times[0], np.deg2rad(angles)
 
 
 def decay(times: Array, begin: float, drag: float, friction: float, pitch_radius: float, inertia: float) -> Array:

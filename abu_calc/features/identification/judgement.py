@@ -12,7 +12,6 @@ from abu_calc.features.identification.estimate import (
 )
 from abu_calc.features.identification.fit import SETS, VAGUE, Estimate, Measured
 from abu_calc.foundation.checks import Check, coded
-from abu_calc.foundation.units import to_si
 
 FEWEST: Final = 8
 """Starts, at least."""
@@ -76,12 +75,12 @@ def _of_the_ends(mean: complex, error: float, estimate: Estimate, *, marked: boo
         allowed = 3 * error + estimate.offset_error + 1.0
         yield coded("ABU1103", "pass" if apart <= allowed else "warn",
             "Distance of the mean end from the place opposite the eccentricity",
-            to_si(apart, "um"), to_si(allowed, "um"),
+            apart, allowed, unit="µm",
         )  # fmt: skip
     else:
         yield coded("ABU1103", "not-done", "No eccentricity is known")
     yield coded("ABU1106", "pass" if known else "not-done", "Half of the interval of the eccentricity",
-        to_si(estimate.offset_error, "um"), to_si(estimate.offset_allowed, "um"),
+        estimate.offset_error, estimate.offset_allowed, unit="µm",
     )  # fmt: skip
 
 

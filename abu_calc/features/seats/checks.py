@@ -7,13 +7,13 @@ from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.clearance import MOST
 from abu_calc.features.seats.creep import Creep
 from abu_calc.features.seats.equivalent_load import carries_by_flanges
-from abu_calc.features.seats.interference import Interval, of_all
+from abu_calc.features.seats.interference import Interval, of_all, um
 from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, LOOSE_ENOUGH, TEMPERATURE, Joint
 from abu_calc.features.seats.joints import ROOM, USUAL_RISE, assumes_warmth
 from abu_calc.features.seats.notes import selective_groups
 from abu_calc.features.seats.rating_life import GUIDE_LIFE, RatingLife
 from abu_calc.foundation.checks import Action, Check, Finding, coded, verdict
-from abu_calc.foundation.units import from_si, shown, to_si
+from abu_calc.foundation.units import shown, to_si
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.catalogue import ROLLERS
 from abu_calc.standards.internal_clearance import groups_of, preload_limits
@@ -79,13 +79,13 @@ def life_checks(bearing: SeatedBearing, life: RatingLife) -> tuple[Check, ...]:
 
 
 def _static(bearing: SeatedBearing, life: RatingLife) -> Check:
-    safety, load = life.static_safety or 0.0, from_si(life.static_load or 0.0, "kN")
-    least = _ROLLER_SAFETY if bearing.kind in ROLLERS else 1.0
-    C0 = from_si(bearing.ratings.static if bearing.ratings else 0.0, "kN")
+    safety, least = life.static_safety or 0.0, _ROLLER_SAFETY if bearing.kind in ROLLERS else 1.0
+    C0 = bearing.ratings.static if bearing.ratings else 0.0
     bearable = "" if safety >= 1 else ". The load leaves permanent dents, whatever the tolerance class"
     return coded("ABU631", verdict(safety >= 1, safety >= least),
-        f"C0/P0 = {C0:.3g} kN/{load:.3g} kN{_axial_remark(bearing)}{bearable}", round(safety, 6),
-        least if safety >= 1 else 1.0, None if safety >= least else "Specify a larger bearing or reduce the load.",
+        f"C0/P0 = {shown(C0, 'kN')}/{shown(life.static_load or 0.0, 'kN')}{_axial_remark(bearing)}{bearable}",
+        round(safety, 6), least if safety >= 1 else 1.0,
+        None if safety >= least else "Specify a larger bearing or reduce the load.",
         of=bearing.name,
     )  # fmt: skip
 
@@ -181,7 +181,7 @@ def short_pair_checks(bearing: str, joint: Joint, recommended: str | None) -> tu
         why = f"no {missing} is given, so the interference that the ring needs is not known"
         action = f"Specify {key}."  # the check of the seat itself is not evaluated for this, and decides
         return (coded(code, "not-done", why, None, warn, action, of=bearing, requested=False),)
-    grade, share, demand = joint.short_grade, joint.short_pairs, _um(joint.demand.value)
+    grade, share, demand = joint.short_grade, joint.short_pairs, um(joint.demand.value)
     limit = fail if grade == "fail" else warn
     least = f"less than the {demand:.3g} µm" if demand >= 0 else f"more clearance than the {-demand:.2g} µm"
     return (coded(code, grade,
@@ -236,7 +236,7 @@ def clearance_checks(bearing: SeatedBearing, left: "Clearance | None", few: floa
     message = (
         f"{direction} clearance of group {left.group} after mounting: {of_all(share, things)} have none left, and "
     )
-    message += f"the least probable is {_um(left.probable.smallest):.3g} µm"
+    message += f"the least probable is {um(left.probable.smallest):.3g} µm"
     return (coded("ABU621", verdict(passed, safe), message, round(share, 8), few if passed else MOST,
                   None if safe else NO_GROUP, of=bearing.name),)  # fmt: skip
 
@@ -273,10 +273,10 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None, rule: s
         )  # fmt: skip
     normal = f" of {shown(joint.radial_load or 0.0, 'kN')} (normal, assumed)" if joint.load_assumed else ""
     limit = f"the interference required under {ARTICLE[joint.ring.load]} load{normal} by {required.by}{_losses(joint)}"
-    mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
+    mean = f"The mean, {um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
     if joint.loosens_hot:
-        hot = _um(joint.mean - max(case.loss for case in joint.thermal_cases))
+        hot = um(joint.mean - max(case.loss for case in joint.thermal_cases))
         remark = f". Hot, {ROOM + USUAL_RISE:g} °C assumed, the mean is {hot:.3g} µm"
     return coded(code, joint.grip,
         f"least interference of {joint.class_text} against {limit}{remark}{_makers(bearing, joint)}"
@@ -291,7 +291,7 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
         return _cup(bearing, joint, recommended, share)
     tightest = joint.coldest_or_hottest
     if joint.turns_tight:
-        low, high = (_um(end - tightest.loss) for end in joint.interference)
+        low, high = (um(end - tightest.loss) for end in joint.interference)
         when = "at work" if tightest.rise is None else f"at {ROOM + tightest.rise:g} °C"
         judgement = f"A load fixed in direction requires none, but the seat is {low:.3g} … {high:.3g} µm tight then"
         return coded(_CODES[joint.seat][0], "warn", f"largest interference of {joint.class_text} {when}. {judgement}",
@@ -313,8 +313,8 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
 
 def _ways_out(joint: Joint) -> str:
     """What helps a light-alloy housing that no class suits cold and hot."""
-    low, high = (_um(end) for end in joint.interference)
-    gap = _um(max(case.loss for case in joint.thermal_cases) - joint.interference.smallest)
+    low, high = (um(end) for end in joint.interference)
+    gap = um(max(case.loss for case in joint.thermal_cases) - joint.interference.smallest)
     return (
         f"No tabulated class is free cold and close hot. Put a steel sleeve into the housing: {low:.3g} … {high:.3g} "
         f"µm at every temperature. Or hold the ring by an O-ring or adhesive: the gap is up to {gap:.3g} µm hot. Or "
@@ -389,7 +389,7 @@ def _losses(joint: Joint) -> str:
     warm = max(case.loss for case in joint.thermal_cases)
     named = [*parts, (TEMPERATURE, warm)] if warm > 0 else parts
     kept = f", over the {joint.pressure_kept:.0%} of the pressure that is kept" if joint.pressure_kept < _KEPT else ""
-    return kept + "".join(f" + {name} {_um(value):.1f} µm" for name, value in named if _um(value) >= _SHOWN)
+    return kept + "".join(f" + {name} {um(value):.1f} µm" for name, value in named if um(value) >= _SHOWN)
 
 
 def _no_class(joint: Joint, recommended: str | None) -> str | None:
@@ -401,7 +401,7 @@ def _no_class(joint: Joint, recommended: str | None) -> str | None:
     if joint.diameter < _SMALL and joint.must_grip:
         return "A class that holds so small a ring overstresses it. Specify h5 and bond the ring."
     if joint.light_alloy and joint.loss_by_warmth > 0:
-        gap = _um(joint.loss_by_warmth - joint.interference.smallest)
+        gap = um(joint.loss_by_warmth - joint.interference.smallest)
         return (
             "No tabulated class both holds the ring hot and is permitted. Specify a housing of steel: warmth then "
             f"takes nothing from its seat. Or hold the ring by adhesive: the gap is up to {gap:.3g} µm hot."
@@ -426,15 +426,11 @@ def no_better(check: Check, joint: Joint) -> Action:
         groups = selective_groups(*joint.male_and_female, band)
     if groups is None or groups.groups < 2:
         return Action("No tabulated class does better.")
-    least = _um(groups.interference.smallest)
+    least = um(groups.interference.smallest)
     return Action(
         f"No tabulated class does better. Sort both parts into {groups.groups} groups: every pair then has at least "
         f"{least:.3g} µm (calculated)."
     )
-
-
-def _um(metres: float) -> float:
-    return from_si(_rounded(metres), "um")
 
 
 def _rounded(value: float, step: float = 1e-12) -> float:

@@ -211,6 +211,15 @@ def run_out(value: float) -> float:
     return to_si(math.floor(microns / step) * step, "um")
 
 
+def microns(length: float) -> str:
+    """A length in micrometres, without the unit.
+
+    >>> microns(15.44e-6)
+    '15.4'
+    """
+    return f"{from_si(length, 'um'):.3g}"
+
+
 def eccentricity_check(case: Case, split: EccentricitySplit) -> Check:
     """Check that a standard fit and attainable run-outs hold the eccentricity that the file permits."""
     if split.fit is None:
@@ -218,7 +227,7 @@ def eccentricity_check(case: Case, split: EccentricitySplit) -> Check:
             f"{case.autobalancer.bore_diameter_mm:g} mm", None, split.total, "Specify a bore from 0.6 to 500 mm.",
         )  # fmt: skip
     if split.holds:
-        race, clearance, spindle, housing = (f"{from_si(part, 'um'):.3g}" for part in split.parts)
+        race, clearance, spindle, housing = map(microns, split.parts)
         message = (
             f"{split.rule} sum of race {race}, clearance of {split.fit.named} {clearance}, spindle {spindle}, "
             f"imbalance of the housing ({split.balance_grade}) {housing} µm, against autobalancer.race_eccentricity_mm"
