@@ -16,7 +16,7 @@ from abu_calc.version import __version__
 
 if TYPE_CHECKING:
     from abu_calc import units
-    from abu_calc.dynamics.race import Race
+    from abu_calc.dynamics.rotor import Race
     from abu_calc.dynamics.scene import Scene
     from abu_calc.dynamics.supports.planar import planar
     from abu_calc.features.accuracy.study import AccuracyResult, accuracy
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from abu_calc.simulation.scene_file import SceneDescription, read_scene
 
 _ROOMS: Final = {
-    "dynamics.race": "Race",
+    "dynamics.rotor": "Race",
     "dynamics.scene": "Scene",
     "dynamics.supports.planar": "planar",
     "features.accuracy.study": "AccuracyResult accuracy",

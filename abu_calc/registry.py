@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure as Drawn
 
-    from abu_calc.reporting.charts.figure import Extras, Figure
+    from abu_calc.reporting.charts.chart import Extras, Figure
     from abu_calc.reporting.outcome import Outcome
     from abu_calc.simulation.result import Result
 
@@ -166,16 +166,16 @@ VIEWS: Final[Mapping[str, Views]] = {
             "design.view:size",
             "design.figures:size_extras",
             screen="design.screen:size_screen",
-            note="design.step_numbers:explanation_blocks",
+            note="design.summary:explanation_blocks",
             drawings="design.sheet:size_sheets",
-            solids="design.solids:size_solids",
+            solids="design.sheet:size_solids",
         ),
         Views(
             "spindle.records:SpindleSizeResult",
             "spindle.view:spindle",
-            "spindle.figures:spindle_extras",
+            "spindle.view:spindle_extras",
             drawings="spindle.view:spindle_sheets",
-            solids="spindle.figures:both_solids",
+            solids="spindle.view:both_solids",
         ),
         Views(
             "seats.study:CheckFitResult",
@@ -189,8 +189,8 @@ VIEWS: Final[Mapping[str, Views]] = {
         Views("grinding.study:GrindingResult", "grinding.view:grinding", "grinding.figures:grinding_extras"),
         Views(
             "spindle.records:SpindleGrindingResult",
-            "spindle.work_view:work",
-            "spindle.work_view:work_extras",
+            "spindle.view:work",
+            "spindle.view:work_extras",
         ),
         Views(
             "balancing.study:BalanceResult",
@@ -198,8 +198,8 @@ VIEWS: Final[Mapping[str, Views]] = {
             "balancing.figures:balance_extras",
             note="balancing.figures:balance_note",
         ),
-        Views("effects.study:EffectsResult", "effects.view:effects"),
-        Views("effects.study:KnownEffectsResult", "effects.view:known", screen="effects.view:known_blocks"),
+        Views("effects.study:EffectsResult", "effects.study:effects"),
+        Views("effects.study:KnownEffectsResult", "effects.study:known", screen="effects.study:known_blocks"),
         Views("accuracy.study:AccuracyResult", "accuracy.view:accuracy", "accuracy.view:accuracy_extras"),
         Views("sweep.result:SweepResult", "sweep.view:sweep", "sweep.figures:sweep_extras"),
         Views("optimise.result:OptimiseResult", "optimise.view:optimise", "optimise.view:optimise_extras"),
@@ -225,11 +225,11 @@ VIEWS: Final[Mapping[str, Views]] = {
         ),
         Views(
             "compare.measured:MeasuredCompareResult",
-            "compare.measured_view:measured",
-            "compare.measured_view:measured_extras",
-            screen="compare.measured_view:measured_blocks",
+            "compare.measured:measured",
+            "compare.measured:measured_extras",
+            screen="compare.measured:measured_blocks",
         ),
-        Views("verify.study:VerifyResult", "verify.view:verify"),
+        Views("verify.study:VerifyResult", "verify.study:verify"),
     )
 }
 """Views of each type of result."""
@@ -367,7 +367,7 @@ def _views(result: "Result") -> Views | None:
 
 def extras_of(result: "Result") -> "Extras":
     """Figures of a result and the calculation note of its page; none if its feature makes none."""
-    from abu_calc.reporting.charts.figure import Extras
+    from abu_calc.reporting.charts.chart import Extras
 
     views = _views(result)
     extras: Extras = imported(views.extras)(result) if views and views.extras else Extras()
@@ -401,7 +401,7 @@ def outcome_of(result: "Result", *, explain: bool = False) -> "Outcome":
 def save(result: "Result", path: "Path", *, force: bool) -> None:
     """Write a result as --output does; the suffix chooses the format. Raises OutputError, naming file and remedy."""
     from abu_calc.reporting.files import DRAWN, FORMATS, as_file, check_extra, further_sheets
-    from abu_calc.reporting.write import Target, check_target, write
+    from abu_calc.reporting.outcome import Target, check_target, write
 
     outcome, suffix = outcome_of(result), path.suffix.lower()
     try:
@@ -415,7 +415,7 @@ def save(result: "Result", path: "Path", *, force: bool) -> None:
 
 def text(result: "Result", *, full: bool) -> str:
     """The report of a result as the command prints it: on one screen, or whole."""
-    from abu_calc.reporting.text import as_text
+    from abu_calc.reporting.screen import as_text
 
     outcome = outcome_of(result)
     return as_text(outcome.blocks if full else outcome.screen)

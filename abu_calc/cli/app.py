@@ -10,9 +10,17 @@ import typer
 from abu_calc.cli.help import SectionedGroup
 from abu_calc.cli.streams import make_safe
 from abu_calc.cli.watch import Watch
-from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place
-from abu_calc.foundation.escaping import escaped, escaped_lines, shortened
-from abu_calc.foundation.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
+from abu_calc.foundation.errors import (
+    AbuError,
+    InputError,
+    NotTrustworthyError,
+    OutputError,
+    Place,
+    escaped,
+    escaped_lines,
+    shortened,
+)
+from abu_calc.foundation.parallel import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
 from abu_calc.registry import BY_NAME, FEATURES, imported
 from abu_calc.version import __version__
 

@@ -25,8 +25,7 @@ import typer
 
 from abu_calc.cli import watch
 from abu_calc.cli.help import OUTPUT, HelpAll, SectionedCommand
-from abu_calc.cli.output import Delivery, asked_figures, deliver, write_files
-from abu_calc.cli.progress import progress
+from abu_calc.cli.output import Delivery, asked_figures, deliver, progress, write_files
 from abu_calc.foundation.call_files import one_call
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.patience import limited
@@ -226,8 +225,7 @@ def add_command(app: typer.Typer, name: str, command: Command) -> None:
     options = (*command.options, *_shared(name, command))
 
     def run(**given: Any) -> None:
-        from abu_calc.reporting.outcome import Outcome
-        from abu_calc.reporting.write import Target, check_target
+        from abu_calc.reporting.outcome import Outcome, Target, check_target
 
         how = Delivery(
             given["json"], tuple(given["output"] or ()), given["force"], given["quiet"], not given["no_color"],

@@ -4,7 +4,7 @@ import gc
 import os
 import sys
 
-from abu_calc.foundation.interruption import EndedBySignal, heed_signals, leave_signals, status_of
+from abu_calc.foundation.parallel import EndedBySignal, heed_signals, leave_signals, status_of
 
 OBJECTS = 300_000
 """Kept objects between two searches for garbage: the largest start makes half as many, and to search takes a tenth of

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from abu_calc.foundation.call_files import READ
 from abu_calc.foundation.errors import AbuError, InputError, Place
-from abu_calc.foundation.interruption import EndedBySignal, status_of
-from abu_calc.foundation.parallel import begin_worker, interrupts_left_to_parent
+from abu_calc.foundation.parallel import EndedBySignal, begin_worker, interrupts_left_to_parent, status_of
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

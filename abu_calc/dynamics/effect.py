@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Acting, Modes, Parameters
-from abu_calc.dynamics.rotor import STEADY, Rotation
+from abu_calc.dynamics.rotor import STEADY, Acting, Modes, Parameters, Rotation
 from abu_calc.dynamics.scene_context import Circumstances, Holding
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.frozen import dataclass

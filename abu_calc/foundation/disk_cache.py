@@ -15,7 +15,7 @@ import sys
 import warnings
 from pathlib import Path
 
-from abu_calc.foundation.escaping import shortened
+from abu_calc.foundation.errors import shortened
 from abu_calc.foundation.frozen import dataclass
 
 FOLDER = "ABU_CALC_CACHE"

@@ -83,7 +83,7 @@ class Machine(FileReading):
             return self.text
         import tomli_w
 
-        from abu_calc.inputs.reading.format import FORMAT, KEY
+        from abu_calc.inputs.reading.text import FORMAT, KEY
         from abu_calc.inputs.variation import Variants
 
         content = Variants.whole(self, type(self.tables)).content

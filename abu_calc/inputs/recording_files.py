@@ -21,10 +21,20 @@ from numpy.typing import NDArray
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import GRAVITY
-from abu_calc.inputs.reading.plain import found_as
 from abu_calc.inputs.reading.sources import regular_file
+from abu_calc.inputs.reading.values_with_units import found_as
 from abu_calc.inputs.recording import LARGEST as LARGEST_SAMPLE
-from abu_calc.inputs.recording import MOST_AXES, Recording, RecordingOptions, chosen, flat_tops, recording
+from abu_calc.inputs.recording import (
+    MOST_AXES,
+    RATE,
+    Recording,
+    RecordingOptions,
+    chosen,
+    flat_tops,
+    recording,
+    rises,
+    timing,
+)
 from abu_calc.inputs.recording_columns import (
     MOTION,
     QUANTITIES,
@@ -34,7 +44,6 @@ from abu_calc.inputs.recording_columns import (
     plain_unit,
 )
 from abu_calc.inputs.recording_table import Lines, decoded, table_of
-from abu_calc.inputs.recording_time import RATE, rises, timing
 from abu_calc.inputs.sensitivity import Sensitivity, sensitivities, sensitivity_of
 
 

@@ -19,10 +19,9 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading.document import Document, FileReading, Model
 from abu_calc.inputs.reading.errors import Origin, input_error
 from abu_calc.inputs.reading.overrides import Override, apply, parse_override
-from abu_calc.inputs.reading.plain import found_as, plain_number
 from abu_calc.inputs.reading.table import Many, Table, entry, problem
 from abu_calc.inputs.reading.text import Part, key_path
-from abu_calc.inputs.reading.values_with_units import canonical_path, convert, convert_entry
+from abu_calc.inputs.reading.values_with_units import canonical_path, convert, convert_entry, found_as, plain_number
 
 GRAMMAR: Final = (
     "LOW:HIGH:N, a list A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), triangular(LOW,MODE,HIGH), "

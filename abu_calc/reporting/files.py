@@ -8,15 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.foundation.checks import verdict_codes
-from abu_calc.foundation.errors import OutputError
-from abu_calc.foundation.escaping import escaped, escaped_toml
+from abu_calc.foundation.errors import OutputError, escaped, escaped_toml
 from abu_calc.foundation.quantity import flattened
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.outcome import Outcome, document, to_json
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 
 if TYPE_CHECKING:
-    from abu_calc.reporting.write import Target
+    from abu_calc.reporting.outcome import Target
 
 FORMULAS: Final = ("=", "+", "-", "@")
 """First characters of texts that spreadsheets take for formulas."""
@@ -71,7 +70,7 @@ def as_dxf(outcome: Outcome) -> str:
 def further_sheets(outcome: Outcome, path: Path) -> "tuple[Target, ...]":
     """The sheets after the first as files beside it, the sheet's name behind its own; DXF holds one sheet a file."""
     from abu_calc.reporting.drawings.dxf import dxf_text
-    from abu_calc.reporting.write import Target
+    from abu_calc.reporting.outcome import Target
 
     if path.suffix.lower() != ".dxf" or outcome.drawings is None:
         return ()

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.foundation.checks import RANK, Check, Grade
-from abu_calc.foundation.escaping import shell_word
+from abu_calc.foundation.errors import shell_word
 from abu_calc.foundation.quantity import Record, quantities
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.text import shown as exact
@@ -28,7 +28,7 @@ from abu_calc.simulation.result import Provenance, Result
 
 if TYPE_CHECKING:  # the seats of bearings are reported without a design
     from abu_calc.simulation.vibration_records import MeasuredAfterRecord
-    from abu_calc.sizing.instruments import InstrumentReadings
+    from abu_calc.sizing.imbalance import InstrumentReadings
 
 NOISE: Final = 1e-9
 """Values below which no digits are printed beside a limit of zero."""

@@ -8,7 +8,7 @@ from types import NoneType, UnionType
 from typing import Any, Final, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.inputs.reading.plain import found_as, plain_number
+from abu_calc.inputs.reading.values_with_units import found_as, plain_number
 
 Arguments = ParamSpec("Arguments")
 Answer = TypeVar("Answer")

@@ -10,9 +10,9 @@ from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
-from abu_calc.simulation.effect_selection import Ledger, chosen, simulate_chosen
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.simulation.simulate import Simulation
+from abu_calc.simulation.subject import Ledger, chosen, simulate_chosen
 from abu_calc.sizing.design import Design
 
 WORK = 300_000

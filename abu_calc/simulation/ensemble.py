@@ -23,9 +23,8 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent, within
 from abu_calc.simulation.early_stopping import Early
-from abu_calc.simulation.effect_selection import chosen
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
-from abu_calc.simulation.residual_criteria import (
+from abu_calc.simulation.response import Response, needed_times
+from abu_calc.simulation.run_checks import (
     MARGIN,
     allowed_imbalance,
     balances,
@@ -34,9 +33,18 @@ from abu_calc.simulation.residual_criteria import (
     linger,
     slip,
 )
-from abu_calc.simulation.response import Response, needed_times
 from abu_calc.simulation.scene_of_design import guided, idle_scene
-from abu_calc.simulation.start_cases import Member, members, scene_of_member
+from abu_calc.simulation.start_cases import (
+    Ensemble,
+    Lost,
+    Member,
+    StartOutcome,
+    deciding,
+    members,
+    scene_of_member,
+    worse,
+)
+from abu_calc.simulation.subject import chosen
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.places import level_at_loudest
 

@@ -6,11 +6,10 @@ import statistics
 from abu_calc.foundation.parallel import processors
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.simulation.ensemble import simulate_members
-from abu_calc.simulation.ensemble_results import Ensemble
+from abu_calc.simulation.start_cases import Ensemble
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared, measured_place
-from abu_calc.sizing.budget import displacement_level
+from abu_calc.sizing.budget import displacement_level, place_response
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.place_response import place_response
 from abu_calc.sizing.places import level_at_loudest
 
 

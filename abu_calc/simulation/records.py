@@ -7,9 +7,9 @@ from typing import Annotated, Any, ClassVar, Self
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
-from abu_calc.simulation.effect_selection import Audit, EffectEntry, Ledger
 from abu_calc.simulation.response import End
 from abu_calc.simulation.simulate import Cost, Simulation
+from abu_calc.simulation.subject import Audit, EffectEntry, Ledger
 
 
 @record

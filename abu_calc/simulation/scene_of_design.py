@@ -16,9 +16,9 @@ from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene, parted_angles, placed
-from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.scene_context import Support
 from abu_calc.dynamics.supports.planar import in_hands, planar
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport, cutting_arm, idle_arm
@@ -30,7 +30,7 @@ from abu_calc.foundation.units import velocity_from_level
 from abu_calc.foundation.validity import Range
 from abu_calc.inputs.duty import Motor as MotorTable
 from abu_calc.inputs.duty import SwingArm as SwingArmTable
-from abu_calc.simulation.durations import settling_duration, slowest_in_hand, slowest_rate
+from abu_calc.simulation.quiet import settling_duration, slowest_in_hand, slowest_rate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.handles import total_of

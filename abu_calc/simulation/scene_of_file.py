@@ -7,7 +7,7 @@ from typing import cast
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.lift_off import lift_off
 from abu_calc.dynamics.effects.registry import REGISTRY
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene, parted_angles, placed
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.formulas.balls import INERTIA_FACTORS, half_angle

@@ -24,9 +24,8 @@ from abu_calc.foundation.errors import ChaoticError, InputError, NotTrustworthyE
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, share_of, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.simulation.durations import lasting
-from abu_calc.simulation.model_level import Offer, offer
-from abu_calc.simulation.nonconvergence import FinestRuns, difference, unreached
+from abu_calc.simulation.model_level import FinestRuns, Offer, difference, offer, unreached
+from abu_calc.simulation.quiet import lasting
 from abu_calc.simulation.response import Course, Response, evaluate, needed_times, sampling
 
 MOST_ASKED: Final = 4000

@@ -11,8 +11,7 @@ from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.case import WHEEL_PLANE, Case
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.imbalance import measured_velocity
-from abu_calc.sizing.instruments import UNITS, InstrumentReadings, as_shown, in_words, readings
+from abu_calc.sizing.imbalance import UNITS, InstrumentReadings, as_shown, in_words, measured_velocity, readings
 from abu_calc.sizing.places import AXES, LevelPlace, PlaceBand, weighted_axes
 
 

@@ -10,18 +10,16 @@ from typing import TYPE_CHECKING, Final
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.units import shown
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks, residual_check
+from abu_calc.sizing.advice import candidate_checks, design_warnings, loudness, missed, power_checks, residual_check
 from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor, sound, why_not
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.sizing.design import Design, RaceDesign
+from abu_calc.sizing.design import Design, RaceDesign, frequency_region
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.handles import body_bands, handle_checks, highest_total
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.manufacture.construction import construct
 from abu_calc.sizing.manufacture.eccentricity import eccentricity_check, split_eccentricity
 from abu_calc.sizing.oil import value_sources, with_oil
-from abu_calc.sizing.operating_speed import frequency_region
-from abu_calc.sizing.requirements import loudness, missed
 from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.type_test import band, declared_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
@@ -173,7 +171,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
 def _motor(case: Case) -> tuple[Check, ...]:
     if case.idle_speed is None:
         return ()
-    from abu_calc.sizing.operating_speed import motor_checks
+    from abu_calc.sizing.design import motor_checks
 
     return motor_checks(case)
 

@@ -4,8 +4,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Final, NamedTuple
 
-from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.escaping import shell_word
+from abu_calc.foundation.errors import AbuError, shell_word
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.overrides import apply, overrides_of

@@ -16,13 +16,14 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, shown
 from abu_calc.sizing.budget import (
     CandidateBalls,
+    Requirement,
     ResidualBudget,
     budget_where_worst,
     fan,
     ovality_residual,
     permitted_displacement,
+    required_capacity,
 )
-from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case, working_speeds
 from abu_calc.sizing.housing import (
     Housing,

@@ -7,8 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from abu_calc.formulas.balls import INERTIA_FACTORS
-from abu_calc.formulas.body_estimate import KEYS, BodyEstimate, PlacedBody, estimated_body
-from abu_calc.formulas.rigid_body import Inertia, RigidBody, Vector
+from abu_calc.formulas.rigid_body import KEYS, BodyEstimate, Inertia, PlacedBody, RigidBody, Vector, estimated_body
 from abu_calc.formulas.suspension import Hands, Springs, SuspensionReaction
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
-from abu_calc.formulas.body_estimate import usual_lengths
+from abu_calc.formulas.rigid_body import usual_lengths
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass

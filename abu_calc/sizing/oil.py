@@ -19,8 +19,8 @@ from abu_calc.formulas.oil import (
 )
 from abu_calc.foundation.errors import AbuError, InputError, Place
 from abu_calc.foundation.units import shown
-from abu_calc.inputs.identified import identified_note
-from abu_calc.inputs.oil import Oil
+from abu_calc.inputs.autobalancer import Oil
+from abu_calc.inputs.machine import identified_note
 from abu_calc.sizing.actions import with_entries
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case

@@ -24,9 +24,8 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import velocity_from_level
 from abu_calc.inputs.body import pair
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import displacement_level, loudest_displacement
+from abu_calc.sizing.budget import displacement_level, loudest_displacement, place_response
 from abu_calc.sizing.case import WHEEL_PLANE, Case, hand_axes
-from abu_calc.sizing.place_response import place_response
 from abu_calc.standards.vibration import hand
 
 AXES = ("x", "y", "z")

@@ -7,10 +7,9 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from abu_calc.formulas.body_estimate import PlacedBody
 from abu_calc.formulas.body_motion import BodyMotion
-from abu_calc.formulas.rigid_body import Vector
-from abu_calc.formulas.shaken_friction import remaining_band
+from abu_calc.formulas.friction_band import remaining_band
+from abu_calc.formulas.rigid_body import PlacedBody, Vector
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.formulas.type_test import (
     MANY,
@@ -33,14 +32,14 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.places import body_suspension
 from abu_calc.sizing.vibration import truer, truer_races
-from abu_calc.standards.type_test import (
+from abu_calc.standards.vibration import (
     TestWheel,
     balancing_factor,
     declared_uncertainty,
     reproducibility,
     test_wheel,
+    third_octaves,
 )
-from abu_calc.standards.vibration import third_octaves
 
 IN_FILE = "machine file"
 """Source of a test wheel whose imbalance the file gives."""

@@ -12,8 +12,7 @@ from functools import lru_cache
 from operator import attrgetter
 from typing import Annotated, Final
 
-from abu_calc.formulas.friction_band import worst_friction
-from abu_calc.formulas.shaken_friction import remaining_band
+from abu_calc.formulas.friction_band import remaining_band, worst_friction
 from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
 from abu_calc.foundation.checks import Check, Finding, coded, verdict
 from abu_calc.foundation.formula import formula
@@ -29,8 +28,8 @@ from abu_calc.sizing.budget import (
     judged_speeds,
     loudest_displacement,
     loudest_transmission,
+    steady_contact,
 )
-from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import EQUAL_SPEEDS, WHEEL_PLANE, Case
 from abu_calc.sizing.places import Levels, VibrationLevels, handle_levels, in_space, settled_levels
 

@@ -17,7 +17,7 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 
 import abu_calc
-from abu_calc.simulation.nonconvergence import difference
+from abu_calc.simulation.model_level import difference
 
 SCENE = Path(__file__).parents[1] / "examples" / "scene.toml"
 

@@ -67,7 +67,7 @@ def commands() -> str:
 
 def keys(kind: str) -> str:
     """Tables and keys of one kind of file, from its schema."""
-    from abu_calc.features.explain.keys import file_tables, meaning
+    from abu_calc.features.explain.texts import file_tables, meaning
 
     title, opening = KINDS[kind]
     schema = json.loads(run(f"schema {kind}").stdout)

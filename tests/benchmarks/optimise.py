@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import abu_calc
-from abu_calc.features.sweep.cluster import versions
+from abu_calc.features.sweep.execution import versions
 
 RECORD = Path(__file__).parent / "records" / "optimise.json"
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import abu_calc
-from abu_calc.features.sweep.cluster import versions
+from abu_calc.features.sweep.execution import versions
 
 RECORD = Path(__file__).parent / "records" / "sweep.json"
 PRESET = "avtovaz-707-222"

@@ -18,7 +18,7 @@ import numpy as np
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.simulation.nonconvergence import difference
+from abu_calc.simulation.model_level import difference
 from abu_calc.simulation.response import evaluate, needed_times
 from tests.benchmarks.measuring import keep, machine
 from tests.benchmarks.switching_run import MOST, equations_of

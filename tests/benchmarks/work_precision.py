@@ -27,8 +27,7 @@ from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Scene, without
 from abu_calc.foundation.errors import AbuError
-from abu_calc.simulation.model_level import averaged
-from abu_calc.simulation.nonconvergence import QUANTITIES, Measures
+from abu_calc.simulation.model_level import QUANTITIES, Measures, averaged
 from abu_calc.simulation.response import evaluate, needed_times
 from tests.benchmarks.by_hand import planar, pressed_to_work, with_floats
 from tests.benchmarks.cases import BALLS, Case, contact, friction, many_balls, presets, resonance, smooth

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 
 from abu_calc.cli.command import REQUIRED, Command
 from abu_calc.features.sweep.command import computed
-from abu_calc.foundation.interruption import INTERRUPTED
+from abu_calc.foundation.parallel import INTERRUPTED
 from abu_calc.registry import FEATURES, Feature, imported
 from abu_calc.simulation import design_scenes as machine
 from abu_calc.simulation import ensemble

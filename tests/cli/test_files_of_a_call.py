@@ -96,6 +96,6 @@ def test_every_option_that_names_a_file_to_write_is_tried() -> None:
 def test_an_unwritable_folder_is_refused_before_anything_is_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("abu_calc.reporting.write.os.access", lambda *_: False)
+    monkeypatch.setattr("abu_calc.reporting.outcome.os.access", lambda *_: False)
     seen = abu("size", MACHINE, "-o", "x.json")
     assert seen.status == 2 and "x.json: the folder cannot be written" in seen.err

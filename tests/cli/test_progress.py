@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.cli import progress as module
+from abu_calc.cli import output as module
 from abu_calc.cli.app import run
-from abu_calc.cli.progress import progress
+from abu_calc.cli.output import progress
 from abu_calc.foundation.progress import Stage, share_of, silent, within
 from tests.cli.runner import abu
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from abu_calc.cli import app, start
-from abu_calc.foundation.interruption import EndedBySignal
+from abu_calc.foundation.parallel import EndedBySignal
 
 
 @pytest.fixture(autouse=True)

@@ -85,7 +85,7 @@ def test_signals_end_a_command_in_good_order(name: str, tmp_path: Path) -> None:
 def test_signals_that_are_not_to_be_heeded_are_not(before: str, status: int) -> None:
     """Of a process that heeds signals after this code, then sends itself SIGHUP."""
     code = (
-        "import os, signal\nfrom abu_calc.foundation.interruption import heed_signals\n"
+        "import os, signal\nfrom abu_calc.foundation.parallel import heed_signals\n"
         "ENDING = 'SIGINT', 'SIGTERM', 'SIGHUP'\nsignal.signal(1, signal.SIG_DFL)\n"
         f"{before}\nheed_signals()\nos.kill(os.getpid(), 1)"
     )

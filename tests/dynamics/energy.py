@@ -24,8 +24,7 @@ import numpy as np
 from abu_calc.dynamics.equations.assemble import STEP, assemble
 from abu_calc.dynamics.equations.right_hand_side import accelerations, motion_of, with_states
 from abu_calc.dynamics.motion import AnyArray
-from abu_calc.dynamics.parameters import Acting, Modes
-from abu_calc.dynamics.rotor import GUIDED
+from abu_calc.dynamics.rotor import GUIDED, Acting, Modes
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 

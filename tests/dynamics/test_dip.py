@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from abu_calc.dynamics.effects.run_up import RunUpEffect
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.simulation.simulate import simulate

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.race import Race, balls_of
+from abu_calc.dynamics.rotor import Race, balls_of
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import dimensionless
 

@@ -17,7 +17,7 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.integrators.compiled import run as loop
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.rotor import Parameters
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.switching.modes import starting

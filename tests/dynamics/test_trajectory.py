@@ -7,8 +7,8 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.switching.modes import starting
 from abu_calc.dynamics.trajectory import at_samples
 from abu_calc.inputs.read_machine import read
-from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.scene_of_design import scene_of_design
+from abu_calc.simulation.subject import chosen
 from abu_calc.sizing import size
 
 

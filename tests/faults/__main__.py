@@ -13,7 +13,7 @@ import warnings
 from dataclasses import asdict
 from pathlib import Path
 
-from abu_calc.features.sweep.cluster import software
+from abu_calc.features.sweep.execution import software
 from tests.faults.trials import Faults
 
 TRIALS = 2_000

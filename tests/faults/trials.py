@@ -68,7 +68,7 @@ MODULES = (
     "abu_calc.dynamics.integrators.choice",
     "abu_calc.features.sweep.view",
     "concurrent.futures",
-    "abu_calc.features.sweep.time_limit",
+    "abu_calc.features.sweep.samples",
     "abu_calc.simulation.scene_of_file",
 )
 """Modules that a sweep loads, some of them while it computes its first members."""

@@ -13,7 +13,7 @@ from abu_calc.formulas.balls import (
     half_angle,
     most_balls,
 )
-from abu_calc.formulas.steady_contact import SteadyContact
+from abu_calc.formulas.tilting_contact import SteadyContact
 from abu_calc.foundation.errors import RangeError
 
 COMPLIANT = SteadyContact(600.0, (-2e6 + 5e4j, -1.7e6 + 4e4j), 1 / 2e5, -0.35)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.formulas.body_estimate import LENGTHS, BodyEstimate, Layout, PlacedBody, estimated_body
+from abu_calc.formulas.rigid_body import LENGTHS, BodyEstimate, Layout, PlacedBody, estimated_body
 from abu_calc.foundation.errors import InputError, RangeError
 
 LENGTH: dict[Layout, dict[str, float]] = {

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from abu_calc.formulas.shaken_friction import COUNTED, equivalent_drag, friction_number, remaining_band
+from abu_calc.formulas.friction_band import COUNTED, equivalent_drag, friction_number, remaining_band
 from abu_calc.foundation.units import GRAVITY
 
 SPEED, PITCH, INERTIA = 607.37, 23e-3, 1.4

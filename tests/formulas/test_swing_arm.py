@@ -7,7 +7,6 @@ import pytest
 
 from abu_calc.formulas.balls import capacity, half_angle
 from abu_calc.formulas.friction_band import friction_band
-from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.swing_arm import (
     Arm,
     contact_gain,
@@ -18,8 +17,9 @@ from abu_calc.formulas.swing_arm import (
     stiffness_limit,
     worst_contact_angle,
 )
+from abu_calc.formulas.tilting_contact import SteadyContact
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
-from abu_calc.sizing.operating_speed import finite_mass_gap, zones
+from abu_calc.sizing.design import finite_mass_gap, zones
 
 OMEGA = 5800 * math.pi / 30
 M, WX, WY, EPS = 5.6, 80.0, 120.0, 0.04e-3

@@ -6,8 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from abu_calc.formulas.steady_contact import SteadyContact
-from abu_calc.formulas.tilting_contact import TiltingContact
+from abu_calc.formulas.tilting_contact import SteadyContact, TiltingContact
 from abu_calc.formulas.tilting_rotor import Bearing, PlacedImbalance, TiltingRotor, balancing_resultants
 
 SPEED = 2850 * 2 * math.pi / 60

@@ -17,8 +17,8 @@ from abu_calc.formulas.type_test import (
     mean_over_orientations,
 )
 from abu_calc.foundation.units import to_si
-from abu_calc.standards.type_test import TestWheel
-from abu_calc.standards.type_test import test_wheels as wheels
+from abu_calc.standards.vibration import TestWheel
+from abu_calc.standards.vibration import test_wheels as wheels
 
 S100 = (3.2, 0.0, 0.0, 0.0)
 S150 = (6.0, 1 / 0.10, 0.20, 0.18)

@@ -19,9 +19,9 @@ from typing import Any
 from unittest import mock
 
 from abu_calc.cli import app
-from abu_calc.features.sweep.time_limit import Overtime, limited
-from abu_calc.foundation import interruption
-from abu_calc.foundation.interruption import EndedBySignal, heed_signals, raise_pending, status_of
+from abu_calc.features.sweep.samples import Overtime, limited
+from abu_calc.foundation import parallel as interruption
+from abu_calc.foundation.parallel import EndedBySignal, heed_signals, raise_pending, status_of
 
 MODULES = {
     # Modules of C turn what is raised in them into ImportError, and are broken for good: this one does the same.

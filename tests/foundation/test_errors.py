@@ -3,6 +3,7 @@
 import pytest
 
 from abu_calc.foundation.errors import (
+    LONGEST_FOUND,
     AbuError,
     ChaoticError,
     InputError,
@@ -12,7 +13,6 @@ from abu_calc.foundation.errors import (
     RangeError,
     StoppedError,
 )
-from abu_calc.foundation.escaping import LONGEST_FOUND
 
 HOSTILE = "a\nb\r\x1b[31m\x00\u202e\ufeff\u2028é"
 

@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 
-from abu_calc.foundation.escaping import LONGEST_FOUND, escaped, escaped_lines, escaped_toml, shortened
+from abu_calc.foundation.errors import LONGEST_FOUND, escaped, escaped_lines, escaped_toml, shortened
 from tests.foundation.test_errors import HOSTILE
 
 

@@ -113,7 +113,7 @@ def test_results_in_micrometres_hertz_and_kilonewtons_are_explained_in_them() ->
 def test_no_equation_with_units_of_its_own_says_that_it_takes_si() -> None:
     """13·F_r·k_B/b_s gives µm by kN and mm; in SI it would be 1e12 times too much."""
     for name in ("creep_interference", "load_loss", "catalogue_smoothing_loss"):
-        formula = formula_of(f"features.seats.requirement:{name}")
+        formula = formula_of(f"features.seats.interference:{name}")
         assert not formula.file_units and "This equation takes these units, not SI." in formula.for_users
 
 

@@ -11,11 +11,11 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import available, integrate_with
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
-from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.scene_context import Support
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.simulation.nonconvergence import difference
+from abu_calc.simulation.model_level import difference
 from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.simulate import Simulation, simulate
 from tests.dynamics.energy import Bodies, energy, power

@@ -11,7 +11,7 @@ import pytest
 
 from abu_calc.cli import app, start
 from abu_calc.dynamics.integrators.compiled import code
-from abu_calc.foundation.interruption import INTERRUPTED
+from abu_calc.foundation.parallel import INTERRUPTED
 from tests.cli.runner import abu
 from tests.inputs.scenes import SCENE
 

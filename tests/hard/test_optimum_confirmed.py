@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.optimise.written import written_text
+from abu_calc.features.optimise.result import written_text
 
 
 @pytest.mark.hard

@@ -17,7 +17,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep.batches import ENDED, Row, given, in_batches
-from abu_calc.features.sweep.time_limit import limited
+from abu_calc.features.sweep.samples import limited
 
 RUNS, FEW = 60, 24
 SWEEP = [sys.executable, "-m", "abu_calc", "sweep", "avtovaz-707-222", "--tolerances", "--runs", str(RUNS), "--quiet"]
@@ -129,7 +129,7 @@ def test_a_member_that_never_returns_is_passed_over_on_a_cluster() -> None:
     """Its worker ends, the cluster starts another, and after some of them the member is recorded."""
     from distributed import Client, LocalCluster
 
-    from abu_calc.features.sweep.cluster import is_ours_to_end
+    from abu_calc.features.sweep.execution import is_ours_to_end
 
     found: list[Row] = []
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:

@@ -182,9 +182,8 @@ def static_texts() -> Iterator[tuple[str, str]]:
     from abu_calc.dynamics.effects.registry import REGISTRY
     from abu_calc.features.explain.steps import STEPS
     from abu_calc.foundation.checks import CHECK_CODES
-    from abu_calc.inputs.reading.schema import schema_of
+    from abu_calc.inputs.reading.schema import schema_of, template_of
     from abu_calc.inputs.reading.sources import names, text_of
-    from abu_calc.inputs.reading.template import template_of
     from tests.cli.runner import abu
 
     yield "abu --help", abu("--help").out

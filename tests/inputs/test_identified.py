@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from abu_calc.inputs.autobalancer import Autobalancer
-from abu_calc.inputs.identified import Identified, identified_note
+from abu_calc.inputs.machine import Identified, identified_note
 from tests.inputs.samples import BASIC, read, refused
 
 BAD = [

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.inputs.oil import Oil, oil_name
+from abu_calc.inputs.autobalancer import Oil, oil_name
 from tests.inputs.samples import BASIC, read, refused
 
 GOOD = 'grade = "VG 46"\nfill_ml = 2.0\n'

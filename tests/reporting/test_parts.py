@@ -18,7 +18,7 @@ from abu_calc.reporting.parts import (
     warning_blocks,
     written,
 )
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from abu_calc.simulation.result import Provenance
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord
 

@@ -9,8 +9,7 @@ import pytest
 from abu_calc.foundation.checks import Check, Grade
 from abu_calc.foundation.quantity import record
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.reporting.screen import LINES, cut, many, one_screen, sections, shortened, verdict_line
-from abu_calc.reporting.text import as_text, height
+from abu_calc.reporting.screen import LINES, as_text, cut, height, many, one_screen, sections, shortened, verdict_line
 from abu_calc.simulation.result import Provenance, Result
 
 

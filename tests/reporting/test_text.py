@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.foundation.escaping import escaped, escaped_lines
+from abu_calc.foundation.errors import escaped, escaped_lines
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
-from abu_calc.reporting.text import as_text, show
+from abu_calc.reporting.screen import as_text, show
 from tests.cli.runner import abu
 from tests.inputs.samples import BASIC, BEARINGS
 

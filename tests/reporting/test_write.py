@@ -10,7 +10,7 @@ import pytest
 
 from abu_calc.cli import command as filing
 from abu_calc.foundation.errors import OutputError
-from abu_calc.reporting import write
+from abu_calc.reporting import outcome as write
 from tests.cli.runner import abu
 from tests.inputs.samples import BEARINGS
 from tests.inputs.scenes import SCENE

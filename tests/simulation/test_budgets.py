@@ -8,7 +8,7 @@ import pytest
 import abu_calc
 from abu_calc.dynamics.integrators import choice
 from abu_calc.features.accuracy import study as accuracy
-from abu_calc.simulation import effect_selection
+from abu_calc.simulation import subject as effect_selection
 from abu_calc.simulation.simulate import WORK, WORK_PLAIN, usual_work
 from abu_calc.simulation.subject import subject_of
 

@@ -7,7 +7,7 @@ import pytest
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.foundation.errors import InputError
-from abu_calc.simulation.durations import lasting
+from abu_calc.simulation.quiet import lasting
 from abu_calc.simulation.scene_of_design import idle_scene
 from abu_calc.simulation.scene_of_file import scene_from
 from abu_calc.sizing import size

@@ -19,12 +19,11 @@ from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.effect_selection import SHARE, audit, chosen, simulate_chosen
-from abu_calc.simulation.nonconvergence import amplitude, angles, difference, quiet, rest, settling
+from abu_calc.simulation.model_level import amplitude, angles, difference, quiet, rest, settling
 from abu_calc.simulation.quiet import TimeRange
 from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.simulate import simulate
-from abu_calc.simulation.subject import subject_of
+from abu_calc.simulation.subject import SHARE, audit, chosen, simulate_chosen, subject_of
 from tests.dynamics.random_scenes import random_scene
 
 VERY_UNLIKE = ("avtovaz-707-222", "swing-arm-grinder")

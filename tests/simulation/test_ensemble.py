@@ -23,8 +23,7 @@ from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation import ensemble
 from abu_calc.simulation.design_scenes import simulated
 from abu_calc.simulation.ensemble import TOLERANCE, WORK, followed_until, outcome_of, simulate_members, start_once
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
-from abu_calc.simulation.start_cases import Member, members, scene_of_member
+from abu_calc.simulation.start_cases import Ensemble, Lost, Member, StartOutcome, members, scene_of_member
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 

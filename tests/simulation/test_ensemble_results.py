@@ -2,8 +2,7 @@
 
 from dataclasses import replace
 
-from abu_calc.simulation.ensemble_results import Lost, StartOutcome, deciding, worse
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import Lost, Member, StartOutcome, deciding, worse
 
 DRAG = 15.0
 

@@ -17,8 +17,7 @@ from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.units import velocity_from_level
-from abu_calc.simulation.model_level import averaged, closed_form, offer
-from abu_calc.simulation.nonconvergence import QUANTITIES, difference
+from abu_calc.simulation.model_level import QUANTITIES, averaged, closed_form, difference, offer
 from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.simulate import simulate
 from tests.dynamics.scenes import dimensionless, straight_grinder

@@ -9,7 +9,7 @@ from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.simulation.nonconvergence import MOVED, FinestRuns, _moved, unreached
+from abu_calc.simulation.model_level import MOVED, FinestRuns, _moved, unreached
 from abu_calc.simulation.quiet import TimeRange
 from abu_calc.simulation.response import NEVER, evaluate, needed_times
 from abu_calc.simulation.simulate import simulate

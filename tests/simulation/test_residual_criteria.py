@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.residual_criteria import (
+from abu_calc.simulation.run_checks import (
     HALF,
     LINGERING,
     MARGIN,

@@ -9,10 +9,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from abu_calc.dynamics.effects.run_up import RunUpEffect
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.planar import planar
-from abu_calc.simulation.run_up_amplitude import MOST_POINTS, both_courses, course, until_shortly_after, without_balls
+from abu_calc.simulation.rotor_view import MOST_POINTS, both_courses, course, until_shortly_after, without_balls
 
 SPEED, UP = 60.0, 3.0
 MASS, STIFFNESS, DAMPING, IMBALANCE = 4.0, 4.0 * 20.0**2, 4.0 * 2 * 0.1 * 20.0, 4e-3

@@ -8,9 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft4Validator
 
-from abu_calc.inputs.reading.schema import schema_of
+from abu_calc.inputs.reading.schema import WIDTH, schema_of, template_of
 from abu_calc.inputs.reading.table import all_tables
-from abu_calc.inputs.reading.template import WIDTH, template_of
 from abu_calc.simulation.scene_file import SceneFile
 from tests.inputs.agreeing import check_schema, right_but_for_rules
 from tests.inputs.reading.test_schema import VALUES, places

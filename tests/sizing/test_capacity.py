@@ -5,9 +5,9 @@ import math
 
 import pytest
 
-from abu_calc.formulas.steady_contact import SteadyContact
+from abu_calc.formulas.tilting_contact import SteadyContact
 from abu_calc.foundation.errors import InputError
-from abu_calc.sizing.capacity import plane_ratio, required_capacity, runout_factor
+from abu_calc.sizing.budget import plane_ratio, required_capacity, runout_factor
 from abu_calc.sizing.case import read_case
 from tests.sizing.machines import machine
 

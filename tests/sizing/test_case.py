@@ -12,7 +12,7 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.reading.table import LEAST
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import choose
-from abu_calc.sizing.capacity import required_capacity
+from abu_calc.sizing.budget import required_capacity
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.design import Design
 from abu_calc.standards.balls import stock_diameters

@@ -3,7 +3,7 @@
 import pytest
 
 from abu_calc.sizing.actions import overrides
-from abu_calc.sizing.change_words import in_words
+from abu_calc.sizing.proposals import in_words
 from tests.sizing.machines import machine
 
 MADE = overrides(

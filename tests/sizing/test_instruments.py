@@ -11,7 +11,7 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing import size as sized
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.instruments import readings, velocity_shown
+from abu_calc.sizing.imbalance import readings, velocity_shown
 from tests.cli.runner import abu, once
 
 SPEED = 5800 * math.pi / 30

@@ -14,7 +14,7 @@ from abu_calc.simulation.simulate import simulate
 from abu_calc.simulation.start_cases import members
 from abu_calc.sizing import size
 from abu_calc.sizing.case import read_case
-from abu_calc.sizing.operating_speed import motor_checks
+from abu_calc.sizing.design import motor_checks
 from abu_calc.sizing.vibration import idle_speed_levels
 from tests.remembered import recalled
 from tests.sizing.machines import machine

@@ -12,9 +12,9 @@ import pytest
 
 from abu_calc.foundation.units import level_from_velocity
 from abu_calc.sizing import size
+from abu_calc.sizing.budget import PlaceResponse, place_response, plane_rest
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.place_response import PlaceResponse, place_response, plane_rest
 from abu_calc.sizing.vibration import worst_residuals
 from tests.sizing.machines import machine
 

@@ -12,12 +12,12 @@ from abu_calc.foundation.checks import Check
 from abu_calc.inputs.read_machine import read, read_machine
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import pins, with_entries
+from abu_calc.sizing.advice import ACCELERATION, loudness, missed
 from abu_calc.sizing.advice import candidate_checks as own_checks
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.case import read_case as read_one_race
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.requirements import ACCELERATION, loudness, missed
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.track import track_checks as race_checks
 

@@ -4,17 +4,17 @@ import pytest
 
 from abu_calc.foundation.errors import RangeError
 from abu_calc.foundation.units import from_si, to_si
-from abu_calc.standards.type_test import (
+from abu_calc.standards.vibration import (
     balancing_factor,
     declared_uncertainty,
     reproducibility,
     uncertainty_source,
     usual_orientations,
 )
-from abu_calc.standards.type_test import (
+from abu_calc.standards.vibration import (
     test_wheel as wheel_of,
 )
-from abu_calc.standards.type_test import (
+from abu_calc.standards.vibration import (
     test_wheels as wheels,
 )
 

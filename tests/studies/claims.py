@@ -24,11 +24,10 @@ from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.scene import Race, Scene, only, with_parted_balls
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.foundation.errors import NotTrustworthyError
-from abu_calc.simulation.effect_selection import chosen, simulate_chosen
-from abu_calc.simulation.model_level import WIDEST, offer
-from abu_calc.simulation.nonconvergence import difference
+from abu_calc.simulation.model_level import WIDEST, difference, offer
 from abu_calc.simulation.response import Response, evaluate, needed_times
 from abu_calc.simulation.simulate import run_difference, simulate
+from abu_calc.simulation.subject import chosen, simulate_chosen
 from tests.dynamics.random_scenes import Dice, random_scene
 
 ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)

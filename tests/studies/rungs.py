@@ -18,8 +18,18 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.units import level_from_velocity
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.inputs.reading import sources as presets
-from abu_calc.simulation.model_level import WIDEST, ModelEstimate, averaged, closed_form, offer
-from abu_calc.simulation.nonconvergence import Measures, amplitude, angles, level, settling
+from abu_calc.simulation.model_level import (
+    WIDEST,
+    Measures,
+    ModelEstimate,
+    amplitude,
+    angles,
+    averaged,
+    closed_form,
+    level,
+    offer,
+    settling,
+)
 from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.subject import subject_of
 

@@ -7,7 +7,7 @@ equations of motion that share nothing with it.
 Held machines at random are laid horizontal. Their lever arm of rolling friction is set so that friction is 0.2 to 4
 times gravity. Each is sized and switched on 14 times: balls anywhere, turning or not, and run-ups. The largest residual
 displacement of its race is compared with the worst residual of `sizing.vibration`, which counts gravity by
-`formulas.shaken_friction.remaining_band`. A machine above it is on the unsafe side. Runs in which a ball stalls say
+`formulas.friction_band.remaining_band`. A machine above it is on the unsafe side. Runs in which a ball stalls say
 nothing about friction and are left out. `remaining_band` was chosen by seeds below 32.
 """
 

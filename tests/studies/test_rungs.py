@@ -5,8 +5,7 @@ import statistics
 
 import pytest
 
-from abu_calc.simulation.model_level import WIDEST, offer
-from abu_calc.simulation.nonconvergence import amplitude, angles, level, settling
+from abu_calc.simulation.model_level import WIDEST, amplitude, angles, level, offer, settling
 from abu_calc.simulation.response import needed_times
 from tests.studies.rungs import Ladder, cost, ladder, machines, smooth, table
 

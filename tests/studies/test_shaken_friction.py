@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.formulas.shaken_friction import friction_number
+from abu_calc.formulas.friction_band import friction_number
 from tests.benchmarks.measuring import RECORDS
 from tests.studies.shaken_friction import FRICTION_NUMBERS, Comparison, horizontal_machine, summary
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations import right_hand_side
 from abu_calc.dynamics.motion import AnyArray, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Acting, Frame, Modes, Parameters
+from abu_calc.dynamics.rotor import Acting, Frame, Modes, Parameters
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import at_samples
 from abu_calc.formulas.motion import HARDLY

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.work_estimates import rates
-from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.rotor import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
 from abu_calc.dynamics.trajectory import Samples, Sampling, Times, Trajectory
 from abu_calc.foundation import patience

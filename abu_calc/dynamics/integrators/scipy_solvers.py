@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.codegen.tracer import Function, functions, numbers_of
 from abu_calc.dynamics.equations.assemble import Equations, jacobian
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, IntegrationRun, exceeded, lost
-from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.rotor import Modes
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
 from abu_calc.foundation.roots import root

@@ -15,9 +15,8 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.arrangements import Arrangement
 from abu_calc.dynamics.stability.linearised import Array, BalancedMotion
 from abu_calc.dynamics.stability.resting import still_axis
-from abu_calc.dynamics.stability.search import MARGIN, Search, at_speed, decided, searched, worst
 from abu_calc.dynamics.stability.two_modes import LinearMotion, two_modes
-from abu_calc.dynamics.stability.verdict import judged
+from abu_calc.dynamics.stability.verdict import MARGIN, Search, at_speed, decided, judged, searched, worst
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.roots import root
 from abu_calc.foundation.validity import Range

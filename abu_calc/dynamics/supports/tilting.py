@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from abu_calc.dynamics.motion import AnyArray, Axial, Leaning, Levers, Motion
-from abu_calc.dynamics.parameters import Geometry, Parameters
-from abu_calc.dynamics.race import LARGEST, Race
-from abu_calc.dynamics.support import Unbalance
+from abu_calc.dynamics.rotor import LARGEST, Geometry, Parameters, Race
+from abu_calc.dynamics.scene_context import Unbalance
 from abu_calc.dynamics.supports.planar import (
     DAMPING,
     MASS,

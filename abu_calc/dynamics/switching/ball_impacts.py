@@ -10,8 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from abu_calc.dynamics.effect import SwitchPoint
-from abu_calc.dynamics.equations.elimination import by_pulls, solve_all
-from abu_calc.dynamics.equations.right_hand_side import derivative, prepared
+from abu_calc.dynamics.equations.right_hand_side import by_pulls, derivative, prepared, solve_all
 from abu_calc.dynamics.motion import AnyArray
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass

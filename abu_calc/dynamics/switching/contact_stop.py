@@ -13,7 +13,7 @@ import numpy as np
 
 from abu_calc.dynamics.effect import SwitchPoint
 from abu_calc.dynamics.motion import AnyArray, Motion, Solved
-from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.rotor import Parameters
 from abu_calc.dynamics.switching.stick_slip import AT_REST, HOLD
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.effect import SwitchPoint
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
-from abu_calc.dynamics.parameters import Acting, Modes
+from abu_calc.dynamics.rotor import Acting, Modes
 from abu_calc.foundation.errors import NotTrustworthyError
 
 MOST_ROUNDS = 100

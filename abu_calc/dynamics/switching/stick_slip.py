@@ -13,7 +13,7 @@ import numpy as np
 from abu_calc.dynamics.effect import ACROSS_RATE, SwitchPoint
 from abu_calc.dynamics.equations.right_hand_side import prepared
 from abu_calc.dynamics.motion import AnyArray, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.rotor import Parameters
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 

@@ -24,14 +24,12 @@ from abu_calc.foundation.progress import Progress, Stage, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.effect_selection import Ledger
-from abu_calc.simulation.model_level import ModelEstimate, averaged, closed_form
-from abu_calc.simulation.nonconvergence import QUANTITIES, Measures
+from abu_calc.simulation.model_level import QUANTITIES, Measures, ModelEstimate, averaged, closed_form
 from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.response import Response, evaluate, needed_times
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.simulate import ACCURACY
-from abu_calc.simulation.subject import Source, subject_of
+from abu_calc.simulation.subject import Ledger, Source, subject_of
 
 TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
 ENVELOPE_TOLERANCES: Final = (1e-3, 1e-4, 1e-6)

@@ -10,8 +10,7 @@ from typing import Final
 from abu_calc.features.accuracy.study import AccuracyResult, MeasuredPoint
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
-from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Curve, Extras, Figure, MarkedPoint, Plot
 from abu_calc.reporting.parts import notices, of_scene, provenance_blocks
 from abu_calc.reporting.screen import shortened
 

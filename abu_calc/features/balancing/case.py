@@ -7,9 +7,9 @@ from typing import Annotated, ClassVar, Final
 
 from abu_calc.features.balancing.corrections import Drill, Making
 from abu_calc.features.balancing.formulas import RollOnRig
-from abu_calc.features.balancing.instrument import Instrument
 from abu_calc.features.balancing.read import Readings
-from abu_calc.features.balancing.recording.recorded_run import RecordedRun, read_rig_record, recorded_run
+from abu_calc.features.balancing.recorded_run import RecordedRun, read_rig_record, recorded_run
+from abu_calc.features.balancing.run_tables import Instrument
 from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig, TrialMass
 from abu_calc.features.balancing.tables import PLANES, ReadingsFile, Run, Trial
 from abu_calc.foundation.errors import InputError, Place

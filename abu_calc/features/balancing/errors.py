@@ -18,8 +18,7 @@ import numpy as np
 from abu_calc.features.balancing.formulas import Matrix, Vector, reading_factor
 from abu_calc.features.balancing.methods import Array, Method, Solution, motion_of, solved
 from abu_calc.features.balancing.run_tables import Errors
-from abu_calc.features.balancing.runs import Balancing, Coefficients, RunOnRig
-from abu_calc.features.balancing.without_phase import Floats
+from abu_calc.features.balancing.runs import Balancing, Coefficients, Floats, RunOnRig
 from abu_calc.foundation.frozen import dataclass
 
 LENGTHS: Final = ("a", "b", "c", "d")

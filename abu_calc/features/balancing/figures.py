@@ -15,8 +15,7 @@ from abu_calc.features.balancing.study import BalanceResult
 from abu_calc.features.balancing.view import SIGNS, misfit, orders_of
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, number
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Extras, Figure
 from abu_calc.reporting.drawings.dimensions import extent
 from abu_calc.reporting.drawings.shapes import Arc, Drawing, Line, Point, Shape, Solid, Text, fitted
 

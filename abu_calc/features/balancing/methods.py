@@ -26,8 +26,14 @@ from abu_calc.features.balancing.formulas import (
     natural_frequencies,
     reading_factor,
 )
-from abu_calc.features.balancing.runs import ONE_SPEED, Balancing, Coefficients
-from abu_calc.features.balancing.without_phase import amplitude_sets, solved_without_phase, tells_without_phase
+from abu_calc.features.balancing.runs import (
+    ONE_SPEED,
+    Balancing,
+    Coefficients,
+    amplitude_sets,
+    solved_without_phase,
+    tells_without_phase,
+)
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass

@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.balancing.tables import ReadingsFile
-from abu_calc.foundation.errors import InputError, Place
-from abu_calc.foundation.escaping import shortened
+from abu_calc.foundation.errors import InputError, Place, shortened
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading import sources as presets
 from abu_calc.inputs.reading.document import Document, FileReading, document_from, parsed_overrides, validate
@@ -76,7 +75,7 @@ def readings_template(method: str | None = None) -> str:
 
     Raises InputError for an unknown method.
     """
-    from abu_calc.inputs.reading.template import template_of
+    from abu_calc.inputs.reading.schema import template_of
 
     if method is not None and method not in METHODS:
         raise InputError(

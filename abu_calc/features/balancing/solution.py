@@ -26,10 +26,9 @@ from abu_calc.features.balancing.errors import (
 from abu_calc.features.balancing.formulas import Signed, Vector, influence, natural_frequencies, published_answer
 from abu_calc.features.balancing.methods import Array, Method, Solution, method_of, motion_of, said_of_resonance, solved
 from abu_calc.features.balancing.run_tables import Errors
-from abu_calc.features.balancing.runs import SEEN, Balancing, Coefficients, TrialMass, imbalance_of
+from abu_calc.features.balancing.runs import SEEN, Balancing, Coefficients, Floats, TrialMass, imbalance_of
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.features.balancing.tolerance import TolerancePlanes, ToleranceResult, tolerance_of
-from abu_calc.features.balancing.without_phase import Floats
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record

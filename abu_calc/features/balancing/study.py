@@ -9,10 +9,9 @@ from abu_calc.features.balancing.checks import balance_checks, balance_warnings
 from abu_calc.features.balancing.coefficients import Stored, coefficients_of, coefficients_text, read_coefficients
 from abu_calc.features.balancing.errors import Remainder, size
 from abu_calc.features.balancing.formulas import Vector, natural_frequencies, reading_factor, support_damping
-from abu_calc.features.balancing.next_run import TrialMassResult, proposals
 from abu_calc.features.balancing.read import Readings, read_readings
 from abu_calc.features.balancing.solution import Found, PlaneCorrection, find
-from abu_calc.features.balancing.tolerance import ToleranceResult
+from abu_calc.features.balancing.tolerance import ToleranceResult, TrialMassResult, proposals
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.result import Provenance, Result
 

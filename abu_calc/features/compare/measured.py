@@ -2,6 +2,8 @@
 
 Both are read alike: the place of the axis in the frame of the rotor in windows of two revolutions, its distance from
 where it comes to rest. The level is that of the once-per-revolution velocity at the end.
+
+The report of recorded starts beside predicted ones.
 """
 
 import math
@@ -11,16 +13,25 @@ from typing import Annotated, ClassVar, Final, NamedTuple, Self
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.features.identification.bank import simulated_track
+from abu_calc.features.identification.bank import (
+    Array,
+    Track,
+    recorded,
+    recorded_start,
+    simulated_track,
+    window_centres,
+)
 from abu_calc.features.identification.estimate import end_of
 from abu_calc.features.identification.fit import without_balls
 from abu_calc.features.identification.plan import point_of
 from abu_calc.features.identification.study import as_long, known_scene, machine_subject
-from abu_calc.features.identification.tracks import Array, Track, recorded, recorded_start, window_centres
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.progress import Progress, counted, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import level_from_velocity
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.charts.chart import Axis, Curve, Extras, Figure, Plot
+from abu_calc.reporting.parts import notices, provenance_blocks
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.result import Result
@@ -159,10 +170,10 @@ class CourseReading(NamedTuple):
 def _predicted(title: str, scene: Scene, reading: CourseReading, progress: Progress) -> PredictedCourse:
     """Starts of a scene from random places of the balls, with its own drag, friction and eccentricity."""
     point, report, tracks = point_of(scene), counted(progress, "{} of {} starts", STARTS), list[Track]()
-    for number in range(STARTS):
-        track = simulated_track(scene, point, reading.centres, 31_000 + number)
+    for start in range(STARTS):
+        track = simulated_track(scene, point, reading.centres, 31_000 + start)
         tracks += [] if track is None else [track]
-        report(number + 1)
+        report(start + 1)
     if len(tracks) < STARTS // 2:
         raise NotTrustworthyError(f"{STARTS - len(tracks)} of {STARTS} starts cannot be simulated")
     numbers = [CourseNumbers.of(track, reading.centres, scene, marked=reading.marked) for track in tracks]
@@ -180,3 +191,57 @@ def _predicted(title: str, scene: Scene, reading: CourseReading, progress: Progr
         title=title, low=ends[0], median=ends[1], high=ends[2], starts=len(tracks),
         distance=tuple(middle.tolist()),
     )  # fmt: skip
+
+
+CAPTION = (
+    "Distance of the axis from where it comes to rest, in the frame of the rotor: recorded starts, and the median of "
+    "starts simulated with the values of the file. Starts differ by where the balls lie."
+)
+
+
+def measured_blocks(result: MeasuredCompareResult) -> tuple[Block, ...]:
+    """Numbers of every recorded start, and the band of the predicted ones."""
+    measured = tuple((course.file, *_cells(course.numbers)) for course in result.measured)
+    predicted = tuple(
+        (f"{course.title}, {name}", *_cells(numbers))
+        for course in result.predicted
+        for name, numbers in (("5 %", course.low), ("median", course.median), ("95 %", course.high))
+    )
+    header = ("start", "settling, s", "residual, µm", "level, dB")
+    mark = "" if result.mark else " Without a mark distances are those of magnitudes."
+    return (
+        Heading(f"{result.title}: recorded starts beside predicted ones"),
+        Heading("Measured", "measured"),
+        Grid(header, measured, frozenset({1, 2, 3})),
+        Heading("Predicted with the values of the file", "predicted"),
+        Grid(header, predicted, frozenset({1, 2, 3})),
+        Paragraph(
+            "The settling time counts from full speed until the axis stays within a tenth of the amplitude without "
+            f"balls from its end. Residual and level are those of the rotation at the end.{mark}"
+        ),
+        *notices(result),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def _cells(numbers: CourseNumbers) -> tuple[str, str, str]:
+    time = numbers.settling_time_s
+    return "never" if time is None else number(time, 3), number(numbers.residual_um, 3), f"{numbers.level_db:.1f}"
+
+
+def measured_extras(result: MeasuredCompareResult) -> Extras:
+    """The figure of all courses."""
+    times = result.times_s
+    curves = [
+        Curve(tuple(zip(times, course.distance_um, strict=True)), "" if k else "measured")
+        for k, course in enumerate(result.measured)
+    ]
+    curves += [
+        Curve(tuple(zip(times, course.distance_um, strict=True)), f"{course.title}, predicted median", 2 + k)
+        for k, course in enumerate(result.predicted)
+    ]
+    across = Axis("time from the switching-on [s]", 0.0, times[-1])
+    up = Axis.around("distance from the end [µm]", [0.0, *(y for curve in curves for _, y in curve.points)])
+    summary = f"Distance of the axis from its end in {len(result.measured)} recorded starts, and as predicted"
+    plot = Plot("Measured and predicted starts", summary, across, up, curves)
+    return Extras((Figure("courses", "measured", plot, CAPTION),))

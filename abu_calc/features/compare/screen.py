@@ -3,8 +3,7 @@
 from collections.abc import Iterable, Sequence
 from typing import Final
 
-from abu_calc.features.compare.main_numbers import main_blocks
-from abu_calc.features.compare.study import CompareResult, checks_named
+from abu_calc.features.compare.study import CompareResult, checks_named, main_blocks
 from abu_calc.features.compare.view import (
     NOTHING,
     ComparisonTable,
@@ -18,8 +17,7 @@ from abu_calc.foundation.checks import RANK
 from abu_calc.foundation.units import quantity_and_unit, unit_of
 from abu_calc.reporting.blocks import Block, Heading, Paragraph
 from abu_calc.reporting.parts import told, unlike, warning_blocks, without_entries
-from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by
-from abu_calc.reporting.text import height
+from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, height, many, taken_by
 
 LABELS: Final = {
     "autobalancer.ball_count": "Number of balls",

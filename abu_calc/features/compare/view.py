@@ -9,8 +9,15 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 
-from abu_calc.features.compare.main_numbers import main_blocks
-from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part, checks_named
+from abu_calc.features.compare.study import (
+    ROUNDING,
+    ComparedFile,
+    CompareResult,
+    Difference,
+    Part,
+    checks_named,
+    main_blocks,
+)
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.verdict import WORDS, in_capitals
 from abu_calc.features.seats.study import CheckFitResult
@@ -21,8 +28,7 @@ from abu_calc.foundation.units import quantity_and_unit
 from abu_calc.inputs.reading.text import is_number
 from abu_calc.inputs.reading.text import shown as exact
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Extras, Figure
 from abu_calc.reporting.parts import WORD, check_blocks, provenance_blocks, warning_blocks
 from abu_calc.reporting.screen import many, verdict_line
 

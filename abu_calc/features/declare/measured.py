@@ -16,7 +16,7 @@ from abu_calc.inputs.recording import MOST_AXES, Recording
 from abu_calc.inputs.recording_columns import QUANTITIES
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
-from abu_calc.standards.type_test import (
+from abu_calc.standards.vibration import (
     balancing_factor,
     declared_uncertainty,
     reproducibility,

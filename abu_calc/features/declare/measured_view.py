@@ -6,8 +6,7 @@ from typing import Final
 from abu_calc.features.declare.measured import MeasuredDeclareResult, MeasuredHandle, MeasuredSeries
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, or_dash
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Extras, Figure
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen, verdict_line
 

@@ -15,8 +15,9 @@ from abu_calc.features.declare.records import (
     WheelInUse,
     WithAutobalancer,
     WithoutAutobalancer,
+    beyond_capacity,
+    remarks,
 )
-from abu_calc.features.declare.remarks import beyond_capacity, remarks
 from abu_calc.features.declare.type_test_simulation import (
     STARTS,
     BreakEven,
@@ -36,9 +37,8 @@ from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import shown
 from abu_calc.foundation.validity import Range
-from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.machine import MachineFile, TypeTest
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.inputs.type_test import TypeTest
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.sizing import size as size_design
@@ -54,7 +54,7 @@ from abu_calc.sizing.type_test import (
     required,
     weighted_speed,
 )
-from abu_calc.standards.type_test import TestWheel, declared_uncertainty, reproducibility, test_wheels
+from abu_calc.standards.vibration import TestWheel, declared_uncertainty, reproducibility, test_wheels
 
 NUMBER: Final = Range("number of starts", 100, 1_000_000, key="starts")
 NORMAL_95: Final = 1.6449

@@ -27,7 +27,7 @@ from abu_calc.foundation.units import to_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.type_test import background, band, type_test_body, upright_band
-from abu_calc.standards.type_test import balancing_factor, usual_orientations
+from abu_calc.standards.vibration import balancing_factor, usual_orientations
 
 STARTS: Final = 10_000
 """Starts that are simulated; means are then known to about 1 %."""

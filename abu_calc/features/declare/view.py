@@ -6,8 +6,7 @@ from typing import Final
 from abu_calc.features.declare.study import DeclareResult
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, Extras, Figure, MarkedPoint, Plot
 from abu_calc.reporting.parts import check_blocks, file_of, notices, provenance_blocks
 from abu_calc.reporting.screen import many, one_screen, verdict_line
 

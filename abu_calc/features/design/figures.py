@@ -8,9 +8,8 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.features.design.section_drawing import face_drawing, section_drawing
 from abu_calc.features.design.sheet import arm_sheets
 from abu_calc.features.design.starts import StartView
-from abu_calc.features.design.step_numbers import explanation_blocks
 from abu_calc.features.design.study import SizeResult
-from abu_calc.features.design.summary import size_summary
+from abu_calc.features.design.summary import explanation_blocks, size_summary
 from abu_calc.features.design.tables import balls
 from abu_calc.features.design.verdict import mm_per_s
 from abu_calc.features.seats.figures import seat_figures
@@ -18,12 +17,28 @@ from abu_calc.foundation.checks import first_of
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si
 from abu_calc.reporting.blocks import capitalised, number
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
-from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, Shown, caught, level, settling
-from abu_calc.reporting.charts.run_up_chart import run_up_chart
+from abu_calc.reporting.charts.chart import (
+    SUMMARY,
+    Axis,
+    Bar,
+    Bars,
+    Curve,
+    Extras,
+    Figure,
+    MarkedPoint,
+    Plot,
+    RotorMotionFigure,
+    Shown,
+    caught,
+    db,
+    level,
+    micrometres,
+    run_up_chart,
+    settling,
+)
 from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.parts import value_of
-from abu_calc.simulation.run_up_amplitude import Course, both_courses
+from abu_calc.simulation.rotor_view import Course, both_courses
 
 SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
 ROOM: Final = 130.0

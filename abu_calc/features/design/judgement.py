@@ -13,7 +13,7 @@ from abu_calc.features.design.region import TrueRegion, true_region
 from abu_calc.features.design.start_rules import FULL, ONE, StartFacts, checks_of_starts, level_check
 from abu_calc.features.design.start_search import design_part, search
 from abu_calc.features.grinding.work import Work, work_of
-from abu_calc.features.swing_arm.records import ArmMotion
+from abu_calc.features.swing_arm.view import ArmMotion
 from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import NotTrustworthyError
@@ -23,7 +23,7 @@ from abu_calc.foundation.progress import Progress, silent
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, not_simulated, simulated
 from abu_calc.simulation.ensemble import simulate_first, simulate_members
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
+from abu_calc.simulation.start_cases import Ensemble, Lost, StartOutcome
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 

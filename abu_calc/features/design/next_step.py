@@ -28,14 +28,12 @@ from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import Machine, variant_of
 from abu_calc.reporting.blocks import capitalised
 from abu_calc.simulation.ensemble import Once
-from abu_calc.simulation.ensemble_results import SLACK, Lost, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.simulation.result import Provenance
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import SLACK, Lost, Member, StartOutcome
 from abu_calc.sizing.actions import SIMULATED, overrides, pins
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.change_words import PINNED, in_words
-from abu_calc.sizing.proposals import ARM, ON_ARM, PROPOSED, mended
+from abu_calc.sizing.proposals import ARM, ON_ARM, PINNED, PROPOSED, in_words, mended
 
 Entries = tuple[str, ...]
 """Entries of a file, each as one `--set` takes it."""

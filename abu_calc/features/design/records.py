@@ -10,11 +10,10 @@ from typing import Annotated, ClassVar, Self
 
 from abu_calc.dynamics.stability.boundaries import StabilityBoundary
 from abu_calc.features.design.region import Mode, TrueRegion
-from abu_calc.features.grinding.lower_bound import LevelBound
 from abu_calc.features.grinding.outcomes import LoadedStarts
-from abu_calc.formulas.body_estimate import estimate_source
-from abu_calc.formulas.friction_band import friction_band
-from abu_calc.formulas.shaken_friction import friction_number
+from abu_calc.features.grinding.steady_contact import LevelBound
+from abu_calc.formulas.friction_band import friction_band, friction_number
+from abu_calc.formulas.rigid_body import estimate_source
 from abu_calc.foundation.quantity import LEVEL_AFTER, Quantity, Record, record
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.simulation.vibration_records import HandleLevels
@@ -28,8 +27,7 @@ from abu_calc.sizing.manufacture.bearing_ring import ring_of
 from abu_calc.sizing.manufacture.cover import seat_name
 from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
-from abu_calc.sizing.parts.housing_parts import TurnedPart
-from abu_calc.sizing.parts.profile import drawn
+from abu_calc.sizing.parts.housing_parts import TurnedPart, drawn
 from abu_calc.sizing.places import VibrationLevels as Levelled
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import IdleSpeedLevels, LevelsUnderLoad, SpeedLevel, SpeedLevels, idle_vibration

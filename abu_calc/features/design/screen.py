@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
-from abu_calc.features.design.data_gaps import DRAG, DataGap
+from abu_calc.features.design.changes import DRAG, DataGap
 from abu_calc.features.design.judgement import SEARCHED_LESS
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.design.tables import (
@@ -23,11 +23,10 @@ from abu_calc.features.design.tables import (
 )
 from abu_calc.features.design.verdict import STARTS_UNIT, Verdict, faults, in_capitals, keeps_limit
 from abu_calc.foundation.checks import RANK, Check, Grade, first_of, worst
-from abu_calc.foundation.escaping import shell_word
+from abu_calc.foundation.errors import shell_word
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, capitalised, number
 from abu_calc.reporting.parts import WORD, next_command, replaced_entries
-from abu_calc.reporting.screen import BLANK, many
-from abu_calc.reporting.text import TIE, height
+from abu_calc.reporting.screen import BLANK, TIE, height, many
 from abu_calc.simulation.result import Result
 
 LEAST_SHARE: Final = 1e-6

@@ -11,8 +11,17 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from abu_calc.features.design.records import AutobalancerRecord, Section
-from abu_calc.reporting.drawings.callouts import balloon
-from abu_calc.reporting.drawings.dimensions import arrow, datum, extent, fits, leader, moved, roughness, tolerance_frame
+from abu_calc.reporting.drawings.dimensions import (
+    arrow,
+    balloon,
+    datum,
+    extent,
+    fits,
+    leader,
+    moved,
+    roughness,
+    tolerance_frame,
+)
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
     Arc,

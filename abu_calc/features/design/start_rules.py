@@ -13,10 +13,9 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.checks import CHECK_CODES, Action, Check, Finding, Grade, coded, verdict
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
-from abu_calc.simulation.ensemble_results import SLACK, Ensemble, StartOutcome
 from abu_calc.simulation.records import finite
 from abu_calc.simulation.scene_of_design import guided
-from abu_calc.simulation.start_cases import OPPOSITE
+from abu_calc.simulation.start_cases import OPPOSITE, SLACK, Ensemble, StartOutcome
 from abu_calc.sizing.vibration import decibels
 
 

@@ -31,8 +31,7 @@ from abu_calc.simulation.ensemble import (
     first_tolerance,
     start_once,
 )
-from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
-from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, Member, usual_run_up
+from abu_calc.simulation.start_cases import ALIKE, OPPOSITE, SLACK, Member, StartOutcome, usual_run_up
 from abu_calc.sizing.case import EQUAL_SPEEDS
 from abu_calc.sizing.design import Design
 

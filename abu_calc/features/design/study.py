@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
-from abu_calc.features.design.data_gaps import DataGap, data_gaps
+from abu_calc.features.design.band import OilRecord
+from abu_calc.features.design.changes import DataGap, data_gaps
 from abu_calc.features.design.judgement import LEAST_SCATTER, Judgement, TrialWatcher, judge
 from abu_calc.features.design.next_step import Judge, NextStep, actions, next_step, proposals, verdict_of
-from abu_calc.features.design.oil import OilRecord
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
@@ -26,12 +26,12 @@ from abu_calc.features.design.records import (
 from abu_calc.features.design.start_rules import FULL, STARTS
 from abu_calc.features.design.starts import EnsembleResult, Starts
 from abu_calc.features.design.verdict import Verdict, benefit
-from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedStarts, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
+from abu_calc.features.grinding.steady_contact import LevelBound, lower_bound
 from abu_calc.features.grinding.work import Work, loaded_levels
 from abu_calc.features.seats.seats import SeatResult
-from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
+from abu_calc.features.swing_arm.view import ArmMotion, SwingArmRecord
 from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.parallel import meanwhile, processors
@@ -45,14 +45,13 @@ from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun
 from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK, first_tolerance, start_once
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SimulatedScene, finite
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import Ensemble, Lost, Member, StartOutcome
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import DrawingLine

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
-from abu_calc.features.design.data_gaps import DRAG, RANGES, DataGap
+from abu_calc.features.design.changes import DRAG, RANGES, DataGap
 from abu_calc.features.design.records import AutobalancerRecord, Vibration
 from abu_calc.features.design.section_drawing import legend, section_lines
 from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 from abu_calc.dynamics.stability.boundaries import StabilityBoundary
+from abu_calc.features.design.band import OilRecord, oil_blocks
 from abu_calc.features.design.figures import idle_case, size_charts
-from abu_calc.features.design.oil import OilRecord, oil_blocks
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
 from abu_calc.features.design.screen import first_lines
 from abu_calc.features.design.starts import EnsembleResult, FurtherStarts, SettlingOfStart

@@ -5,11 +5,12 @@ from statistics import fmean
 from typing import Annotated, Any, ClassVar, Final
 
 from abu_calc.features.design.study import SizeResult, size
-from abu_calc.features.factory.at_handles import AtHandles, at_handles
 from abu_calc.features.factory.measurements import (
+    AtHandles,
     MeasuredMachine,
     Span,
     ValueSource,
+    at_handles,
     degrees_of_freedom,
     factory_machines,
     factory_source,

@@ -28,7 +28,7 @@ def refuse_unusable(source: FileReading) -> None:
     """
     with source.located():
         if scene := getattr(source, "scene", None):  # a machine's check loads no equations
-            from abu_calc.simulation.durations import lasting
+            from abu_calc.simulation.quiet import lasting
             from abu_calc.simulation.scene_of_file import scene_from
 
             lasting(scene_from(scene), None, "scene.duration_s")
@@ -68,7 +68,7 @@ def missing_of(source: FileReading) -> tuple[str, ...]:
 
     if not isinstance(source, Readings):
         return ()
-    from abu_calc.features.balancing.next_run import missing_from
+    from abu_calc.features.balancing.tolerance import missing_from
 
     with source.located():
         return missing_from(source)

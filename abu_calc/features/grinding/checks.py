@@ -14,7 +14,7 @@ from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.simulation.durations import free_rates
+from abu_calc.simulation.quiet import free_rates
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.advice import power_checks
 from abu_calc.sizing.design import Design

@@ -21,9 +21,9 @@ from abu_calc.dynamics.integrators.choice import quickest_loop
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Sampling
 from abu_calc.features.grinding.formulas import largest_factor, shaken_drag, shaking_threshold
-from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.simulation import only_contact
 from abu_calc.features.grinding.steady_contact import SteadyWork, bare, contact_of, contact_presses, fitted, runout_of
+from abu_calc.features.grinding.verdict import AxisMotion
 from abu_calc.features.grinding.work import Work
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent

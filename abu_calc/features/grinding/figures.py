@@ -11,8 +11,19 @@ from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
 from abu_calc.reporting.blocks import number
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, alike, db, micrometres
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import (
+    Axis,
+    Bar,
+    Bars,
+    Curve,
+    Extras,
+    Figure,
+    MarkedPoint,
+    Plot,
+    alike,
+    db,
+    micrometres,
+)
 
 WITH, WITHOUT, FIXED, MEAN = 1, 2, 3, 4
 """Series of lines."""

@@ -1,6 +1,6 @@
 """Formulas of balls under load: resting places as published, flutter, contacts they bear, friction shaken out.
 
-Conventions of `formulas.steady_contact`; angles in the rotor, from the imbalance in the sense of rotation.
+Conventions of `formulas.tilting_contact`; angles in the rotor, from the imbalance in the sense of rotation.
 
 Stability of balls of finite mass: growing roots of the characteristic equation are counted. The balls' slow motion is
 no longer slow if a natural frequency of the machine on its contact is near the speed. The whirl then follows with its

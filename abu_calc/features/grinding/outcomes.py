@@ -19,7 +19,7 @@ from abu_calc.features.grinding.start_cases import (
 from abu_calc.features.grinding.work import LOUDER, Work, below
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.simulation.ensemble_results import Lost
+from abu_calc.simulation.start_cases import Lost
 from abu_calc.sizing.places import handle_levels
 
 State = Literal["balanced", "held by friction", "not balanced", "swinging", "stalled", "bouncing"]
@@ -87,7 +87,7 @@ def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
     """Imbalance [kg m] of wheel and balls in the race plane with which the centre of the race does not whirl forward.
 
     G·U + runout's part + Δ·e^{iβ} = 0 with the whirl G per imbalance: U = U₀ − Δ·e^{iβ}/G, where U₀ is that of a
-    race on the axis. Source: derived, from `formulas.steady_contact`; race in the plane of the wheel.
+    race on the axis. Source: derived, from `formulas.tilting_contact`; race in the plane of the wheel.
     """
     steady, case, autobalancer = work.fitted.steady, work.design.case, work.design.autobalancer
     centre = cmath.rect(case.race_eccentricity, outcome.start.member.eccentricity)

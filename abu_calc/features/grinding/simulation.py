@@ -22,12 +22,12 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import level_from_velocity
 from abu_calc.simulation.design_scenes import WORK
-from abu_calc.simulation.effect_selection import chosen, simulate_chosen
 from abu_calc.simulation.response import (
     SAMPLES_PER_REVOLUTION,
     amplitude_window,
 )
 from abu_calc.simulation.simulate import Simulation
+from abu_calc.simulation.subject import chosen, simulate_chosen
 
 TURNS = 20
 """Turns at the end of a run over which forces are examined."""

@@ -19,12 +19,11 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.parallel import side_by_side
 from abu_calc.foundation.progress import Progress, counted, silent
-from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble import ALWAYS, WORK, first_tolerance, integrated, start_once
-from abu_calc.simulation.ensemble_results import Lost, StartOutcome
-from abu_calc.simulation.residual_criteria import SLIPPING
 from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION
-from abu_calc.simulation.start_cases import Member, grinding_scene_of_member, members
+from abu_calc.simulation.run_checks import SLIPPING
+from abu_calc.simulation.start_cases import Lost, Member, StartOutcome, grinding_scene_of_member, members
+from abu_calc.simulation.subject import chosen
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.places import handle_levels
 

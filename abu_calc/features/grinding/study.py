@@ -23,20 +23,20 @@ from abu_calc.features.grinding.curves import (
     shaken,
 )
 from abu_calc.features.grinding.formulas import published_resultant, stiffness_regions
-from abu_calc.features.grinding.lower_bound import LevelBound, lower_bound
 from abu_calc.features.grinding.outcomes import LoadedStarts, loudest_start, with_starts
-from abu_calc.features.grinding.records import AxisMotion, Orbit, Printed, ProfilePoint, Simulated
 from abu_calc.features.grinding.start_cases import loaded_ensemble
 from abu_calc.features.grinding.steady_contact import (
+    LevelBound,
     SteadyWork,
     bare,
     contact_of,
     contact_presses,
     fitted,
     fixed,
+    lower_bound,
     runout_of,
 )
-from abu_calc.features.grinding.verdict import in_words, shortest
+from abu_calc.features.grinding.verdict import AxisMotion, Orbit, Printed, ProfilePoint, Simulated, in_words, shortest
 from abu_calc.features.grinding.wear import (
     Claim,
     WearCourse,

@@ -5,9 +5,9 @@ from typing import Final
 
 from abu_calc.features.grinding.curves import FrictionBand
 from abu_calc.features.grinding.outcomes import LoadedOutcomeGroup, LoadedStarts
-from abu_calc.features.grinding.records import AxisMotion, Simulated
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.study import GrindingResult
+from abu_calc.features.grinding.verdict import AxisMotion, Simulated
 from abu_calc.features.grinding.wear import WearCourse
 from abu_calc.foundation.checks import Status, first_of
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit

@@ -23,7 +23,7 @@ from abu_calc.features.grinding.formulas import runout_rate
 from abu_calc.features.grinding.simulation import harmonic_force
 from abu_calc.features.grinding.steady_contact import SteadyWork, contact_presses, runout_of
 from abu_calc.features.grinding.work import Side, Work
-from abu_calc.formulas.steady_contact import SteadyContact
+from abu_calc.formulas.tilting_contact import SteadyContact
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import wrapped_deg

@@ -10,8 +10,8 @@ from typing import Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
+from abu_calc.features.identification.bank import Array
 from abu_calc.features.identification.results import BenchRecord, IdentifiedValue
-from abu_calc.features.identification.tracks import Array
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.units import GRAVITY
 from abu_calc.foundation.validity import Range

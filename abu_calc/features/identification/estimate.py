@@ -14,8 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.features.identification.bank import WIDE, Bank, Box, Points
-from abu_calc.features.identification.tracks import Array, Track
+from abu_calc.features.identification.bank import WIDE, Array, Bank, Box, Points, Track
 from abu_calc.foundation.frozen import dataclass
 
 LEVELS: Final = (0.5, 0.25, 0.12)

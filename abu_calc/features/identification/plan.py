@@ -10,12 +10,11 @@ from typing import Annotated, ClassVar, Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.features.identification.bank import WIDE, simulated_track
+from abu_calc.features.identification.bank import WIDE, RecordedStart, simulated_track, window_centres
 from abu_calc.features.identification.estimate import TrackReading
 from abu_calc.features.identification.fit import Measured, estimated, identified_values, without_balls
 from abu_calc.features.identification.results import ExpectedValues
 from abu_calc.features.identification.study import known_scene, machine_subject
-from abu_calc.features.identification.tracks import RecordedStart, window_centres
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, record

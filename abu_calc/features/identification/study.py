@@ -8,7 +8,14 @@ import numpy as np
 
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.features.identification.bank import simulated_track
+from abu_calc.features.identification.bank import (
+    RecordedStart,
+    Signal,
+    recorded,
+    recorded_start,
+    simulated_track,
+    window_centres,
+)
 from abu_calc.features.identification.bench import bench_text, bench_values
 from abu_calc.features.identification.estimate import (
     Best,
@@ -16,15 +23,16 @@ from abu_calc.features.identification.estimate import (
     end_of,
 )
 from abu_calc.features.identification.fit import (
+    FEWEST,
     Estimate,
     Measured,
+    checks_of,
     estimated,
     friction_number_at,
     horizontal,
     identified_values,
     without_balls,
 )
-from abu_calc.features.identification.judgement import FEWEST, checks_of
 from abu_calc.features.identification.results import (
     KEYS,
     BenchRecord,
@@ -32,13 +40,6 @@ from abu_calc.features.identification.results import (
     IdentifyResult,
     StartCourse,
     interval_lines,
-)
-from abu_calc.features.identification.tracks import (
-    RecordedStart,
-    Signal,
-    recorded,
-    recorded_start,
-    window_centres,
 )
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.foundation.errors import InputError, Place

@@ -8,8 +8,7 @@ from abu_calc.features.identification.plan import MeasurePlanResult
 from abu_calc.features.identification.results import ExpectedValues, IdentifiedValue, IdentifyResult
 from abu_calc.foundation.quantity import quantities
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
-from abu_calc.reporting.charts.chart import Axis, Curve, Plot
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Curve, Extras, Figure, Plot
 from abu_calc.reporting.parts import check_blocks, facts, next_command, notices, provenance_blocks
 from abu_calc.reporting.screen import one_screen, shortened, verdict_line
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.features.levels.checks import held_loads, level_checks
 from abu_calc.features.levels.levels import (
     LAST,
     AxisLevel,
@@ -18,8 +17,10 @@ from abu_calc.features.levels.levels import (
     duration_for,
     halves_differ,
     held_levels,
+    held_loads,
     largest,
     level,
+    level_checks,
     moved_at,
     times_for,
 )
@@ -34,12 +35,11 @@ from abu_calc.inputs.recording import Recording
 from abu_calc.inputs.recording_columns import QUANTITIES
 from abu_calc.inputs.recording_files import is_recording, read_recording
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.effect_selection import simulate_chosen
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.scene_file import SceneDescription, read_any
 from abu_calc.simulation.simulate import ACCURACY
-from abu_calc.simulation.subject import Subject, subject_of
+from abu_calc.simulation.subject import Subject, simulate_chosen, subject_of
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
 from abu_calc.sizing.design import Design
 from abu_calc.standards.vibration import Octave, ThirdOctave, daily_exposure, octaves

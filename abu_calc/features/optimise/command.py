@@ -10,7 +10,7 @@ from abu_calc.cli.command import REQUIRED, SET, Answer, Command, Option
 from abu_calc.cli.output import Delivery
 from abu_calc.features.sweep.command import CLUSTER, CLUSTER_WAIT, EACH_ACCURACY, RESUME, STORE, WORKERS, computed
 from abu_calc.registry import outcome_of
-from abu_calc.reporting.write import Target, check_target
+from abu_calc.reporting.outcome import Target, check_target
 
 if TYPE_CHECKING:
     from abu_calc.features.optimise.result import OptimiseResult
@@ -47,7 +47,7 @@ def _targets(write: Path, machines: int) -> list[Path]:
 
 
 def _written(files: Sequence[Path], machines: "Sequence[Machine]", result: "OptimiseResult") -> Iterator[Target]:
-    from abu_calc.features.optimise.written import written_text
+    from abu_calc.features.optimise.result import written_text
 
     values = result.recommended.set_
     each = [values] if len(files) == 1 else list(values.values())

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.features.sweep.batches import RenewableExecutor, Row, in_batches
-from abu_calc.features.sweep.cluster import software
 from abu_calc.features.sweep.columns import (
     FLAGS,
     IMPATIENT,
@@ -26,7 +25,7 @@ from abu_calc.features.sweep.columns import (
     SEED,
     SampleColumn,
 )
-from abu_calc.features.sweep.execution import Attributed
+from abu_calc.features.sweep.execution import Attributed, software
 from abu_calc.features.sweep.plan import SweepRequest, planned
 from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.store import Store

@@ -8,8 +8,7 @@ from abu_calc.features.optimise.result import FrontPoint, OptimiseResult
 from abu_calc.foundation.units import unit_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
-from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Curve, Extras, Figure, MarkedPoint, Plot
 from abu_calc.reporting.parts import check_blocks, file_of, notices, options_of, provenance_blocks
 from abu_calc.reporting.screen import one_screen
 from abu_calc.sizing.actions import set_options

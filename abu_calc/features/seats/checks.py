@@ -3,10 +3,9 @@
 import math
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.bearing import SeatedBearing, carries_by_flanges
 from abu_calc.features.seats.clearance import MOST
 from abu_calc.features.seats.creep import Creep
-from abu_calc.features.seats.equivalent_load import carries_by_flanges
 from abu_calc.features.seats.interference import Interval, of_all, um
 from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, LOOSE_ENOUGH, TEMPERATURE, Joint
 from abu_calc.features.seats.joints import ROOM, USUAL_RISE, assumes_warmth

@@ -16,8 +16,7 @@ from abu_calc.features.seats.seats import SeatResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.features.seats.view import Seats, by_bearing, section_of
 from abu_calc.reporting.blocks import Block
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Extras, Figure
 from abu_calc.reporting.drawings.dimensions import extent, leader, roughness, scale_for, sketch
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,

@@ -12,10 +12,11 @@ from abu_calc.features.seats.interference import (
     Pair,
     SeatRecord,
     clearance_probability,
+    creep_interference,
+    load_loss,
     probability_below,
     theoretical_interference,
 )
-from abu_calc.features.seats.requirement import creep_interference, load_loss
 from abu_calc.foundation.checks import Grade
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass

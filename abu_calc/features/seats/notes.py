@@ -8,12 +8,10 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 
-from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing
-from abu_calc.features.seats.equivalent_load import load_factors
-from abu_calc.features.seats.interference import Interval, Pair, SeatRecord
+from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing, load_factors
+from abu_calc.features.seats.interference import Interval, Pair, SeatRecord, catalogue_smoothing_loss
 from abu_calc.features.seats.joint import ARTICLE, BEYOND_ROWS, MEASURED, TEMPERATURE, Joint, Loss
 from abu_calc.features.seats.joints import makers_classes
-from abu_calc.features.seats.requirement import catalogue_smoothing_loss
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.foundation.units import from_si, shown

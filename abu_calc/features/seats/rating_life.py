@@ -6,8 +6,7 @@ Basic rating life by ISO 281; modified by a_ISO where the lubricant's viscosity 
 import math
 from typing import Final, NamedTuple
 
-from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.equivalent_load import load_factors
+from abu_calc.features.seats.bearing import SeatedBearing, load_factors
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range

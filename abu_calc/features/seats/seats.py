@@ -13,14 +13,13 @@ from abu_calc.features.seats.advice import (
     RejectedFit,
     SeatAdvice,
     Start,
+    actions,
     admissible,
     advice,
     rule_class,
     share_to_order,
 )
-from abu_calc.features.seats.at_work import SeatMounting, at_work, clearance_at_work, seat_mounting
 from abu_calc.features.seats.bearing import SeatedBearing
-from abu_calc.features.seats.changes import actions
 from abu_calc.features.seats.checks import (
     clearance_checks,
     life_checks,
@@ -48,7 +47,14 @@ from abu_calc.features.seats.interference import (
     um,
 )
 from abu_calc.features.seats.joint import Joint, Loss, ThermalInterference
-from abu_calc.features.seats.joints import housing_joint, shaft_joint
+from abu_calc.features.seats.joints import (
+    SeatMounting,
+    at_work,
+    clearance_at_work,
+    housing_joint,
+    seat_mounting,
+    shaft_joint,
+)
 from abu_calc.features.seats.life_in_use import LifeInUse, SimulatedLife
 from abu_calc.features.seats.lookup import from_table
 from abu_calc.features.seats.notes import (

@@ -13,7 +13,7 @@ from abu_calc.features.seats.joints import ROOM, assumes_warmth
 from abu_calc.features.seats.seats import BearingSeats, SeatResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.features.seats.zones import legend, zone_lines
-from abu_calc.foundation.escaping import shortened
+from abu_calc.foundation.errors import shortened
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, capitalised, number

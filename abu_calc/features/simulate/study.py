@@ -26,8 +26,6 @@ from abu_calc.foundation.validity import Range
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.registry import imported
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.effect_selection import Audit, simulate_chosen
-from abu_calc.simulation.effect_selection import audit as with_all_effects
 from abu_calc.simulation.ensemble import followed_until
 from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.records import SceneModel, SimulatedScene, in_words
@@ -38,7 +36,8 @@ from abu_calc.simulation.run_checks import SimulatedLevel, level_at, levels_at_p
 from abu_calc.simulation.scene_of_design import QUIET
 from abu_calc.simulation.simulate import ACCURACY, Simulation
 from abu_calc.simulation.start_cases import idle_speed
-from abu_calc.simulation.subject import Source, Subject, subject_of
+from abu_calc.simulation.subject import Audit, Source, Subject, simulate_chosen, subject_of
+from abu_calc.simulation.subject import audit as with_all_effects
 from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
 
 if TYPE_CHECKING:

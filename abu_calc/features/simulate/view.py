@@ -10,13 +10,13 @@ from typing import Final
 import numpy as np
 
 from abu_calc.features.design.figures import amplitude_figure
-from abu_calc.features.effects.view import effects_grid
+from abu_calc.features.effects.study import effects_grid
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.features.simulate.study import SampledMotion, SimulateResult
 from abu_calc.foundation.checks import first_of
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
-from abu_calc.reporting.charts.figure import Extras, Figure, RotorMotionFigure, level, run_up, settling
+from abu_calc.reporting.charts.chart import Extras, Figure, RotorMotionFigure, level, run_up, settling
 from abu_calc.reporting.parts import (
     check_blocks,
     default_blocks,
@@ -29,10 +29,10 @@ from abu_calc.reporting.parts import (
     warning_blocks,
 )
 from abu_calc.reporting.screen import one_screen, verdict_line
-from abu_calc.simulation.effect_selection import Audit
 from abu_calc.simulation.response import End
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.simulate import Cost
+from abu_calc.simulation.subject import Audit
 from abu_calc.sizing.case import WHEEL_PLANE
 
 CONVENTIONS = (

@@ -31,7 +31,7 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress
 from abu_calc.foundation.units import shown
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.start_cases import Ensemble, StartOutcome
 from abu_calc.sizing.actions import overrides
 from abu_calc.sizing.vibration import truer_races
 from abu_calc.standards.balls import stock_diameters

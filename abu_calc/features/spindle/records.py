@@ -6,16 +6,15 @@ from typing import Annotated, Any, ClassVar, Self
 
 from abu_calc.features.design.band import BandRow, band
 from abu_calc.features.design.records import AutobalancerRecord, Eccentricity, Section
-from abu_calc.features.design.repeats import as_options, places
-from abu_calc.features.design.starts import DecisiveRun, Spread
+from abu_calc.features.design.starts import DecisiveRun, Spread, as_options, places
 from abu_calc.features.design.verdict import Verdict
-from abu_calc.features.grinding.records import AxisMotion
+from abu_calc.features.grinding.verdict import AxisMotion
 from abu_calc.features.spindle.case import SizedRace, SpindleDesign
 from abu_calc.features.spindle.start_cases import horizontal, scene_of, start_phases
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import in_file, wrapped_deg
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.result import Result
+from abu_calc.simulation.start_cases import Ensemble, StartOutcome
 
 
 @record

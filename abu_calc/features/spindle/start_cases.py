@@ -17,7 +17,7 @@ from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Effect, Scene, with_parted_balls
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.dynamics.trajectory import Samples, Sampling, Until, merged
@@ -42,13 +42,23 @@ from abu_calc.simulation.ensemble import (
     integrated,
     simulate_starts,
 )
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.quiet import LAST, PER_TURN, last_crossing
-from abu_calc.simulation.residual_criteria import MARGIN, slip
 from abu_calc.simulation.response import Course, amplitude_window, drift, evaluate, needed_times, settling_times
+from abu_calc.simulation.run_checks import MARGIN, slip
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import in_order
-from abu_calc.simulation.start_cases import ALIKE, KINDS, RUN_UP, Axis, Kind, Member, Variation
+from abu_calc.simulation.start_cases import (
+    ALIKE,
+    KINDS,
+    RUN_UP,
+    Axis,
+    Ensemble,
+    Kind,
+    Lost,
+    Member,
+    StartOutcome,
+    Variation,
+)
 from abu_calc.simulation.subject import Subject, checked_centre
 
 OF_BAND: Final = 12

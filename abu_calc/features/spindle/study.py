@@ -26,10 +26,9 @@ from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import shown
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.ensemble import MORE, TIGHTER, WORK
-from abu_calc.simulation.ensemble_results import Lost, StartOutcome
 from abu_calc.simulation.result import Provenance
-from abu_calc.simulation.run_up_amplitude import course, until_shortly_after, without_balls
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.rotor_view import course, until_shortly_after, without_balls
+from abu_calc.simulation.start_cases import Lost, Member, StartOutcome
 
 RUN_UP_ACCURACY: Final = 0.01
 """Accuracy of the run-up that is drawn."""

@@ -4,8 +4,8 @@ import cmath
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.study import refuse_idle
+from abu_calc.features.grinding.verdict import AxisMotion
 from abu_calc.features.spindle.case import PressedWheel, SpindleDesign, pressed_wheels, size_races
 from abu_calc.features.spindle.records import (
     PlaceAtWork,
@@ -37,8 +37,8 @@ from abu_calc.foundation.parallel import processors, side_by_side
 from abu_calc.foundation.progress import Progress, counted
 from abu_calc.foundation.units import wrapped_deg
 from abu_calc.inputs.read_machine import Machine
-from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.result import Provenance
+from abu_calc.simulation.start_cases import Lost
 
 AGREES: Final = 0.05
 """Relative difference of force between closed form and simulation that is permitted: averages leave out 2Ω swings."""

@@ -33,11 +33,10 @@ from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
 from abu_calc.simulation.ensemble import MORE, WORK, integrated
-from abu_calc.simulation.ensemble_results import Lost
-from abu_calc.simulation.residual_criteria import SLIPPING
-from abu_calc.simulation.run_up_amplitude import without_balls
+from abu_calc.simulation.rotor_view import without_balls
+from abu_calc.simulation.run_checks import SLIPPING
 from abu_calc.simulation.scene_of_file import in_order
-from abu_calc.simulation.start_cases import Kind, Member
+from abu_calc.simulation.start_cases import Kind, Lost, Member
 
 ARRANGEMENTS: Final = 12
 """Arrangements of the balls that are judged besides the even one, drawn at random with a fixed seed."""

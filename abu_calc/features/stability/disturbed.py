@@ -13,8 +13,7 @@ from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene, only
 from abu_calc.dynamics.stability.family import closed, parts
 from abu_calc.dynamics.stability.linearised import BalancedMotion
-from abu_calc.dynamics.stability.search import MARGIN, Search, decided, searched
-from abu_calc.dynamics.stability.verdict import Stability, judged
+from abu_calc.dynamics.stability.verdict import MARGIN, Search, Stability, decided, judged, searched
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.quantity import Quantity, Record, record
 

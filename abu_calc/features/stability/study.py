@@ -16,7 +16,7 @@ from abu_calc.dynamics.stability.verdict import Stability, critical_damping
 from abu_calc.dynamics.stability.verdict import stability as judged
 from abu_calc.features.stability.attractors import Attractor, AttractorSearch, attractors_of
 from abu_calc.features.stability.disturbed import ArrangementEnd, consequence
-from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
+from abu_calc.features.swing_arm.view import ArmMotion, SwingArmRecord
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.progress import Progress, silent

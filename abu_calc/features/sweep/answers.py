@@ -21,8 +21,7 @@ from abu_calc.features.sweep.result import (
     Percentiles,
     Sensitivity,
 )
-from abu_calc.features.sweep.sampling import BLOCK, Sample, block
-from abu_calc.features.sweep.sensitivity import Indices, RegressionSums, saltelli
+from abu_calc.features.sweep.sensitivity import BLOCK, Indices, RegressionSums, Sample, block, saltelli
 from abu_calc.features.sweep.store import Store, quoted
 from abu_calc.foundation.shares import interval
 

@@ -13,7 +13,7 @@ from abu_calc.cli.command import ACCURACY, FILE, SET, Answer, Command, Option, S
 from abu_calc.cli.output import Delivery
 from abu_calc.foundation.call_files import enter
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, StoppedError
-from abu_calc.foundation.interruption import EndedBySignal, status_of
+from abu_calc.foundation.parallel import EndedBySignal, status_of
 
 Asked = TypeVar("Asked")
 
@@ -103,7 +103,7 @@ def _cluster_executor(cluster: str | None, patience: float) -> Iterator[Executor
     if cluster is None:
         yield None
         return
-    from abu_calc.features.sweep.cluster import executor
+    from abu_calc.features.sweep.execution import executor
 
     with executor(cluster, patience) as chosen:
         yield chosen

@@ -22,8 +22,7 @@ from abu_calc.features.sweep.view import (
 from abu_calc.foundation.checks import first_of
 from abu_calc.foundation.units import unit_of
 from abu_calc.reporting.blocks import capitalised, number
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, MarkedPoint, Plot, db
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, Extras, Figure, MarkedPoint, Plot, db
 
 MOST: Final = 8
 """Values with a bar."""

@@ -12,14 +12,14 @@ from typing import Any, Final
 from abu_calc.features.spindle.case import SpindleDesign, size_races
 from abu_calc.features.sweep.columns import TEMPERATURE
 from abu_calc.features.sweep.samples import PHASE, Builds, Designs, Scenes, SpindleBuilds, SweepStudy, phase_keys
-from abu_calc.features.sweep.sampling import Factor, Sample
+from abu_calc.features.sweep.sensitivity import Factor, Sample
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import in_file
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.autobalancer import Oil
 from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.inputs.oil import Oil
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.spindle import MOST_WHEELS
 from abu_calc.inputs.variation import (

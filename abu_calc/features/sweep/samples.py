@@ -1,10 +1,19 @@
-"""Samples of a sweep, each from its number: values put in, the machine built or designed, and run."""
+"""Samples of a sweep, each from its number: values put in, the machine built or designed, and run.
+
+Time limit of a sample: work that takes too long is given up, in any thread and on any system.
+"""
 
 import cmath
+import ctypes
+import faulthandler
 import math
+import os
+import sys
+import threading
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import field, replace
 from typing import Any, ClassVar, Final
 
@@ -17,28 +26,121 @@ from abu_calc.features.spindle.case import SpindleCase, SpindleDesign
 from abu_calc.features.spindle.start_cases import FIRST_TOLERANCE, race_centre, race_needs, start_of, start_once
 from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, What, drag_ratio
-from abu_calc.features.sweep.sampling import Sample
-from abu_calc.features.sweep.time_limit import Overtime, limited
+from abu_calc.features.sweep.sensitivity import Sample
 from abu_calc.formulas.tilting_rotor import eccentricity_resultants
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import AbuError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.interruption import raise_pending
+from abu_calc.foundation.parallel import importing, raise_pending
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.inputs.bearing_file import Limits
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.variation import Variants, in_all_races
 from abu_calc.simulation.ensemble import MORE, TOLERANCE, WORK, first_tolerance, integrated, run_of_start
-from abu_calc.simulation.ensemble_results import Lost, StartOutcome
-from abu_calc.simulation.residual_criteria import HALF, allowed_imbalance, allowed_of_scene, balances, slip
 from abu_calc.simulation.response import Response, evaluate, needed_times
+from abu_calc.simulation.run_checks import HALF, allowed_imbalance, allowed_of_scene, balances, slip
 from abu_calc.simulation.scene_file import SceneFile
 from abu_calc.simulation.scene_of_design import AHEAD
 from abu_calc.simulation.scene_of_file import scene_from
-from abu_calc.simulation.start_cases import OPPOSITE, Member, Variation, idle_speed, turned, usual_run_up
+from abu_calc.simulation.start_cases import (
+    OPPOSITE,
+    Lost,
+    Member,
+    StartOutcome,
+    Variation,
+    idle_speed,
+    turned,
+    usual_run_up,
+)
 from abu_calc.sizing.design import Design, built, with_worst
 from abu_calc.sizing.oil import drag_share
+
+GRACE: Final = 5.0
+"""Seconds after which a process whose work does not give up is ended, where it may be."""
+AGAIN_S: Final = 0.5
+"""Seconds after which it is raised again: what runs for the garbage collector swallows whatever is raised in it."""
+IMPORTS_S: Final = 0.05
+"""Seconds between two looks at a thread that imports: a module whose import is broken off is broken for good."""
+
+
+class Overtime(BaseException):
+    """The time is over."""
+
+    comes_again = True
+
+
+@contextmanager
+def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
+    """Raise Overtime inside once the time is over, as soon as Python code runs there that is no import.
+
+    `may_end_process`: what never returns to Python takes the process with it; only for processes that were made to
+    compute, whose owner notices.
+    """
+    thread, lock, inside = threading.get_ident(), threading.Lock(), True
+
+    def stop() -> None:
+        """Raise Overtime in the thread until it leaves, but in no import."""
+        while True:
+            with lock:
+                if not inside:
+                    return
+                raised = not importing(sys._current_frames().get(thread))
+                if raised:
+                    _raise_in(thread, Overtime)
+            time.sleep(AGAIN_S if raised else IMPORTS_S)
+
+    timer = threading.Timer(seconds, stop)
+    timer.daemon = True
+    try:
+        timer.start()
+    except RuntimeError as error:  # no room for another thread
+        raise OSError(str(error)) from None
+    if may_end_process:
+        _end_at(thread, time.monotonic() + seconds + GRACE)
+    try:
+        yield
+    finally:
+        timer.cancel()
+        with lock:
+            inside = False
+        _raise_in(thread, None)  # one that was raised, but did not arrive in time
+        if may_end_process:
+            _end_at(thread, None)
+
+
+_ends: dict[int, float] = {}
+_ending: Final = threading.Lock()
+
+
+def _end_at(thread: int, when: float | None) -> None:
+    """The process ends at the first of what its threads ask for: faulthandler has one clock for all of them."""
+    with _ending:
+        if when is None:
+            _ends.pop(thread, None)
+        else:
+            _ends[thread] = when
+        if _ends:
+            left = max(min(_ends.values()) - time.monotonic(), 1e-3)
+            faulthandler.dump_traceback_later(left, exit=True, file=_nowhere())
+        else:
+            faulthandler.cancel_dump_traceback_later()
+
+
+def _raise_in(thread: int, kind: type[BaseException] | None) -> None:
+    raised = ctypes.py_object(kind) if kind else None
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
+
+
+_open: list[int] = []
+
+
+def _nowhere() -> int:
+    """A file that swallows what is written."""
+    if not _open:
+        _open.append(os.open(os.devnull, os.O_WRONLY))
+    return _open[0]
+
 
 LOT: Final = 0.5e-6
 """Diameters of balls of one lot differ by this much [m] (grade 20 of ISO 3290, by practice)."""

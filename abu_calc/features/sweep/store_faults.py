@@ -7,8 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
-from abu_calc.foundation.errors import InputError, OutputError, Place
-from abu_calc.foundation.escaping import escaped, shortened
+from abu_calc.foundation.errors import InputError, OutputError, Place, escaped, shortened
 
 PLACE: Final = Place(key="store")
 

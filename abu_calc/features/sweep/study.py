@@ -11,11 +11,9 @@ from typing import Any, Final
 from abu_calc.features.design.study import WORKERS
 from abu_calc.features.seats.seats import bearing_checks
 from abu_calc.features.sweep import answers
-from abu_calc.features.sweep.cluster import software
 from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
-from abu_calc.features.sweep.execution import Take, Workers, compute, once_more
-from abu_calc.features.sweep.failed_limits import failed_limits
-from abu_calc.features.sweep.limit_advice import advice
+from abu_calc.features.sweep.execution import Take, Workers, compute, once_more, software
+from abu_calc.features.sweep.limit_advice import advice, failed_limits
 from abu_calc.features.sweep.plan import Plan, SweepRequest, asked, planned
 from abu_calc.features.sweep.result import Failed, Kept, MeetsLimits, Members, Percentiles, SweepResult, Varied
 from abu_calc.features.sweep.samples import SweepStudy

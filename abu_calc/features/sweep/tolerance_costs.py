@@ -16,7 +16,7 @@ from abu_calc.features.sweep.batches import Row
 from abu_calc.features.sweep.columns import DECIDING, IMPATIENT, MEETS
 from abu_calc.features.sweep.result import Price, Sensitivity
 from abu_calc.features.sweep.samples import SweepStudy
-from abu_calc.features.sweep.sampling import Sample
+from abu_calc.features.sweep.sensitivity import Sample
 from abu_calc.features.sweep.store import Store, quoted
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.variation import Variation

@@ -11,7 +11,7 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import loop
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.floquet import floquet_edge
-from abu_calc.features.swing_arm.records import ArmHarmonic, ArmMotion, TongueEdge
+from abu_calc.features.swing_arm.view import ArmHarmonic, ArmMotion, TongueEdge
 from abu_calc.formulas.swing_arm import MODULATION, ORDERS, Arm, averaged_edge, forced_harmonics, free_rates, resonance
 from abu_calc.foundation.errors import NotTrustworthyError
 

@@ -9,7 +9,7 @@ from abu_calc.features.swing_arm.scenes import on_work
 from abu_calc.features.swing_arm.verdict import CUTTING, IDLE, ArmJudgement, balanced_check, steady_at_work
 from abu_calc.foundation.checks import RANK
 from abu_calc.simulation.design_scenes import simulated
-from abu_calc.simulation.durations import DECAY_TIMES
+from abu_calc.simulation.quiet import DECAY_TIMES
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import with_entries
 from abu_calc.sizing.design import Design

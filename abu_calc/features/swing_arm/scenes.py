@@ -11,8 +11,8 @@ from typing import Any, Final
 from abu_calc.dynamics.effects.lift_off import LiftOffEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.verdict import critical_damping, stability
-from abu_calc.features.swing_arm.records import ArmChange
 from abu_calc.features.swing_arm.verdict import CUTTING
+from abu_calc.features.swing_arm.view import ArmChange
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.simulation.design_scenes import SceneRun

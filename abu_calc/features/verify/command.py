@@ -32,7 +32,7 @@ def _verified(study: Study, files: Sequence[str] = (), update: bool = False, *, 
 
 def _updated(machines: "list[FileReading]", tell: Progress) -> Outcome:
     """All files with their present values written into [expected]."""
-    from abu_calc.reporting.write import Target, write
+    from abu_calc.reporting.outcome import Target, write
 
     paths = [_path_of(machine) for machine in machines]
     results, blocks, targets = [], [], []

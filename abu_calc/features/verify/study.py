@@ -1,4 +1,7 @@
-"""Files held to the results they expect: expected values against recomputed ones, at the paths of the JSON."""
+"""Files held to the results they expect: expected values against recomputed ones, at the paths of the JSON.
+
+The report of `abu verify`: a line for each file, and a table of differences.
+"""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -14,6 +17,9 @@ from abu_calc.foundation.rows import Rows
 from abu_calc.inputs.bearing_file import BearingFile, HasExpectations, expected_tolerances, expected_values
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.inputs.reading.document import FileReading
+from abu_calc.reporting.blocks import Block, Grid, Paragraph, number
+from abu_calc.reporting.parts import WORD, warning_blocks
+from abu_calc.reporting.screen import LINES, cut, height, many
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
 
@@ -219,3 +225,57 @@ def _check(file: VerifiedFile) -> Check:
     remedy = "If the change is meant, write it with --update." if failed else None
     message = f"{len(file.values)} values, {failed} differ"
     return replace(coded("ABU901", verdict(not failed), message, float(failed), 0.0, remedy), name=file.file)
+
+
+MOST_NAMES: Final = 30
+"""Files as expected that a screen names."""
+LEAST: Final = 1e-6
+"""Least relative deviation that is shown with digits."""
+
+
+def verify_blocks(result: VerifyResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (*_blocks(result, {file.file for file in result.files}), *warning_blocks(result.warnings))
+
+
+def verify_screen(result: VerifyResult) -> tuple[Block, ...]:
+    """One screen: differences as far as there is room; files that are as expected take one line."""
+    differ = [file.file for file in result.files if file.failed]
+    same = [file.file for file in result.files if not file.failed]
+    title = f"{len(same)} of {many(len(result.files), 'file')} as expected"
+    verdict = Paragraph(f"{'FAIL' if differ else 'PASS'}: {title}", result.status)
+    names = [Paragraph(f"As expected: {', '.join(same[:MOST_NAMES])}{', …' if len(same) > MOST_NAMES else ''}.")]
+    last: list[Block] = (
+        [Paragraph("More: --full, every file. --update writes the computed values into [expected].")] if differ else []
+    )
+    head: list[Block] = [verdict, *(names if same else [])]
+    last = [*warning_blocks(result.warnings), *last]
+    return (*head, *cut(_blocks(result, set(differ)), LINES - height([*head, *last])), *last)
+
+
+def _blocks(result: VerifyResult, shown: set[str]) -> list[Block]:
+    """A line and a table a file."""
+    blocks: list[Block] = []
+    for file, check in zip(result.files, result.checks, strict=True):
+        if file.file in shown:
+            blocks.append(Paragraph(f"{WORD[check.status]} {file.file}: {check.message}", check.status))
+        if file.failed:
+            rows = tuple(map(_row, file.failed))
+            blocks.append(Grid(("path", "expected", "computed", "deviation", "allowed"), rows))
+    return blocks
+
+
+def _row(entry: ComparedValue) -> tuple[str, ...]:
+    deviation = "" if entry.deviation is None else _percent(entry.deviation)
+    return entry.path, _value(entry.expected), _value(entry.found), deviation, _percent(entry.tolerance)
+
+
+def _percent(ratio: float) -> str:
+    """A relative deviation; one that shows only rounding has the bound alone."""
+    return f"{number(100 * ratio, 3)} %" if ratio == 0 or ratio >= LEAST else f"< {100 * LEAST:g} %"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, float):
+        return number(value, 6)
+    return "none" if value is None else str(value)

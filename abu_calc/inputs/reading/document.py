@@ -20,12 +20,10 @@ from pydantic import ValidationError
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.validity import bounded
-from abu_calc.inputs.reading.format import KEY, check_format
-from abu_calc.inputs.reading.plain import check_nesting
 from abu_calc.inputs.reading.sources import LARGEST_FILE, Document, bytes_of
 from abu_calc.inputs.reading.table import Table, Usual, numbers_in, usual_of
-from abu_calc.inputs.reading.text import Part, key_path, unit_suffix, unit_symbol
-from abu_calc.inputs.reading.values_with_units import Conversion, convert
+from abu_calc.inputs.reading.text import KEY, Part, check_format, key_path, unit_suffix, unit_symbol
+from abu_calc.inputs.reading.values_with_units import Conversion, check_nesting, convert
 
 if TYPE_CHECKING:
     from abu_calc.inputs.reading.overrides import Override
@@ -222,7 +220,7 @@ def named(source: object) -> str:
     """The name of a file, or of a preset, that a script gives as text or as a path; raises InputError for all else."""
     if isinstance(source, (str, os.PathLike)) and isinstance(name := os.fspath(source), str):
         return name
-    from abu_calc.inputs.reading.plain import found_as
+    from abu_calc.inputs.reading.values_with_units import found_as
 
     raise InputError(
         "not the name of a file or a preset",
@@ -254,7 +252,7 @@ def document_of_tables(tables: Mapping[str, object]) -> Document:
     """The document of tables that a script gives, as a file would hold them."""
     import tomli_w
 
-    from abu_calc.inputs.reading.plain import plain_value
+    from abu_calc.inputs.reading.values_with_units import plain_value
 
     plain = plain_value(tables, "source")
     return document_of_text(tomli_w.dumps(plain) or LINE_BREAK)

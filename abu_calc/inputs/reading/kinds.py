@@ -65,7 +65,7 @@ KINDS: Final = (
     ),
     Kind(
         "recordings", "recordings of a type test", ("recording", "calibration"), "declare --recordings",
-        "features.declare.read:recordings_from", ("features.declare.tables:RecordingsFile",),
+        "features.declare.read:recordings_from", ("features.declare.read:RecordingsFile",),
     ),
 )  # fmt: skip
 """A file that has tables of several is of the first of them, one that has none is a machine's."""

@@ -9,10 +9,9 @@ from typing import Final
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.reading.plain import found_as, plain_value
 from abu_calc.inputs.reading.table import Table, table_at
 from abu_calc.inputs.reading.text import Part, key_path
-from abu_calc.inputs.reading.values_with_units import Conversion, convert_entry
+from abu_calc.inputs.reading.values_with_units import Conversion, convert_entry, found_as, plain_value
 
 _STEP: Final = re.compile(
     r"""\.?(?:([A-Za-z_][A-Za-z0-9_-]*)|\[(\d{1,6})\]|(?<=\.)(\d{1,6})(?![\w-])|"([^"]*)"|'([^']*)')"""

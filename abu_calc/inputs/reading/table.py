@@ -19,7 +19,7 @@ from pydantic.config import JsonDict
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, PydanticKnownError
 
-from abu_calc.foundation.escaping import LINE_BREAKS
+from abu_calc.foundation.errors import LINE_BREAKS
 from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit
 from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.reading.text import Part, shown, shown_short

@@ -6,8 +6,7 @@ from itertools import pairwise
 from typing import Final
 
 from abu_calc.reporting.blocks import Block, Picture
-from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
-from abu_calc.reporting.charts.figure import Figure
+from abu_calc.reporting.charts.chart import Axis, Curve, Figure, MarkedPoint, Plot
 from abu_calc.reporting.screen import section_id, sections
 
 WIDE: Final = 60

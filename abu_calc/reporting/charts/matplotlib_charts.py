@@ -10,9 +10,9 @@ from functools import cache
 from textwrap import fill
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from abu_calc.foundation.escaping import escaped, shortened
+from abu_calc.foundation.errors import escaped, shortened
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, MarkedPoint, Plot
-from abu_calc.reporting.page.assets import beside
+from abu_calc.reporting.page.card import beside
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,10 +11,8 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
 
-from abu_calc.foundation.errors import OutputError
-from abu_calc.foundation.escaping import escaped
-from abu_calc.reporting.charts.chart import Bars, Cells, Plot
-from abu_calc.reporting.charts.figure import Figure, RotorMotionFigure, angles
+from abu_calc.foundation.errors import OutputError, escaped
+from abu_calc.reporting.charts.chart import Bars, Cells, Figure, Plot, RotorMotionFigure, angles
 from abu_calc.reporting.charts.matplotlib_charts import FONT, LIKE_IT, styled
 from abu_calc.reporting.drawings.dimensions import primitives
 from abu_calc.reporting.drawings.shapes import PENS, TALL, Arc, Drawing, Layer, Line, Point, Region, Solid, Text, plain

@@ -1,14 +1,37 @@
-"""A result in a notebook: title, verdict, drawing of the section and checks, in a few lines of HTML without scripts."""
+"""A result in a notebook: title, verdict, drawing of the section and checks, in a few lines of HTML without scripts.
 
+Files that lie beside the page's modules (style, scripts), and text that a page may hold.
+"""
+
+import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Final
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.foundation.checks import WORDS, Check, verdict_words
-from abu_calc.reporting.page.assets import text
+from abu_calc.foundation.errors import escaped
 
 if TYPE_CHECKING:
     from abu_calc.reporting.outcome import Outcome
     from abu_calc.simulation.result import Result
+
+
+def text(words: str) -> str:
+    """Nothing in them is an element, or acts."""
+    return escape(escaped(words), quote=True)
+
+
+def beside(name: str) -> str:
+    """The text of a file here."""
+    return (Path(__file__).parent / name).read_text(encoding="utf-8")
+
+
+def script(name: str, **data: Any) -> str:
+    """A script of the page with its data, in which nothing can end the element."""
+    given = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    return f"<script>\n(() => {{\nconst data = {given};\n{beside(name)}}})();\n</script>"
+
 
 COLOURS: Final = {"pass": "#1a7f37", "warn": "#9a6700", "fail": "#cf222e", "not-done": "#8250df"}
 WIDEST: Final = 720

@@ -10,7 +10,7 @@ from math import ceil, hypot
 from typing import Final, NamedTuple
 
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, Plot
-from abu_calc.reporting.page.assets import text
+from abu_calc.reporting.page.card import text
 
 Place = tuple[float, float]
 NEAR: Final = 3.0

@@ -1,20 +1,212 @@
-"""The page of a result: a summary that prints alone, details with figures and formulas, and the data to repeat it."""
+"""The page of a result: a summary that prints alone, details with figures and formulas, and the data to repeat it.
 
+Blocks and figures as elements of a page: the same words and numbers as in a terminal.
+
+A motion is a canvas with a player: button, slider, pace; keys on the canvas too.
+"""
+
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
-from itertools import chain
-from typing import TYPE_CHECKING, Final
+from itertools import chain, zip_longest
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from abu_calc.foundation.checks import verdict_word
-from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Picture
-from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure
-from abu_calc.reporting.page.assets import beside, text
-from abu_calc.reporting.page.elements import elements, figure, paragraph
-from abu_calc.reporting.page.handover import extras_handed_over, handed_over
-from abu_calc.reporting.screen import section_id, sections
+from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
+from abu_calc.reporting.charts.chart import SUMMARY, Bars, Cells, Extras, Figure, Plot, RotorMotionFigure
+from abu_calc.reporting.drawings.shapes import Drawing
+from abu_calc.reporting.drawings.svg import svg_figure
+from abu_calc.reporting.page.card import beside, script, text
+from abu_calc.reporting.page.chart_svg import bars, cells, plot
+from abu_calc.reporting.page.handover import ENTRIES, extras_handed_over, handed_over
+from abu_calc.reporting.screen import BEFORE_UNIT, STYLES, TIE, grade_of, section_id, sections
 
 if TYPE_CHECKING:
     from abu_calc.reporting.outcome import Outcome
+    from abu_calc.simulation.rotor_view import Array, RotorView
+
+
+WIDEST: Final = 92
+"""Letters that stand side by side on paper."""
+COLUMN: Final = 48
+"""Letters of words, cells aside, that stand side by side in half of it."""
+POINT: Final = "! "
+"""Beginning of a warning in a terminal; on a page it is a point of a list."""
+KEY: Final = re.compile(r"\b([a-z_]{4,})\.(?=[a-z_]{4})")
+"""Table of a key, with its dot."""
+CODE = re.compile(r"`([^`]+)`")
+
+
+def elements(blocks: Iterable[Block], title: str, level: int = 2) -> Iterator[str]:
+    """Each block as an element; `title`: of the section, by which tables are called; `level`: of its headings."""
+    for block in blocks:
+        match block:
+            case Heading(words):
+                title = words.strip()
+                deep = level + words.startswith(" ")
+                yield f"<h{deep}>{_coded(title)}</h{deep}>"
+            case Paragraph(words, mark):
+                if words:
+                    yield paragraph(words, mark)
+            case Facts(rows):
+                yield _facts(rows, title)
+            case Grid():
+                yield from (_grid(grid, title) for grid in block.within(WIDEST))
+            case Picture(lines, caption):
+                drawn = text("\n".join(lines)).replace("\\n", "\n")
+                yield (
+                    f'<figure><pre role="img" aria-label="{text(caption)}">{drawn}</pre>'
+                    f"<figcaption>{text(caption)}</figcaption></figure>"
+                )
+
+
+def paragraph(words: str, mark: str | None = None) -> str:
+    """Running text; what is a command stands as code."""
+    if mark == ENTRIES:
+        return f'<p class="{ENTRIES}"><code>{text(words)}</code></p>'
+    if words.startswith(POINT):
+        return f'<p class="point">{_coded(_tied(words.removeprefix(POINT)))}</p>'
+    kind = f' class="{text(mark)}"' if mark in STYLES else ""
+    return f"<p{kind}>{_coded(_tied(words))}</p>"
+
+
+def _facts(rows: Iterable[tuple[str, str, str]], title: str) -> str:
+    lines = "".join(
+        f'<tr><th scope="row">{text(label)}</th><td class="sign">{text(sign)}</td><td>{_cell(value)}</td></tr>\n'
+        for label, sign, value in rows
+    )
+    return _table(title, f"<tbody>\n{lines}</tbody>", "facts") if lines else ""
+
+
+def _grid(grid: Grid, title: str) -> str:
+    kinds = [' class="number"' if index in grid.right else "" for index in range(len(grid.header))]
+    names = "".join(f'<th scope="col"{kind}>{text(name)}</th>' for name, kind in zip(grid.header, kinds, strict=True))
+    head = f"<thead><tr>{names}</tr></thead>\n" if any(grid.header) else ""
+    rows = (
+        "".join(f"<td{_kind(cell) or kind}>{_cell(cell)}</td>" for cell, kind in zip(row, kinds, strict=False))
+        for row in grid.rows
+    )
+    least = sum(
+        max(len(word) for cell in column for word in [*cell.replace(".", " ").split(), ""]) for column in _columns(grid)
+    )
+    body = head + "<tbody>\n" + "".join(f"<tr>{row}</tr>\n" for row in rows) + "</tbody>"
+    return _table(title, body, "broad" if least > COLUMN else "")
+
+
+def _columns(grid: Grid) -> Iterable[tuple[str, ...]]:
+    return zip_longest(grid.header, *grid.rows, fillvalue="")
+
+
+def _coded(words: str) -> str:
+    return CODE.sub(r"<code>\1</code>", text(words))
+
+
+def _tied(words: str) -> str:
+    """A number keeps its unit beside it."""
+    return BEFORE_UNIT.sub(TIE, words)
+
+
+def _cell(words: str) -> str:
+    """Text of a cell; a key may be broken behind its table."""
+    return KEY.sub(r"\1.<wbr>", text(_tied(words)))
+
+
+def _kind(cell: str) -> str:
+    """Class of a cell by its grade, or by its indentation."""
+    grade = grade_of(cell)
+    return f' class="{grade}"' if grade in STYLES else ' class="inner"' if cell.startswith(" ") else ""
+
+
+def _table(title: str, rows: str, kind: str = "") -> str:
+    """A table in a place of its own, which scrolls, by keys too, where the page is narrower."""
+    named = f' class="{kind}"' if kind else ""
+    return (
+        f'<div class="wide{" broad" * (kind == "broad")}" tabindex="0" role="region" aria-label="{text(title)}">'
+        f"<table{named}>\n{rows}\n</table></div>"
+    )
+
+
+PACES = {"1": "as it is", "0.2": "5 × slower", "0.05": "20 × slower", "0.01": "100 × slower"}
+USUAL = "0.2"
+
+
+def player(motion: RotorMotionFigure) -> str:
+    """The element, with its data and its script."""
+    runs = [(motion.name, motion.view), *motion.others]
+    end = float(motion.view.t_s[-1])
+    options = "".join(
+        f'<option value="{value}"{" selected" if value == USUAL else ""}>{text(name)}</option>'
+        for value, name in PACES.items()
+    )
+    alternative = f"The balls and the axis, seen in the rotor, from 0 to {end:.3g} s; space plays, arrows move in time"
+    data = {
+        "runs": [_run(view) for _, view in runs], "race": motion.race_mm, "ball": list(motion.balls_mm),
+        "pitch": list(motion.view.pitch_radii_mm),
+    }  # fmt: skip
+    starts = "".join(f'<option value="{index}">{text(name)}</option>' for index, (name, _) in enumerate(runs))
+    chosen = f'<select id="motion-start" aria-label="Start">{starts}</select>' if motion.others else ""
+    return (
+        f'<div class="player"><canvas id="motion" width="640" height="310" tabindex="0" role="img" '
+        f'aria-label="{text(alternative)}"></canvas><div class="keys">'
+        '<button type="button" id="motion-play">Play</button>'
+        f'<input type="range" id="motion-time" min="0" max="{end:.6g}" step="any" value="0" aria-label="Time">'
+        f'<select id="motion-pace" aria-label="Pace">{options}</select>{chosen}</div><p id="motion-told"></p></div>'
+        + script("motion.js", **data)
+    )
+
+
+def _run(view: "RotorView") -> dict[str, Any]:
+    return {
+        "t": _rounded(view.t_s, 6), "x": _rounded(view.x_um, 3), "y": _rounded(view.y_um, 3),
+        "balls": [_rounded(row, 2) for row in view.ball_angles_deg], "rest": _rounded(view.residual_g_mm, 4),
+        "imbalance": view.imbalance_angle_deg,
+    }  # fmt: skip
+
+
+def _rounded(values: "Array", digits: int) -> list[float]:
+    return [round(value, digits) for value in values.tolist()]
+
+
+PIXELS: Final = 3.78
+"""Pixels of a screen per millimetre."""
+READABLE: Final = 2.11
+"""Pixels for a millimetre below which writing is too small."""
+NAMESPACE: Final = ' xmlns="http://www.w3.org/2000/svg"'
+"""Elements inside a page need none."""
+
+
+class _Room(NamedTuple):
+    """Preferred width of an element, and its least width [px]; if narrower, it scrolls in its place."""
+
+    wide: float
+    least: float = 0.0
+
+
+def figure(figure: Figure) -> str:
+    """The element with its caption."""
+    room, drawn = _drawn(figure)
+    style = f"max-width:{room.wide:.0f}px" + (f";min-width:{room.least:.0f}px" if room.least else "")
+    return (
+        f'<figure style="max-width:{room.wide:.0f}px"><div class="wide" tabindex="0" role="group" '
+        f'aria-label="{text(figure.caption)}"><div style="{style}">{drawn}</div></div>'
+        f"<figcaption>{text(figure.caption)}</figcaption></figure>"
+    )
+
+
+def _drawn(figure: Figure) -> tuple[_Room, str]:
+    match figure.shown:
+        case Plot() as chart:
+            return _Room(520.0), plot(figure.name, chart)
+        case Bars() as chart:
+            return _Room(520.0), bars(figure.name, chart)
+        case Cells() as chart:
+            return _Room(520.0), cells(figure.name, chart)
+        case RotorMotionFigure() as motion:
+            return _Room(640.0), player(motion)
+        case Drawing() as drawing:
+            wide = drawing.size[0]
+            return _Room(PIXELS * wide, READABLE * wide), svg_figure(drawing).replace(NAMESPACE, "")
+
 
 LAST: Final = frozenset({"conventions", "defaults"})
 """Ids of the sections that stand at the end, behind the calculation note."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import Final
 
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
-from abu_calc.reporting.charts.figure import Extras
+from abu_calc.reporting.charts.chart import Extras
 
 COMMAND: Final = re.compile(r"`abu |(?<![\w-])--[a-z]|\babu [a-z]+(?:-[a-z]+)? [\w-]|\bPython: ")
 """Beginning of a command, or of an option, in a text."""

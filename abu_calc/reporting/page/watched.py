@@ -8,9 +8,9 @@ from typing import Any, Final, NamedTuple
 
 from abu_calc.foundation.checks import CHECK_CODES, WORDS
 from abu_calc.reporting.blocks import number
-from abu_calc.reporting.page.assets import script, text
+from abu_calc.reporting.outcome import Target, write
+from abu_calc.reporting.page.card import script, text
 from abu_calc.reporting.page.document import MAIN, SAFE, framed
-from abu_calc.reporting.write import Target, write
 
 FOLLOWS: Final = SAFE + "; frame-src 'self' file:"
 """Security policy of a page that looks at its own file."""

@@ -5,22 +5,23 @@ from abu_calc.foundation.frozen import dataclass
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.bearing_ring import ring_check
-from abu_calc.sizing.manufacture.closure import (
+from abu_calc.sizing.manufacture.cover import (
     BURST_RATIO,
     PROOF_SHARE,
+    Cover,
     burst_check,
     burst_ratio,
+    choose_cover,
     contained,
     containment_check,
+    cover_check,
     filling_check,
     overspeed_check,
     overspeed_stress,
 )
-from abu_calc.sizing.manufacture.cover import Cover, choose_cover, cover_check
 from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
 from abu_calc.sizing.manufacture.fastening import slip_torque, torque_check
-from abu_calc.sizing.manufacture.race_quality import RaceQuality, race_quality
-from abu_calc.sizing.manufacture.ring_seat import RingSeat, bears_ring, ring_seat, seat_check
+from abu_calc.sizing.manufacture.ring_seat import RaceQuality, RingSeat, bears_ring, race_quality, ring_seat, seat_check
 from abu_calc.sizing.parts.demands import with_surfaces
 from abu_calc.sizing.parts.housing_parts import HousingParts, housing_parts
 

@@ -3,15 +3,13 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.sizing.parts.housing_parts import HousingParts, TurnedPart
-from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Kind, Surface
+from abu_calc.sizing.parts.housing_parts import GeometricalTolerance, HousingParts, Kind, Surface, TurnedPart
 from abu_calc.standards.tolerance_classes import grade_tolerance
 
 if TYPE_CHECKING:
     from abu_calc.sizing.manufacture.cover import Cover
     from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
-    from abu_calc.sizing.manufacture.race_quality import RaceQuality
-    from abu_calc.sizing.manufacture.ring_seat import RingSeat
+    from abu_calc.sizing.manufacture.ring_seat import RaceQuality, RingSeat
 
 RACE_TOLERANCE: Final = 0.05e-3
 """Tolerance of the race's radius, either way [m]."""

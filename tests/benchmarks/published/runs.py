@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.planar import planar
 

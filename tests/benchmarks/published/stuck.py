@@ -12,7 +12,7 @@ import numpy as np
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.stuck_speeds import stuck_speeds
 from abu_calc.dynamics.supports.planar import planar

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.codegen.graph import Functions, Graph, Symbol
+from abu_calc.dynamics.codegen.tracer import Functions, Graph, Symbol
 
 
 def value_of(expression: Callable[..., Any], *values: float, parameters: tuple[float, ...] = ()) -> float:

@@ -9,7 +9,7 @@ import pytest
 from abu_calc.dynamics.codegen import tracer as plain
 from abu_calc.dynamics.codegen.tracer import Numbers
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.rotor import Modes
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.switching.modes import settled, watched, watches
 from abu_calc.foundation.errors import NotTrustworthyError

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.equations.elimination import by_pulls, solve, solve_all
-from abu_calc.dynamics.equations.right_hand_side import prepared
+from abu_calc.dynamics.equations.right_hand_side import by_pulls, prepared, solve, solve_all
 from tests.dynamics.scenes import ROTORS, SUPPORTS, scene_on
 
 

@@ -10,7 +10,7 @@ from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import run
 from abu_calc.dynamics.integrators.run import IntegrationRun, Recorder, TooMuchWorkError, work
-from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.rotor import Modes
 from abu_calc.dynamics.trajectory import Samples, Sampling, Until
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, RangeError
 from tests.dynamics.scenes import scene_on, with_effects

@@ -15,9 +15,8 @@ from abu_calc.dynamics.stability.boundaries import boundaries, crossings_of, gro
 from abu_calc.dynamics.stability.family import Family, closed
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.resting import resting_angles
-from abu_calc.dynamics.stability.search import Search, searched
 from abu_calc.dynamics.stability.two_modes import two_modes
-from abu_calc.dynamics.stability.verdict import judged, stability
+from abu_calc.dynamics.stability.verdict import Search, judged, searched, stability
 from abu_calc.features.stability.disturbed import consequence
 from abu_calc.simulation.subject import subject_of
 from tests.cli.runner import abu

@@ -8,11 +8,10 @@ import pytest
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.right_hand_side import rhs
-from abu_calc.dynamics.parameters import Acting
+from abu_calc.dynamics.rotor import Acting
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.linearised import BalancedMotion
-from abu_calc.dynamics.stability.search import Search, decided, searched
-from abu_calc.dynamics.stability.verdict import judged, stability
+from abu_calc.dynamics.stability.verdict import Search, decided, judged, searched, stability
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from tests.studies.arrangements import Case, arrangements, case_of
 

@@ -10,7 +10,7 @@ from abu_calc.dynamics.effect import Effect, Kind, SwitchPoint
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.right_hand_side import accelerations, derivative
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.rotor import Parameters
 from abu_calc.dynamics.switching.ball_impacts import Responses, responses
 from tests.dynamics.effects.test_contract import Sample, samples, taken
 from tests.dynamics.energy import mass_matrix

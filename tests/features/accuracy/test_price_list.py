@@ -12,7 +12,7 @@ from abu_calc.features.accuracy import study as module
 from abu_calc.features.accuracy.study import MeasuredPoint, Reference, cheapest, price_list
 from abu_calc.features.accuracy.view import picture
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
-from abu_calc.simulation.effect_selection import Ledger
+from abu_calc.simulation.subject import Ledger
 from tests.dynamics.scenes import dimensionless, straight_grinder, with_effects
 
 

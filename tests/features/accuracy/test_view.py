@@ -3,7 +3,7 @@
 from abu_calc.features.accuracy.study import AccuracyResult, MeasuredPoint, Reference
 from abu_calc.features.accuracy.view import accuracy_blocks, accuracy_extras, picture
 from abu_calc.reporting.charts.chart import Plot
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from abu_calc.simulation.result import Provenance
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.instrument import instrument_of, known_units
+from abu_calc.features.balancing.run_tables import instrument_of, known_units
 from abu_calc.foundation.errors import InputError
 from tests.features.balancing.rig import RIG, ROTOR, Workshop, written
 from tests.rows import for_each

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.next_run import missing_from
 from abu_calc.features.balancing.read import METHODS, readings_template
+from abu_calc.features.balancing.tolerance import missing_from
 from tests.cli.runner import abu
 from tests.features.balancing.field import Fan
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, trial, written

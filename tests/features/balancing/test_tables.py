@@ -16,9 +16,8 @@ from abu_calc.inputs.read_machine import read_file
 from abu_calc.inputs.reading import sources as presets
 from abu_calc.inputs.reading.errors import SpecErrors
 from abu_calc.inputs.reading.kinds import KINDS, kind_of
-from abu_calc.inputs.reading.schema import schema_of
+from abu_calc.inputs.reading.schema import WIDTH, schema_of
 from abu_calc.inputs.reading.table import all_tables, usual_of
-from abu_calc.inputs.reading.template import WIDTH
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Workshop, written
 from tests.inputs.agreeing import check_schema, right_but_for_rules
 from tests.inputs.reading.test_schema import VALUES, places

@@ -10,7 +10,7 @@ import abu_calc
 from abu_calc.features.balancing.corrections import Share
 from abu_calc.features.balancing.solution import PlaneCorrection
 from abu_calc.features.balancing.view import balance_blocks, drawing
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 
 PRESET = "sapropel-screw-rig"
 

@@ -7,7 +7,7 @@ import pytest
 import abu_calc
 from abu_calc.features.compare.screen import compare_screen, words_of
 from abu_calc.features.compare.study import CompareResult
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.remembered import remembered
 
 

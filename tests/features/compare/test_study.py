@@ -13,7 +13,7 @@ from abu_calc.features.compare.view import compare_blocks
 from abu_calc.features.design.study import SizeResult
 from abu_calc.foundation.quantity import flattened
 from abu_calc.inputs.reading.overrides import parse_variant
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.cli.runner import abu
 from tests.remembered import recalled
 

@@ -14,7 +14,7 @@ from abu_calc.dynamics.averaging.resting_places import SlowBalls
 from abu_calc.features.declare.type_test_simulation import SimulatedTest, Spindle, search_break_even, simulated_test
 from abu_calc.formulas.type_test import TypeTestBody, acceleration_per_displacement
 from abu_calc.foundation.progress import silent
-from abu_calc.standards.type_test import declared_uncertainty, reproducibility
+from abu_calc.standards.vibration import declared_uncertainty, reproducibility
 from tests.dynamics.averaging.test_resting_places import S100, S150
 from tests.formulas.test_type_test import POINT, RIGID
 

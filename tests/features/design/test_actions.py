@@ -13,7 +13,7 @@ from abu_calc.foundation.checks import RANK, Check
 from abu_calc.foundation.errors import AbuError
 from abu_calc.inputs.read_machine import Machine, read_machine, variant_of
 from abu_calc.sizing.actions import PINS
-from abu_calc.sizing.change_words import in_words
+from abu_calc.sizing.proposals import in_words
 from tests.features.design.test_next_step import at
 from tests.hard_machines import FILES_BY_HAND
 from tests.remembered import recalled

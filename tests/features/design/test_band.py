@@ -23,12 +23,11 @@ from abu_calc.features.design.band import (
     usual,
     worse_wheels,
 )  # fmt: skip
-from abu_calc.features.design.repeats import decisive, repeated
 from abu_calc.features.design.start_search import SearchResult, fails
+from abu_calc.features.design.starts import decisive, repeated
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import first_tolerance, run_of_start
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.simulation.start_cases import ALIKE, Member, Variation, scene_of_member
+from abu_calc.simulation.start_cases import ALIKE, Ensemble, Member, StartOutcome, Variation, scene_of_member
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.cli.runner import abu

@@ -17,9 +17,8 @@ from abu_calc.features.design.changes import (
 )
 from abu_calc.features.design.start_rules import StartFacts
 from abu_calc.simulation.ensemble import simulate_members
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.scene_of_design import guided
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import Ensemble, Member, StartOutcome
 from abu_calc.sizing import size, usable
 from abu_calc.sizing.actions import pins, with_entries
 from abu_calc.sizing.design import Design

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.features.design.data_gaps import RANGES, SLOWEST, DataGap, assumed_values, data_gaps
+from abu_calc.features.design.changes import RANGES, SLOWEST, DataGap, assumed_values, data_gaps
 from abu_calc.features.design.study import SizeResult, size
 from abu_calc.features.design.tables import gap_table
 from abu_calc.inputs.autobalancer import Autobalancer
 from abu_calc.inputs.read_machine import Machine, read_machine
 from abu_calc.reporting.blocks import Grid
-from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.start_cases import StartOutcome
 from abu_calc.sizing import size as size_design
 from tests.remembered import recalled
 

@@ -14,8 +14,7 @@ from abu_calc.features.design.view import size_blocks
 from abu_calc.foundation.units import to_si
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.reporting.blocks import Facts
-from abu_calc.reporting.charts.chart import Bars, Plot
-from abu_calc.reporting.charts.figure import RotorMotionFigure
+from abu_calc.reporting.charts.chart import Bars, Plot, RotorMotionFigure
 from abu_calc.sizing.vibration import SpeedLevel
 from tests.remembered import recalled
 from tests.reporting.drawings.samples import whole

@@ -35,8 +35,7 @@ from abu_calc.features.design.next_step import (
 from abu_calc.foundation.checks import RANK, Check, Grade, OptionalCheck
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.inputs.read_machine import Machine, variant_of
-from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import Ensemble, Member, StartOutcome
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import PINS
 from abu_calc.sizing.design import Design

@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.features.design.oil import OilRecord, oil_blocks
+from abu_calc.features.design.band import OilRecord, oil_blocks
 from abu_calc.formulas.oil import GRADES
 from abu_calc.reporting.blocks import Grid, Heading, Paragraph
 from abu_calc.sizing import size

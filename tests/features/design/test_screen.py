@@ -18,7 +18,7 @@ from abu_calc.features.seats.view import check_fit_screen
 from abu_calc.foundation.checks import Check, Grade
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.parts import check_blocks
-from abu_calc.reporting.text import as_text, height
+from abu_calc.reporting.screen import as_text, height
 from tests.cli.runner import Seen, abu, once
 from tests.cli.test_command import PRESETS
 from tests.inputs.scenes import ARM, PLANAR, SCENE, TILTING

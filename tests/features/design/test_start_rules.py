@@ -7,8 +7,7 @@ import pytest
 
 from abu_calc.features.design.start_rules import StartFacts, checks_of_starts, level_check
 from abu_calc.foundation.checks import Check, Finding, coded
-from abu_calc.simulation.ensemble_results import SLACK, Ensemble, Lost, StartOutcome
-from abu_calc.simulation.start_cases import ALIKE, Member
+from abu_calc.simulation.start_cases import ALIKE, SLACK, Ensemble, Lost, Member, StartOutcome
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import PINNED, machine

@@ -14,7 +14,6 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design import judgement, start_search
-from abu_calc.features.design.repeats import worst_further
 from abu_calc.features.design.start_rules import RULES, StartFacts
 from abu_calc.features.design.start_search import (
     NEAR,
@@ -32,11 +31,11 @@ from abu_calc.features.design.start_search import (
     search,
     tail_shape,
 )
+from abu_calc.features.design.starts import worst_further
 from abu_calc.foundation.checks import Check, Finding, coded
 from abu_calc.foundation.patience import limited
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.ensemble_results import SLACK, StartOutcome
-from abu_calc.simulation.start_cases import ALIKE, Member, members
+from abu_calc.simulation.start_cases import ALIKE, SLACK, Member, StartOutcome, members
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.cli.runner import abu

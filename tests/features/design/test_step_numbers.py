@@ -5,7 +5,7 @@ import re
 import pytest
 
 import abu_calc
-from abu_calc.features.design.step_numbers import explanation_blocks
+from abu_calc.features.design.summary import explanation_blocks
 from abu_calc.reporting.blocks import number
 from tests.cli.runner import abu, once
 from tests.remembered import recalled

@@ -6,7 +6,7 @@ import pytest
 
 from abu_calc.features.design.view import size_blocks
 from abu_calc.reporting.blocks import Grid
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.cli.runner import once
 from tests.reporting.drawings.samples import whole
 

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from abu_calc.features.design.region import true_region
-from abu_calc.features.design.whirl import growing_whirls, unstable_speed
+from abu_calc.features.design.region import growing_whirls, true_region, unstable_speed
 from abu_calc.formulas.body_motion import BodyMotion, BodySprings
 from abu_calc.formulas.rigid_body import RigidBody
 from abu_calc.sizing import size

@@ -3,10 +3,9 @@
 from dataclasses import replace
 
 from abu_calc.dynamics.effects.gravity import GravityEffect
-from abu_calc.features.effects.study import effects
-from abu_calc.features.effects.view import effects_blocks, effects_grid, effects_screen
-from abu_calc.reporting.text import as_text, height
-from abu_calc.simulation.effect_selection import EffectEntry
+from abu_calc.features.effects.study import effects, effects_blocks, effects_grid, effects_screen
+from abu_calc.reporting.screen import as_text, height
+from abu_calc.simulation.subject import EffectEntry
 from tests.dynamics.scenes import dimensionless
 
 SCENE = dimensionless(3.0, 0.05, 0.05, 0.2, 0.3, (1.0, 2.5), 100.0)

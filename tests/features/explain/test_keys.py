@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from abu_calc.features.explain.keys import file_tables, keys_with, machine_keys
+from abu_calc.features.explain.texts import file_tables, keys_with, machine_keys
 from abu_calc.inputs.reading.schema import schema_of
 from tests.cli.runner import abu
 
@@ -23,7 +23,7 @@ def test_every_key_of_every_table_is_found_by_its_path(monkeypatch: pytest.Monke
     schema = schema_of("machine")
     tables = list(file_tables(schema))
     monkeypatch.setattr("abu_calc.inputs.reading.schema.schema_of", lambda _: schema)  # made once for all keys
-    monkeypatch.setattr("abu_calc.features.explain.keys.file_tables", lambda _: tables)
+    monkeypatch.setattr("abu_calc.features.explain.texts.file_tables", lambda _: tables)
     for header, table in tables:
         for name in table["properties"]:
             path = f"{header.strip('[]')}.{name}"

@@ -25,7 +25,7 @@ def test_numbers_stand_between_the_title_and_the_formulas() -> None:
 
 def test_a_formula_without_registration_is_an_error() -> None:
     with pytest.raises((KeyError, AttributeError, ImportError)):
-        assert Step("nothing", ("sizing.capacity:no_such_formula",)).formulas
+        assert Step("nothing", ("sizing.budget:no_such_formula",)).formulas
 
 
 def test_a_code_names_its_step_where_it_has_one() -> None:

@@ -5,8 +5,7 @@ import math
 import pytest
 
 import abu_calc
-from abu_calc.features.factory.at_handles import HandleGeometry, at_handles
-from abu_calc.features.factory.measurements import factory_machines
+from abu_calc.features.factory.measurements import HandleGeometry, at_handles, factory_machines
 from tests.remembered import recalled
 
 

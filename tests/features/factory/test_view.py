@@ -4,7 +4,7 @@ from abu_calc.features.factory.measurements import ValueSource
 from abu_calc.features.factory.study import FactoryLevel, FactoryResult, FittedValues, SoftRaceLevel
 from abu_calc.features.factory.view import factory_blocks, factory_screen
 from abu_calc.reporting.blocks import Grid
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from abu_calc.simulation.result import Provenance
 
 EMPTY = dict.fromkeys(

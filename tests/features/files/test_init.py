@@ -9,7 +9,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from abu_calc.features.files.new_machine import completed
+from abu_calc.features.files.init import completed
 from tests.cli.runner import abu
 from tests.inputs.samples import BEARINGS
 

@@ -8,7 +8,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.grinding.view import grinding_blocks, grinding_screen
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.cli.runner import abu, once
 from tests.remembered import recalled
 

@@ -24,7 +24,7 @@ from abu_calc.features.grinding.formulas import (
     runout_rate,
     stiffness_regions,
 )
-from abu_calc.formulas.steady_contact import SteadyContact
+from abu_calc.formulas.tilting_contact import SteadyContact
 
 W = 5800 * math.pi / 30
 M, BALL, RP = 5.6, 16.728353e-3, 24e-3

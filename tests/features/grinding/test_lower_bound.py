@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from abu_calc.features.grinding.lower_bound import LEAST, LevelBound, lower_bound
+from abu_calc.features.grinding.steady_contact import LEAST, LevelBound, lower_bound
 from abu_calc.features.grinding.work import Work, at_work
 from abu_calc.sizing import size
 from tests.sizing.machines import machine

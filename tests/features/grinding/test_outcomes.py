@@ -17,8 +17,7 @@ from abu_calc.features.grinding.start_cases import LoadedEnsemble, LoadedOutcome
 from abu_calc.features.grinding.verdict import in_words
 from abu_calc.features.grinding.work import Work, at_work
 from abu_calc.foundation.units import velocity_from_level
-from abu_calc.simulation.ensemble_results import Lost
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import Lost, Member
 from abu_calc.sizing import size
 from tests.remembered import recalled
 from tests.sizing.machines import machine

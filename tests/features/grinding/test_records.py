@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from abu_calc.features.grinding.records import AxisMotion, Orbit, ProfilePoint, _nearest
 from abu_calc.features.grinding.steady_contact import SteadyWork
-from abu_calc.formulas.steady_contact import SteadyContact
+from abu_calc.features.grinding.verdict import AxisMotion, Orbit, ProfilePoint, _nearest
+from abu_calc.formulas.tilting_contact import SteadyContact
 
 CONTACT = SteadyContact(600.0, (-2e6 + 0j, -2e6 + 0j), 0.0, 0.0)
 

@@ -15,8 +15,7 @@ from abu_calc.features.grinding.start_cases import (
     loaded_ensemble,
     loaded_start,
 )
-from abu_calc.simulation.ensemble_results import Lost
-from abu_calc.simulation.start_cases import Member, members
+from abu_calc.simulation.start_cases import Lost, Member, members
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import machine

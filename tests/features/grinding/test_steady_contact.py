@@ -24,11 +24,11 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Sampling
 from abu_calc.features.grinding.checks import AGREES, agreement, flutter_limits, work_checks
 from abu_calc.features.grinding.curves import hodograph, largest_runout, loaded_resonance, response
-from abu_calc.features.grinding.records import AxisMotion
 from abu_calc.features.grinding.simulation import working
 from abu_calc.features.grinding.steady_contact import RestingBalls, bare, even_fan, fitted, fixed, runout_of, with_balls
+from abu_calc.features.grinding.verdict import AxisMotion
 from abu_calc.features.grinding.work import at_work
-from abu_calc.formulas.steady_contact import SteadyContact
+from abu_calc.formulas.tilting_contact import SteadyContact
 from abu_calc.simulation.scene_of_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design

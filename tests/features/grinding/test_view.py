@@ -15,7 +15,7 @@ from abu_calc.features.grinding.view import (
     wear_blocks,
 )
 from abu_calc.reporting.blocks import Block
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.features.grinding.test_command import STRAIGHT, worked
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from abu_calc.features.grinding.steady_contact import RestingBalls, SteadyWork
 from abu_calc.features.grinding.wear import needed_exponent, worn
-from abu_calc.formulas.steady_contact import SteadyContact
+from abu_calc.formulas.tilting_contact import SteadyContact
 
 W = 5800 * math.pi / 30
 M, PRESS, WHEEL, RADIUS = 5.6, 200.0, 0.6, 75e-3

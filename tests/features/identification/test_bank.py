@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from abu_calc.features.identification import bank
-from abu_calc.features.identification.bank import Box, bank_of, simulated_track
+from abu_calc.features.identification.bank import Box, bank_of, simulated_track, window_centres
 from abu_calc.features.identification.estimate import end_of
-from abu_calc.features.identification.tracks import window_centres
 from abu_calc.foundation.disk_cache import FOLDER
 from abu_calc.foundation.progress import silent
 from abu_calc.simulation.scene_file import read_any

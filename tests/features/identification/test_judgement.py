@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from abu_calc.features.identification.bank import recorded, recorded_start, window_centres
 from abu_calc.features.identification.estimate import TrackReading
-from abu_calc.features.identification.fit import Measured, without_balls
-from abu_calc.features.identification.judgement import _run_up_check, _trend
+from abu_calc.features.identification.fit import Measured, _run_up_check, _trend, without_balls
 from abu_calc.features.identification.study import as_long, known_scene, machine_subject
-from abu_calc.features.identification.tracks import recorded, recorded_start, window_centres
 from abu_calc.simulation.scene_file import read_any
 from tests.features.identification.recorded import record, scene_file
 from tests.features.identification.test_study import LEVER, OFFSET

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from abu_calc.features.levels.checks import held_loads, level_checks
-from abu_calc.features.levels.levels import Band, PlaceLevels, axis_level
+from abu_calc.features.levels.levels import Band, PlaceLevels, axis_level, held_loads, level_checks
 from abu_calc.foundation.checks import Check
 from abu_calc.sizing import size
 from abu_calc.standards.vibration import octaves

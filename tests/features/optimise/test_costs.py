@@ -5,9 +5,8 @@ from types import SimpleNamespace
 import pytest
 
 import abu_calc
-from abu_calc.features.optimise.choices import options_of
-from abu_calc.features.optimise.costs import COUNT, DIAMETER, ECCENTRICITY, RADIUS, cost_entries, cost_of
-from abu_calc.features.optimise.written import written_text
+from abu_calc.features.optimise.choices import COUNT, DIAMETER, ECCENTRICITY, RADIUS, cost_entries, cost_of, options_of
+from abu_calc.features.optimise.result import written_text
 from abu_calc.foundation.errors import InputError, Place
 
 VALUES = {COUNT: 4, DIAMETER: 8.0, RADIUS: 31.0, ECCENTRICITY: 0.005}

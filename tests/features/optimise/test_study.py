@@ -8,8 +8,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.optimise import racing
-from abu_calc.features.optimise.result import OptimiseResult
-from abu_calc.features.optimise.written import written_text
+from abu_calc.features.optimise.result import OptimiseResult, written_text
 from tests.features.optimise.conftest import CHOICES, OPTIONS
 
 PRESET = "avtovaz-707-222"

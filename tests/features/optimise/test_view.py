@@ -6,11 +6,9 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.features.optimise.result import OptimiseResult
+from abu_calc.features.optimise.result import OptimiseResult, written_text
 from abu_calc.features.optimise.view import front_plot, optimise_blocks, optimise_screen
-from abu_calc.features.optimise.written import written_text
-from abu_calc.reporting.screen import LINES
-from abu_calc.reporting.text import height
+from abu_calc.reporting.screen import LINES, height
 
 pytestmark = pytest.mark.slow  # an optimisation, however small
 

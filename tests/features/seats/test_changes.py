@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from abu_calc.features.seats.changes import with_entries
+from abu_calc.features.seats.advice import with_entries
 from abu_calc.features.seats.lookup import from_table
 from abu_calc.features.seats.seats import judge
 from abu_calc.foundation.checks import RANK

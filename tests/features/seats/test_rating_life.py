@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.features.seats.equivalent_load import equivalent_dynamic, equivalent_static, load_factors
+from abu_calc.features.seats.bearing import equivalent_dynamic, equivalent_static, load_factors
 from abu_calc.features.seats.life_in_use import UseLoads, combined_load, lives_in_use
 from abu_calc.features.seats.lookup import from_table
 from abu_calc.features.seats.rating_life import basic_rating_life, life_modification, reference_viscosity

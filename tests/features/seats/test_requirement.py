@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from abu_calc.features.seats.requirement import (
+from abu_calc.features.seats.interference import (
     SERIES_FACTORS,
     catalogue_smoothing_loss,
     centrifugal_loss,

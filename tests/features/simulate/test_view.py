@@ -19,7 +19,7 @@ from abu_calc.features.simulate.view import (
     simulate_extras,
     simulate_screen,
 )
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.inputs.scenes import SCENE
 
 

@@ -23,7 +23,7 @@ from abu_calc.foundation.checks import RANK, Check
 from abu_calc.foundation.progress import silent
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble import TOLERANCE, WORK
-from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
+from abu_calc.simulation.start_cases import Ensemble, Lost, StartOutcome
 
 
 @cache

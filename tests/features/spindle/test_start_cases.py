@@ -33,10 +33,9 @@ from abu_calc.foundation.units import velocity_from_level
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation import ensemble as ensemble_module
 from abu_calc.simulation.ensemble import MOST_MORE, TOLERANCE, WORK, Runner, simulate_starts
-from abu_calc.simulation.ensemble_results import Lost
 from abu_calc.simulation.response import evaluate
 from abu_calc.simulation.simulate import simulate
-from abu_calc.simulation.start_cases import Member, Variation
+from abu_calc.simulation.start_cases import Lost, Member, Variation
 from abu_calc.sizing.vibration import LEVEL_ERROR
 
 TRUE = (

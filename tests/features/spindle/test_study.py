@@ -12,15 +12,15 @@ import pytest
 import abu_calc
 from abu_calc.features.design.start_rules import checks_of_starts
 from abu_calc.features.spindle.case import capacity_needs, read_case, size_races
-from abu_calc.features.spindle.figures import both_solids, spindle_extras
 from abu_calc.features.spindle.judgement import capacity_checks, facts_of, region_check
 from abu_calc.features.spindle.records import SpindleSizeResult
 from abu_calc.features.spindle.start_cases import start_of
+from abu_calc.features.spindle.view import both_solids, spindle_extras
 from abu_calc.formulas.tilting_rotor import resultant_quantile
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_machine
-from abu_calc.simulation.ensemble_results import Ensemble, Lost
+from abu_calc.simulation.start_cases import Ensemble, Lost
 from tests.cli.runner import again
 from tests.remembered import recalled
 

@@ -15,8 +15,7 @@ from abu_calc.features.spindle.records import repeated
 from abu_calc.features.spindle.start_cases import scene_of, spindle_subject, start_cases
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import variant_of
-from abu_calc.simulation.ensemble_results import StartOutcome
-from abu_calc.simulation.start_cases import Member
+from abu_calc.simulation.start_cases import Member, StartOutcome
 from tests.cli.runner import abu
 from tests.remembered import recalled
 

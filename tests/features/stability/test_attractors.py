@@ -13,10 +13,8 @@ import abu_calc
 from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.stuck_speeds import stuck_speeds
-from abu_calc.features.stability.attractor_ends import EndState, Follower
-from abu_calc.features.stability.attractor_search import alike, grouped, search
-from abu_calc.features.stability.attractor_starts import designed_starts, drawn_starts, started
-from abu_calc.features.stability.attractors import attractors_of
+from abu_calc.features.stability.attractor_ends import EndState, Follower, designed_starts, drawn_starts, started
+from abu_calc.features.stability.attractors import alike, attractors_of, grouped, search
 from abu_calc.foundation.errors import InputError
 from abu_calc.registry import known
 from abu_calc.simulation.scene_file import read_any

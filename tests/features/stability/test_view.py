@@ -17,7 +17,7 @@ from abu_calc.features.stability.view import (
 )
 from abu_calc.foundation.units import to_si
 from abu_calc.reporting.charts.chart import Plot
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.inputs.scenes import SCENE
 
 

@@ -10,9 +10,8 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep import batches
-from abu_calc.features.sweep import cluster as programs
-from abu_calc.features.sweep.cluster import software
-from abu_calc.features.sweep.execution import Attributed
+from abu_calc.features.sweep import execution as programs
+from abu_calc.features.sweep.execution import Attributed, software
 from tests.features.sweep.conftest import Sweeps
 
 

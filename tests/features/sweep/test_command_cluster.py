@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from abu_calc.features.sweep.cluster import executor
+from abu_calc.features.sweep.execution import executor
 
 
 class Client:

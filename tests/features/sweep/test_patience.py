@@ -10,8 +10,7 @@ import abu_calc
 from abu_calc.features.sweep.batches import Row, in_batches, processes
 from abu_calc.features.sweep.columns import IMPATIENT
 from abu_calc.features.sweep.plan import asked, planned
-from abu_calc.features.sweep.samples import Builds, SweepStudy
-from abu_calc.features.sweep.time_limit import Overtime
+from abu_calc.features.sweep.samples import Builds, Overtime, SweepStudy
 from abu_calc.foundation import patience
 from abu_calc.inputs.read_machine import read
 from tests.cli.runner import abu

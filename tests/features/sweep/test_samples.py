@@ -13,7 +13,7 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.features.sweep.columns import drag_ratio
 from abu_calc.features.sweep.plan import asked, planned
 from abu_calc.features.sweep.samples import Builds, scene_once, started
-from abu_calc.simulation.residual_criteria import allowed_of_scene
+from abu_calc.simulation.run_checks import allowed_of_scene
 from abu_calc.simulation.start_cases import OPPOSITE, Variation
 from abu_calc.sizing import size
 from tests.dynamics.scenes import dimensionless
@@ -77,7 +77,7 @@ def test_members_that_failed_in_the_computer_are_tried_again_and_no_others(
 def test_a_member_that_took_too_long_is_tried_again_with_more_time(
     sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from abu_calc.features.sweep.time_limit import Overtime
+    from abu_calc.features.sweep.samples import Overtime
 
     seeds = sweeps.run(sweeps.folder / "whole.sqlite").members["seed"].astype(int).tolist()
     with monkeypatch.context() as patch:

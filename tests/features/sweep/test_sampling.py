@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 from scipy.stats import qmc
 
-from abu_calc.features.sweep.sampling import BLOCK, Factor, Sample, Scheme, block, value_at
+from abu_calc.features.sweep.sensitivity import BLOCK, Factor, Sample, Scheme, block, value_at
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
 

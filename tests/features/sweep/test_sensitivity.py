@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
-from abu_calc.features.sweep.sampling import BLOCK, Factor, Sample, Scheme, block
-from abu_calc.features.sweep.sensitivity import Indices, RegressionSums, saltelli
+from abu_calc.features.sweep.sensitivity import BLOCK, Factor, Indices, RegressionSums, Sample, Scheme, block, saltelli
 from abu_calc.foundation.errors import Place
 from abu_calc.inputs.variation import variation
 

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from abu_calc.features.sweep.time_limit import Overtime, limited
+from abu_calc.features.sweep.samples import Overtime, limited
 
 
 def test_work_without_end_is_given_up() -> None:

@@ -16,7 +16,7 @@ from abu_calc.features.sweep.view import (
     words_of,
 )
 from abu_calc.reporting.blocks import Grid, Picture
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from tests.features.sweep.conftest import Sweeps
 
 CHART = Chart(

@@ -6,8 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from abu_calc.features.swing_arm.drawing import swing_arm_sketch
-from abu_calc.features.swing_arm.records import SwingArmRecord
+from abu_calc.features.swing_arm.view import SwingArmRecord, swing_arm_sketch
 from abu_calc.reporting.drawings.shapes import Arc, Drawing, Length, Line, Text
 from abu_calc.simulation.result import Provenance
 from tests.features.swing_arm.test_verdict import judged

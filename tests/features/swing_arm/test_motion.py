@@ -13,13 +13,13 @@ from scipy.integrate import solve_ivp
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.floquet import arm_growth, floquet_edge
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.features.swing_arm.motion import arm_motion, simulated_motion, tongue
-from abu_calc.features.swing_arm.records import ArmMotion, TongueEdge
+from abu_calc.features.swing_arm.view import ArmMotion, TongueEdge
 from abu_calc.formulas.swing_arm import averaged_edge, contact_gain, forced_harmonics, free_rates, lifting_angle
 from abu_calc.foundation.errors import RangeError
 

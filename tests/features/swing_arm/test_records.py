@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.features.swing_arm.records import SwingArmRecord
+from abu_calc.features.swing_arm.view import SwingArmRecord
 from tests.features.swing_arm.test_verdict import judged
 
 

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.features.swing_arm.records import ArmHarmonic, ArmMotion, TongueEdge
-from abu_calc.features.swing_arm.view import tongue_lines
+from abu_calc.features.swing_arm.view import ArmHarmonic, ArmMotion, TongueEdge, tongue_lines
 from abu_calc.foundation.units import to_si
 from abu_calc.reporting.screen import LINES
 from tests.cli.runner import abu, once

@@ -2,10 +2,9 @@
 
 import pytest
 
-from abu_calc.features.verify.study import VerifiedFile, VerifyResult, _check, compare
-from abu_calc.features.verify.view import verify_blocks, verify_screen
+from abu_calc.features.verify.study import VerifiedFile, VerifyResult, _check, compare, verify_blocks, verify_screen
 from abu_calc.reporting.blocks import Grid
-from abu_calc.reporting.text import as_text
+from abu_calc.reporting.screen import as_text
 from abu_calc.simulation.result import Provenance
 
 ENTRIES = {"a": 1.0, "b": "k6"}

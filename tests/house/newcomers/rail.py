@@ -11,9 +11,8 @@ from typing import Any, Self
 import numpy as np
 
 from abu_calc.dynamics.motion import Levers, Motion
-from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
-from abu_calc.dynamics.race import Balls, Race
-from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
+from abu_calc.dynamics.rotor import Balls, Frame, Geometry, Parameters, Race
+from abu_calc.dynamics.scene_context import SmallMotion, Support, Unbalance
 from abu_calc.inputs.reading.table import Table, entry
 
 

@@ -4,10 +4,10 @@ import pytest
 
 import abu_calc
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.reading.format import FORMAT
 from abu_calc.inputs.reading.kinds import KINDS
+from abu_calc.inputs.reading.schema import template_of
 from abu_calc.inputs.reading.sources import text_of
-from abu_calc.inputs.reading.template import template_of
+from abu_calc.inputs.reading.text import FORMAT
 
 TEXT = text_of("avtovaz-707-222")
 

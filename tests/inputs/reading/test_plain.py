@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.reading.plain import DEEPEST, check_nesting, found_as, plain_number, plain_value
+from abu_calc.inputs.reading.values_with_units import DEEPEST, check_nesting, found_as, plain_number, plain_value
 
 
 @pytest.mark.parametrize(("given", "plain"), [

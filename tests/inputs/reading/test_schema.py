@@ -12,9 +12,8 @@ from pydantic import ValidationError
 
 from abu_calc.inputs.bearing_file import BearingFile
 from abu_calc.inputs.machine import MachineFile
-from abu_calc.inputs.reading.schema import schema_of
+from abu_calc.inputs.reading.schema import schema_of, template_of
 from abu_calc.inputs.reading.table import RULE
-from abu_calc.inputs.reading.template import template_of
 from tests.inputs.samples import BASIC, BEARINGS, document, full_text, mutated
 
 SCHEMA = schema_of("machine")

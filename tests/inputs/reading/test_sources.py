@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.inputs.reading import plain as bounds
 from abu_calc.inputs.reading import toml_text as lines
+from abu_calc.inputs.reading import values_with_units as bounds
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS
 from abu_calc.simulation.simulate import simulate
 from abu_calc.simulation.subject import subject_of

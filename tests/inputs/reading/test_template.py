@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.reading.schema import WIDTH, template_of
 from abu_calc.inputs.reading.table import all_tables
-from abu_calc.inputs.reading.template import WIDTH, template_of
 from abu_calc.inputs.wheel import QUANTITIES
 from tests.inputs.samples import document, read
 

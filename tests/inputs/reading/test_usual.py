@@ -11,9 +11,8 @@ from abu_calc.foundation.validity import bounded
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import read_file, read_machine
 from abu_calc.inputs.reading import sources as presets
-from abu_calc.inputs.reading.schema import schema_of
+from abu_calc.inputs.reading.schema import schema_of, template_of
 from abu_calc.inputs.reading.table import Table, Usual, all_tables, usual_of
-from abu_calc.inputs.reading.template import template_of
 from abu_calc.inputs.reading.text import unit_suffix
 from abu_calc.simulation.scene_file import SceneFile
 from tests.inputs import scenes

@@ -33,7 +33,7 @@ def with_entry(key: str, entry: str) -> tuple[str, int]:
 
 def models() -> dict[str, type[Table]]:
     from abu_calc.features.balancing.tables import ReadingsFile
-    from abu_calc.features.declare.tables import RecordingsFile
+    from abu_calc.features.declare.read import RecordingsFile
     from abu_calc.inputs.bearing_file import BearingFile
     from abu_calc.inputs.machine import MachineFile
     from abu_calc.simulation.scene_file import SceneFile

@@ -4,8 +4,7 @@ import pytest
 
 from abu_calc.reporting.blocks import Heading, Paragraph, Picture
 from abu_calc.reporting.charts.characters import HIGH, WIDE, characters, pictured
-from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
-from abu_calc.reporting.charts.figure import Figure
+from abu_calc.reporting.charts.chart import Axis, Curve, Figure, MarkedPoint, Plot
 
 AXES = Axis("x [s]", 0.0, 59.0), Axis("y [mm]", 0.0, 36.0)
 

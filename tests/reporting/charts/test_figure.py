@@ -14,8 +14,7 @@ import pytest
 import abu_calc
 from abu_calc.foundation.errors import InputError
 from abu_calc.registry import FIGURES, figures_of, known
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, MarkedPoint, Plot
-from abu_calc.reporting.charts.figure import Figure, caught, settling
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, Figure, MarkedPoint, Plot, caught, settling
 from abu_calc.reporting.charts.matplotlib_charts import colors
 from abu_calc.reporting.charts.matplotlib_draw import figure_file
 from abu_calc.reporting.drawings.shapes import Drawing

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, MarkedPoint, Plot
-from abu_calc.reporting.page.assets import beside
+from abu_calc.reporting.page.card import beside
 
 pytest.importorskip("matplotlib")
 

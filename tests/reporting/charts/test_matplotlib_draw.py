@@ -9,7 +9,7 @@ import pytest
 
 from abu_calc.foundation.errors import OutputError
 from abu_calc.registry import figures_of
-from abu_calc.reporting.charts.figure import Figure
+from abu_calc.reporting.charts.chart import Figure
 from abu_calc.reporting.charts.matplotlib_draw import figure_file
 from abu_calc.reporting.drawings.shapes import Drawing
 from tests.cli.runner import abu

@@ -12,7 +12,7 @@ import pytest
 
 from abu_calc.features.design.section_drawing import face_drawing, section_drawing
 from abu_calc.features.design.sheet import section_sheet, size_sheets
-from abu_calc.features.swing_arm.records import SwingArmRecord
+from abu_calc.features.swing_arm.view import SwingArmRecord
 from abu_calc.reporting.drawings.dimensions import box, primitives
 from abu_calc.reporting.drawings.shapes import Drawing, Length, Line, Radius, Region, Text
 from abu_calc.reporting.drawings.svg import svg_figure, svg_file

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from abu_calc.reporting.page.assets import beside, script, text
+from abu_calc.reporting.page.card import beside, script, text
 
 
 def test_no_word_is_an_element_or_acts() -> None:

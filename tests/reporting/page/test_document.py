@@ -14,8 +14,7 @@ from abu_calc.cli.app import COMMANDS as CALLED
 from abu_calc.features.grinding.view import LEFT_OUT as GRINDING_LEFT_OUT
 from abu_calc.features.stability.view import FOR_THE_ARM, LEFT_OUT
 from abu_calc.reporting.blocks import Block, Heading, Paragraph
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure
+from abu_calc.reporting.charts.chart import SUMMARY, Axis, Bar, Bars, Extras, Figure
 from abu_calc.reporting.outcome import Outcome
 from abu_calc.reporting.page.document import LAST, REPEAT
 from abu_calc.reporting.page.document import page as page_of

@@ -3,10 +3,9 @@
 import pytest
 
 from abu_calc.reporting.blocks import Facts, Grid, Heading, Paragraph, Picture
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Figure
 from abu_calc.reporting.drawings.shapes import Drawing, Line
-from abu_calc.reporting.page.elements import PIXELS, elements, figure, paragraph
+from abu_calc.reporting.page.document import PIXELS, elements, figure, paragraph
 from tests.reporting.page.reader import read
 
 

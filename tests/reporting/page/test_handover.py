@@ -3,8 +3,7 @@
 import pytest
 
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Extras, Figure
 from abu_calc.reporting.page.handover import ENTRIES, extras_handed_over, handed_over, without_commands
 
 

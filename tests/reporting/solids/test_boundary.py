@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 from abu_calc.reporting.solids.assembly import RevolvedSolid, ball_profile
-from abu_calc.reporting.solids.boundary import solid_entity
-from abu_calc.reporting.solids.entities import EntityFile
+from abu_calc.reporting.solids.step import EntityFile, solid_entity
 from tests.reporting.solids.profiles import turned_solids
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from abu_calc.reporting.solids.entities import EntityFile, spelled, written_string
+from abu_calc.reporting.solids.step import EntityFile, spelled, written_string
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from abu_calc.features.design.solids import size_solids
+from abu_calc.features.design.sheet import size_solids
 from abu_calc.reporting.solids.assembly import PlacedSolid, RevolvedSolid, SolidAssembly, ball_profile
 from abu_calc.reporting.solids.step import step_text
 from tests.reporting.drawings.samples import MACHINES, result

@@ -10,7 +10,7 @@ from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import candidates
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.manufacture.closure import burst_ratio
+from abu_calc.sizing.manufacture.cover import burst_ratio
 
 
 @cache

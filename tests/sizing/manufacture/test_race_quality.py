@@ -4,7 +4,7 @@ import pytest
 
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
-from abu_calc.sizing.manufacture.race_quality import race_quality
+from abu_calc.sizing.manufacture.ring_seat import race_quality
 from tests.sizing.machines import machine
 
 

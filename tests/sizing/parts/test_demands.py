@@ -5,7 +5,7 @@ import pytest
 from abu_calc.sizing.housing import STEEL, dimensions
 from abu_calc.sizing.manufacture.cover import Cover
 from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
-from abu_calc.sizing.manufacture.race_quality import RaceQuality
+from abu_calc.sizing.manufacture.ring_seat import RaceQuality
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE, with_surfaces
 from abu_calc.sizing.parts.housing_parts import BallSet, HousingParts, TurnedPart, body_profile, cover_profile
 

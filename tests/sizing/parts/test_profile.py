@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from abu_calc.sizing.parts.profile import Corner, Point, Segment, closed, moments, polar_moment, volume
+from abu_calc.sizing.parts.housing_parts import Corner, Point, Segment, closed, moments, polar_moment, volume
 
 
 def test_a_sphere_and_a_torus_by_their_profiles() -> None:

@@ -5,8 +5,7 @@ import shlex
 from typing import Final
 
 import abu_calc
-from abu_calc.features.stability.attractor_search import search
-from abu_calc.features.stability.attractors import searched_scene
+from abu_calc.features.stability.attractors import search, searched_scene
 from abu_calc.simulation.scene_file import read_any
 from abu_calc.simulation.subject import subject_of
 from tests.studies.atlas.charts import AtlasChart

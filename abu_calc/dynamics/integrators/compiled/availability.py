@@ -56,7 +56,7 @@ def main() -> None:
     from abu_calc.dynamics.equations.assemble import assemble
     from abu_calc.dynamics.integrators.compiled.kernels import METHODS
     from abu_calc.dynamics.integrators.compiled.run import integrate
-    from abu_calc.dynamics.race import Race
+    from abu_calc.dynamics.rotor import Race
     from abu_calc.dynamics.scene import Scene
     from abu_calc.dynamics.supports.planar import planar
 

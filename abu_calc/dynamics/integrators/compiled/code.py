@@ -18,7 +18,7 @@ from abu_calc.dynamics.integrators.compiled import arrays, llvm_engine, llvm_tex
 from abu_calc.dynamics.integrators.compiled.kernels import Method, kernels, step_numbers
 from abu_calc.dynamics.integrators.compiled.llvm_engine import CompilerError, LoadedModule
 from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program, program
-from abu_calc.dynamics.parameters import Acting
+from abu_calc.dynamics.rotor import Acting
 from abu_calc.foundation.disk_cache import Cache
 from abu_calc.version import __version__
 

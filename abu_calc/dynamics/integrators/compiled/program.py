@@ -21,15 +21,13 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.codegen.graph import Functions, Graph, Symbol
-from abu_calc.dynamics.codegen.tracer import symbols
+from abu_calc.dynamics.codegen.tracer import Functions, Graph, Symbol, symbols
 from abu_calc.dynamics.effect import Effect, Kind
 from abu_calc.dynamics.effects.ball_contact import Neighbours
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.equations.right_hand_side import accelerations, derivative, with_states
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Acting, Modes, Parameters
-from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import Acting, Modes, Parameters, Race
 from abu_calc.foundation.frozen import dataclass
 
 EQUATIONS = ("setup", "rates", "watched", "apparent")

@@ -30,7 +30,7 @@ from abu_calc.dynamics.integrators.run import (
     exceeded,
     lost,
 )
-from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.rotor import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
 from abu_calc.dynamics.switching.stick_slip import AT_REST
 from abu_calc.dynamics.trajectory import Times, Trajectory

@@ -10,9 +10,7 @@ from typing import Final, Literal, NamedTuple
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.reporting.drawings.shapes import digits, toleranced
-from abu_calc.sizing.parts.housing_parts import TurnedPart
-from abu_calc.sizing.parts.profile import drawn
-from abu_calc.sizing.parts.surfaces import Surface
+from abu_calc.sizing.parts.housing_parts import Surface, TurnedPart, drawn
 
 FROM_RIGHT: Final = 0.7
 """Places beyond this share of the length are measured from the right face."""

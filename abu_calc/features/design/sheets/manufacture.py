@@ -10,9 +10,7 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.units import shown
 from abu_calc.reporting.drawings.shapes import digits
 from abu_calc.sizing.manufacture.cover import seat_growth
-from abu_calc.sizing.parts.housing_parts import HousingParts, TurnedPart
-from abu_calc.sizing.parts.profile import drawn
-from abu_calc.sizing.parts.surfaces import GeometricalTolerance, Surface
+from abu_calc.sizing.parts.housing_parts import GeometricalTolerance, HousingParts, Surface, TurnedPart, drawn
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ from typing import Final
 from abu_calc.features.design.section_drawing import HATCHES, OVERHANG, STACK, STEP, flattened
 from abu_calc.features.design.sheets.dimension_plan import Diameter, DimensionPlan, Edge
 from abu_calc.foundation.units import from_si
-from abu_calc.reporting.drawings.callouts import RISE, Callout, column, rising_column
-from abu_calc.reporting.drawings.dimensions import extent
+from abu_calc.reporting.drawings.dimensions import RISE, Callout, column, extent, rising_column
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
     Arc,
@@ -22,9 +21,7 @@ from abu_calc.reporting.drawings.shapes import (
     digits,
     text_width,
 )
-from abu_calc.sizing.parts.housing_parts import TurnedPart
-from abu_calc.sizing.parts.profile import drawn
-from abu_calc.sizing.parts.surfaces import Surface
+from abu_calc.sizing.parts.housing_parts import Surface, TurnedPart, drawn
 
 GAP: Final = 8.0
 """Distance from the last dimension to the callouts, on paper [mm]."""

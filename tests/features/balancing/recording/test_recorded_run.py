@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import abu_calc
-from abu_calc.features.balancing.recording.recorded_run import RecordedRun, RigRecord, read_rig_record, recorded_run
+from abu_calc.features.balancing.recorded_run import RecordedRun, RigRecord, read_rig_record, recorded_run
 from abu_calc.foundation.errors import InputError
 from tests.features.balancing.rig import DAMPING, RIG, ROTOR, Simulated, Workshop, csv, recorded, turned, written
 

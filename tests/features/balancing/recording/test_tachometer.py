@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from abu_calc.features.balancing.recording.tachometer import passages, smooth
+from abu_calc.features.balancing.recorded_run import passages, smooth
 from abu_calc.foundation.errors import InputError
 
 RATE, TURN, WIDTH, FIRST = 10_000.0, 0.02037, 0.00105, 0.0049

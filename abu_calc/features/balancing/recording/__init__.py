@@ -1,1 +1,0 @@
-"""Recorded runs: marks of revolutions, and amplitude and phase at the speed of rotation."""
