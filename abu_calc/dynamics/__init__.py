@@ -2,16 +2,13 @@
 
 Files of this folder hold the nouns and the interfaces, and import no package below them:
 
-motion.py         places and speeds of everything, loads, all accelerations
-rotor.py          how a rotor turns: steady, guided, driven
-parameters.py     the numbers that the equations read
-race.py           races and their balls
-chains.py         balls that move as one
-support.py        the interface of a support
-scene_context.py  all of a scene but its effects
-effect.py         the interface of an effect
-scene.py          both together
-trajectory.py     the samples that an integrator returns
+motion.py      places and speeds of everything, loads, all accelerations
+rotor.py       how a rotor turns: steady, guided, driven; its races and their balls; the numbers that the equations read
+chains.py      balls that move as one
+support.py     the interface of a support, and all of a scene but its effects
+effect.py      the interface of an effect
+scene.py       both together
+trajectory.py  the samples that an integrator returns
 
 Packages; each imports only those before it:
 

@@ -12,7 +12,7 @@ from pydantic import Field
 
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import STEADY, Acting, Modes, Parameters, Rotation
-from abu_calc.dynamics.scene_context import Circumstances, Holding
+from abu_calc.dynamics.support import Circumstances, Holding
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading.table import Table

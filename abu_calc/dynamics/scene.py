@@ -9,7 +9,7 @@ import numpy as np
 
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.rotor import Race, Rotation, most_demanding
-from abu_calc.dynamics.scene_context import Array, Circumstances, Complex, Holding, Support
+from abu_calc.dynamics.support import Array, Circumstances, Complex, Holding, Support
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
 

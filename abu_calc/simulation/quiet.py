@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.rotor import Race, balls_of
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.scene_context import Support
+from abu_calc.dynamics.support import Support
 from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass

@@ -18,7 +18,7 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene, parted_angles, placed
-from abu_calc.dynamics.scene_context import Support
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.planar import in_hands, planar
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport, cutting_arm, idle_arm

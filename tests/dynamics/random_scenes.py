@@ -20,7 +20,7 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.scene import Race, Scene, placed
-from abu_calc.dynamics.scene_context import Support
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.planar import LinearSupport, PlanarSupport, planar
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.supports.tilting import tilting

@@ -8,7 +8,7 @@ from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.motor import MotorEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.scene_context import Support
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.planar import LinearSupport, PlanarSupport, planar
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.supports.tilting import tilting

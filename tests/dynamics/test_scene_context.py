@@ -10,7 +10,7 @@ from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.rotor import STEADY
-from abu_calc.dynamics.scene_context import Unbalance
+from abu_calc.dynamics.support import Unbalance
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import scene_on
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.scene_context import SmallMotion
+from abu_calc.dynamics.support import SmallMotion
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import SUPPORTS, scene_on
 

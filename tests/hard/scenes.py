@@ -11,7 +11,7 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import available, integrate_with
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
-from abu_calc.dynamics.scene_context import Support
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.dynamics.trajectory import Trajectory

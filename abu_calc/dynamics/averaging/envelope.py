@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.integrators.run import Recorder
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.scene_context import SmallMotion
+from abu_calc.dynamics.support import SmallMotion
 from abu_calc.dynamics.trajectory import Sampling, Times, Trajectory
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass

@@ -1,5 +1,5 @@
 """The equations as straight-line code, traced from the one right-hand side.
 
-graph.py   all expressions, each once, and the symbols that stand for states and parameters while they are made
-tracer.py  the trace, the numbers that its code runs with, and plain Python on numbers for SciPy's methods
+All expressions, each once; the symbols that stand for states and parameters while they are made; the trace, the numbers
+that its code runs with, and plain Python on numbers for SciPy's methods.
 """

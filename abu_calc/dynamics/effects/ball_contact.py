@@ -28,7 +28,7 @@ from abu_calc.dynamics.chains import Chains
 from abu_calc.dynamics.effect import BallRadius, Effect, EffectInfluence, Kind, Rule, SwitchPoint
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import Parameters, Race
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.switching.ball_impacts import Responses, approaches, impacts, pressing, responses
 from abu_calc.dynamics.switching.stick_slip import AT_REST
 from abu_calc.foundation.errors import InputError

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.effect import ACROSS_RATE, BallRadius, Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
 from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import Parameters
-from abu_calc.dynamics.scene_context import Circumstances, Holding
+from abu_calc.dynamics.support import Circumstances, Holding
 from abu_calc.dynamics.supports.steady_motion import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.stick_slip import CROSSES, HOLD, SLOW, Rolling, decided, forces
 from abu_calc.dynamics.trajectory import Samples, at_samples, merged

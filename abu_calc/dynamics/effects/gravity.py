@@ -17,7 +17,7 @@ import numpy as np
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.rotor import Parameters
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.errors import InputError

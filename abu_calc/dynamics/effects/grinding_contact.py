@@ -31,7 +31,7 @@ import numpy as np
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
 from abu_calc.dynamics.motion import AnyArray, Constraint, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import Parameters
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.supports.steady_motion import receptance, reference_imbalance, weighing_amplitude
 from abu_calc.dynamics.switching.contact_stop import RUNAWAY, Cutting, Slip, check_speeds, decided, goes_on, inside
 from abu_calc.dynamics.trajectory import Samples, at_samples

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import Parameters
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.switching.contact_stop import inside
 from abu_calc.dynamics.trajectory import Samples

@@ -17,7 +17,7 @@ import numpy as np
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import DRIVEN, Parameters, Rotation
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.duty import Motor
 

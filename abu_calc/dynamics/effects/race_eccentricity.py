@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.rotor import Parameters
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.supports.steady_motion import weighing_amplitude
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.inputs.reading.table import Table, entry

@@ -27,7 +27,7 @@ from pydantic import model_validator
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import GUIDED, Parameters, Rotation
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass

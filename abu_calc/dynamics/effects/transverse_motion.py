@@ -32,7 +32,7 @@ from pydantic import model_validator
 from abu_calc.dynamics.effect import ACROSS, ACROSS_RATE, BallRadius, Effect, EffectInfluence, Kind, SwitchPoint
 from abu_calc.dynamics.motion import Across, AnyArray, Axial, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import Parameters, Race
-from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.supports.steady_motion import unbalanced_amplitude, weighing_amplitude
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations.assemble import assemble, jacobian
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.scene_context import Support
 from abu_calc.dynamics.stability.linearised import QUARTER
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.steady_motion import receptance
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass

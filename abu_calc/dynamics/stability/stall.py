@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.scene_context import SmallMotion
 from abu_calc.dynamics.stability.resting import needed_gap
+from abu_calc.dynamics.support import SmallMotion
 from abu_calc.dynamics.trajectory import merged
 from abu_calc.formulas.slow_motion import damped_drag, gravity_drag, resonance_drag, side_by_side
 from abu_calc.foundation.frozen import dataclass

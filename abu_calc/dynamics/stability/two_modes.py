@@ -20,10 +20,10 @@ from typing import Final, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.scene_context import SmallMotion
 from abu_calc.dynamics.stability import floquet
 from abu_calc.dynamics.stability.arrangements import likeness
 from abu_calc.dynamics.stability.linearised import QUARTER, WIDE_SPAN, BalancedMotion
+from abu_calc.dynamics.support import SmallMotion
 from abu_calc.foundation.frozen import dataclass
 
 Array = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Kinds of support, one file each; every one answers by the interface in `dynamics.scene_context`.
+"""Kinds of support, one file each; every one answers by the interface in `dynamics.support`.
 
 planar.py      springs, dampers, masses: a point mass on springs, with a further body on it, or held in two hands
 tilting.py     a rigid rotor on bearings

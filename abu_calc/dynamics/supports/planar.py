@@ -16,7 +16,7 @@ from pydantic import Field
 
 from abu_calc.dynamics.motion import AnyArray, Levers, Motion
 from abu_calc.dynamics.rotor import LARGEST, Balls, Frame, Geometry, Parameters, Race, finite
-from abu_calc.dynamics.scene_context import SmallMotion, Support, Unbalance
+from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.formulas.suspension import hand_masses, joined
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass

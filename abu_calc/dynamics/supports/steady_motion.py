@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.scene_context import Circumstances, Support, undamped_resonance
+from abu_calc.dynamics.support import Circumstances, Support, undamped_resonance
 from abu_calc.formulas.motion import HARDLY
 
 RESONANCE = 1e-12

@@ -11,7 +11,7 @@ from pydantic import model_validator
 
 from abu_calc.dynamics.motion import AnyArray, Levers, Motion
 from abu_calc.dynamics.rotor import LARGEST, NON_NEGATIVE, Balls, Frame, Geometry, Parameters, Race, finite
-from abu_calc.dynamics.scene_context import SmallMotion, Support, Unbalance
+from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.formulas.swing_arm import Arm, contact_gain, damping_limit, resonance
 from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
 from abu_calc.foundation.frozen import dataclass

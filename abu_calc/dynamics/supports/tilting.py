@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from abu_calc.dynamics.motion import AnyArray, Axial, Leaning, Levers, Motion
 from abu_calc.dynamics.rotor import LARGEST, Geometry, Parameters, Race
-from abu_calc.dynamics.scene_context import Unbalance
+from abu_calc.dynamics.support import Unbalance
 from abu_calc.dynamics.supports.planar import (
     DAMPING,
     MASS,

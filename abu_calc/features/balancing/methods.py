@@ -3,7 +3,7 @@
     by data            X − W·T = W·Q, W by the rig's data                       formulas.py beside it
     by trials          X = W·(Q + T), W and W·Q by least squares over the runs of each speed, T the masses that were on
     by coefficients    X − W·T = W·Q, W as stored
-    without phase      |X| = g·|Q + T| of each sensor                           without_phase.py beside it
+    without phase      |X| = g·|Q + T| of each sensor                           runs.py beside it
 
 Q is one for all speeds and sensors: it minimises the sum of the squares of the vibration that remains, over all sensors
 and speeds, in the quantity that the sensors read. Numbers in SI; imbalances and motions as complex numbers, as in

@@ -1,4 +1,4 @@
 """Geometry of the parts that a shop makes: one frozen description in SI, for drawings, solids and checks alike.
 
-`profile` holds revolved outlines, `surfaces` what is asked of them, `housing_parts` the parts of each design.
+`housing_parts` holds revolved outlines, what is asked of surfaces, and the parts of each design; `demands` the sizes.
 """

@@ -16,12 +16,12 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.equations.assemble import assemble, jacobian
 from abu_calc.dynamics.equations.right_hand_side import rhs
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.scene_context import Support
 from abu_calc.dynamics.stability.boundaries import boundaries
 from abu_calc.dynamics.stability.floquet import multipliers
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.resting import NotKnownError, Rest, resting_state
 from abu_calc.dynamics.stability.verdict import critical_damping, stability
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.supports.tilting import tilting
 from tests.dynamics.scenes import coupled_scene, hand_support

@@ -12,7 +12,7 @@ import numpy as np
 
 from abu_calc.dynamics.motion import Levers, Motion
 from abu_calc.dynamics.rotor import Balls, Frame, Geometry, Parameters, Race
-from abu_calc.dynamics.scene_context import SmallMotion, Support, Unbalance
+from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.inputs.reading.table import Table, entry
 
 
