@@ -4,6 +4,7 @@ A code has its question, a condition for each grade, its action, its unit and it
 texts. They are in check_data/, one file for each hundred, read when one of its codes is first requested.
 """
 
+import math
 import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -231,10 +232,14 @@ def coded(
 
 
 def _for_readers(value: float | EllipsisType | None, unit: str | None) -> float | None:
-    """An SI number in a unit, freed of the noise of the conversion; unchanged if the unit is no SI one."""
+    """An SI number in a unit, a round one freed of the noise of the conversion; unchanged if the unit is no SI one."""
     if value is None or isinstance(value, EllipsisType):
         return None
-    return float(f"{from_si(value, unit):.15g}") if unit in SI_PER_UNIT else value
+    if unit not in SI_PER_UNIT:
+        return value
+    shown = from_si(value, unit)
+    short = float(f"{shown:.10g}")
+    return short if math.isclose(shown, short, rel_tol=1e-15) else shown
 
 
 def first_of(checks: Iterable[Check], key: str) -> Check | None:

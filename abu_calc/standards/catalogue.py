@@ -70,7 +70,7 @@ Rolling bearings, 2018, whose medians are 0.80 and 0.47."""
 def closed(row: CatalogueBearing, closure: str) -> CatalogueBearing:
     """The row of a bearing with shields or rubbing seals, whose limiting speed is lower.
 
-    >>> round(closed(catalogue_bearing("6206"), "seals").limiting_speed * 30 / math.pi)
+    >>> round(closed(catalogue_bearing("6206"), "seals").limiting_speed * 30 / 3.14159265)
     6600
     """
     share = 1.0 if row.with_grease and closure == "shields" else CLOSED_SPEED[closure]
