@@ -128,4 +128,6 @@ def test_no_expected_value_of_a_preset_changes(preset: str) -> None:
                 if path not in ("status", "tolerance")}  # fmt: skip
     limits = KEPT if preset in PRESETS else {"limits.quiet_time_s": 10.0}
     found = recompute(machine.changed(limits))
-    assert not [value for value in compare(expected, {}, found) if not value.passed]
+    # The limit moves the ends of the start cases of two races, and with them their level.
+    tolerances = {} if preset in PRESETS else {"vibration.level_after_db": 0.003}
+    assert not [value for value in compare(expected, tolerances, found) if not value.passed]
