@@ -2,9 +2,8 @@
 
 Files of this folder hold the nouns and the interfaces, and import no package below them:
 
-motion.py      places and speeds of everything, loads, all accelerations
+motion.py      places and speeds of everything, loads, all accelerations; balls that move as one
 rotor.py       how a rotor turns: steady, guided, driven; its races and their balls; the numbers that the equations read
-chains.py      balls that move as one
 support.py     the interface of a support, and all of a scene but its effects
 effect.py      the interface of an effect
 scene.py       both together

@@ -12,10 +12,9 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.construction import Construction
-from abu_calc.sizing.manufacture.cover import filling_gap_of, seat_name
+from abu_calc.sizing.manufacture.cover import Fit, filling_gap_of, seat_name
 from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit, microns
 from abu_calc.sizing.manufacture.ring_seat import RaceQuality
-from abu_calc.sizing.manufacture.spindle_fit import Fit
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.track import Track
 from abu_calc.standards.tolerance_classes import DeviationLimits

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.chains import Chains
+from abu_calc.dynamics.motion import Chains
 
 
 @st.composite

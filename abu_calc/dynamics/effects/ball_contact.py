@@ -24,9 +24,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.chains import Chains
 from abu_calc.dynamics.effect import BallRadius, Effect, EffectInfluence, Kind, Rule, SwitchPoint
-from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.motion import AnyArray, Chains, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import Parameters, Race
 from abu_calc.dynamics.support import Circumstances
 from abu_calc.dynamics.switching.ball_impacts import Responses, approaches, impacts, pressing, responses

@@ -26,8 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.chains import Chains
-from abu_calc.dynamics.motion import Across, AnyArray, Constraint, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.motion import Across, AnyArray, Chains, Constraint, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.rotor import Acting, Parameters
 
 

@@ -12,7 +12,7 @@ from typing import Annotated, Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import Arrangement
+from abu_calc.dynamics.stability.family import Arrangement
 from abu_calc.dynamics.stability.linearised import Array, BalancedMotion
 from abu_calc.dynamics.stability.resting import still_axis
 from abu_calc.dynamics.stability.two_modes import LinearMotion, two_modes

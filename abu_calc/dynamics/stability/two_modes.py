@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.stability import floquet
-from abu_calc.dynamics.stability.arrangements import likeness
+from abu_calc.dynamics.stability.family import likeness
 from abu_calc.dynamics.stability.linearised import QUARTER, WIDE_SPAN, BalancedMotion
 from abu_calc.dynamics.support import SmallMotion
 from abu_calc.foundation.frozen import dataclass

@@ -19,8 +19,16 @@ from typing import Final, Literal, Protocol, Self, TypeVar
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import Arrangement, likeness, rests
-from abu_calc.dynamics.stability.family import Array, Family, Race, largest, neighbours
+from abu_calc.dynamics.stability.family import (
+    Arrangement,
+    Array,
+    BallGroup,
+    Family,
+    largest,
+    likeness,
+    neighbours,
+    rests,
+)
 from abu_calc.dynamics.stability.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.stability.resting import NotKnownError, Rest, needed_gap, resting_state
 from abu_calc.dynamics.stability.two_modes import LinearMotion, TwoModes, two_modes
@@ -163,7 +171,7 @@ class Search:
         return self.listed[0].scene.ball_masses
 
     @cached_property
-    def races(self) -> list[Race]:
+    def races(self) -> list[BallGroup]:
         """Masses, resultant and needed gap of the balls of each race, which a search keeps."""
         scene, angles = self.listed[0].scene, self.listed[0].angles
         return [

@@ -66,7 +66,7 @@ STEPS: Final[Mapping[str, Step]] = {
         "sizing.budget: ovality_residual permitted_displacement",
         "sizing.budget: plane_rest",
         "sizing.manufacture.eccentricity: eccentricity_sum",
-        "sizing.manufacture.spindle_fit: fit_eccentricity",
+        "sizing.manufacture.cover: fit_eccentricity",
         "sizing.manufacture.eccentricity: housing_eccentricity",
     ),
     "balls": Step.of(
@@ -81,7 +81,7 @@ STEPS: Final[Mapping[str, Step]] = {
         "ring_flexure web_lobes wall_lobes hinged_wall_lobes",
         "sizing.track: carry_over_speed",
         "formulas.slow_motion: ball_stiffness decay_rate optimum_drag",
-        "features.sweep.columns: drag_ratio",
+        "features.sweep.batches: drag_ratio",
     ),
     "oil": Step.of(
         "Drag of oil in the race",

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from abu_calc.features.design.judgement import judge
 from abu_calc.features.optimise.choices import Choice, cost_entries
-from abu_calc.features.optimise.members import SampleSource
-from abu_calc.features.optimise.racing import CandidateRace
+from abu_calc.features.optimise.racing import CandidateRace, SampleSource
 from abu_calc.features.optimise.result import (
     ChosenKey,
     FrontPoint,

@@ -13,8 +13,18 @@ from typing import Any, Final
 from abu_calc.features.design.study import WORKERS
 from abu_calc.features.optimise.answers import OptimiseRequest, answered, asked_of
 from abu_calc.features.optimise.choices import Choice, options_of, usual_of_family
-from abu_calc.features.optimise.members import COLUMNS, MOST, SampleSource, VariantStudy
-from abu_calc.features.optimise.racing import FIRST, CandidateRace, front, highest, run, runners_up
+from abu_calc.features.optimise.racing import (
+    COLUMNS,
+    FIRST,
+    MOST,
+    CandidateRace,
+    SampleSource,
+    VariantStudy,
+    front,
+    highest,
+    run,
+    runners_up,
+)
 from abu_calc.features.optimise.result import OptimiseResult, SearchSpace, search_space
 from abu_calc.features.sweep.batches import RenewableExecutor
 from abu_calc.features.sweep.execution import Workers, software

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Race, Scene, parted_angles
-from abu_calc.dynamics.stability.stuck_speeds import natural_frequencies, stuck_speeds
+from abu_calc.dynamics.stability.stall import natural_frequencies, stuck_speeds
 from abu_calc.dynamics.supports.steady_motion import reference_imbalance
 from abu_calc.dynamics.trajectory import Samples, Sampling, Trajectory, Until, merged
 from abu_calc.formulas.balls import half_angle

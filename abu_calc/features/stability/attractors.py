@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Annotated, Final
 
 from abu_calc.dynamics.scene import Scene, without
-from abu_calc.dynamics.stability.stuck_speeds import ClosedStuckSpeed, natural_frequencies, stuck_speeds
+from abu_calc.dynamics.stability.stall import ClosedStuckSpeed, natural_frequencies, stuck_speeds
 from abu_calc.features.stability.attractor_ends import (
     CHAOTIC,
     CLOSER,

@@ -9,8 +9,8 @@ from typing import Annotated, ClassVar, Final, NamedTuple, Self
 
 from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import ARRANGEMENTS, Arrangement
 from abu_calc.dynamics.stability.boundaries import Crossing, StabilityBoundary, boundaries, crossings_of, growth_over
+from abu_calc.dynamics.stability.family import ARRANGEMENTS, Arrangement
 from abu_calc.dynamics.stability.stall import hanging_bounds
 from abu_calc.dynamics.stability.verdict import Stability, critical_damping
 from abu_calc.dynamics.stability.verdict import stability as judged

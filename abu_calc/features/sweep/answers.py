@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from abu_calc.features.sweep.columns import BALANCES, DECIDING, FLAGS, IMPATIENT, MEETS, QUANTITIES, What
+from abu_calc.features.sweep.batches import BALANCES, DECIDING, FLAGS, IMPATIENT, MEETS, QUANTITIES, What
 from abu_calc.features.sweep.result import (
     Basin,
     Chart,

@@ -23,9 +23,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any, Final
 
+from abu_calc.features.sweep.batches import OUTSIDE, RenewableExecutor, Row, given, here, in_batches, processes
 from abu_calc.features.sweep.batches import BatchStudy as Computed
-from abu_calc.features.sweep.batches import RenewableExecutor, Row, given, here, in_batches, processes
-from abu_calc.features.sweep.columns import OUTSIDE
 from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.store import Store
 from abu_calc.features.sweep.store_faults import fault

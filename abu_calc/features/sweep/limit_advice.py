@@ -24,8 +24,7 @@ from abu_calc.features.design.changes import changes_for_starts
 from abu_calc.features.design.judgement import ACCURACY, Judgement, judge
 from abu_calc.features.design.next_step import LESS, Entries, harmless, proposals
 from abu_calc.features.sweep.answers import parts_of
-from abu_calc.features.sweep.batches import Row
-from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, LEVEL, QUIET
+from abu_calc.features.sweep.batches import FLAGS, IMPATIENT, LEVEL, QUIET, Row
 from abu_calc.features.sweep.plan import DRAG, WARMTH, Plan, SweepRequest, planned
 from abu_calc.features.sweep.result import DecidingValue, FailedLimit, LimitAdvice, MeetsLimits
 from abu_calc.features.sweep.samples import SweepStudy

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 from abu_calc.features.spindle.case import SpindleDesign, size_races
-from abu_calc.features.sweep.columns import TEMPERATURE
+from abu_calc.features.sweep.batches import TEMPERATURE
 from abu_calc.features.sweep.samples import PHASE, Builds, Designs, Scenes, SpindleBuilds, SweepStudy, phase_keys
 from abu_calc.features.sweep.sensitivity import Factor, Sample
 from abu_calc.foundation.errors import InputError, Place

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final
 
 from numpy.typing import NDArray
 
-from abu_calc.features.sweep.columns import MEMBER, SEED, SampleColumn
+from abu_calc.features.sweep.batches import MEMBER, SEED, SampleColumn
 from abu_calc.features.sweep.store import Store, connected
 from abu_calc.features.sweep.store_faults import faults_of
 from abu_calc.foundation.quantity import Quantity, Record, record

@@ -24,8 +24,7 @@ from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.features.design.study import size
 from abu_calc.features.spindle.case import SpindleCase, SpindleDesign
 from abu_calc.features.spindle.start_cases import FIRST_TOLERANCE, race_centre, race_needs, start_of, start_once
-from abu_calc.features.sweep.batches import Row
-from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, What, drag_ratio
+from abu_calc.features.sweep.batches import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, Row, What, drag_ratio
 from abu_calc.features.sweep.sensitivity import Sample
 from abu_calc.formulas.tilting_rotor import eccentricity_resultants
 from abu_calc.foundation import patience

@@ -20,7 +20,7 @@ from uuid import uuid4
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.features.sweep.columns import MEMBER, OUTSIDE, OVERTIME, REASON, SampleColumn
+from abu_calc.features.sweep.batches import MEMBER, OUTSIDE, OVERTIME, REASON, SampleColumn
 from abu_calc.features.sweep.store_faults import PLACE, damaged, fault, faults_of, refuse_foreign
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.reading.text import shown_short

@@ -11,7 +11,7 @@ from typing import Any, Final
 from abu_calc.features.design.study import WORKERS
 from abu_calc.features.seats.seats import bearing_checks
 from abu_calc.features.sweep import answers
-from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
+from abu_calc.features.sweep.batches import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
 from abu_calc.features.sweep.execution import Take, Workers, compute, once_more, software
 from abu_calc.features.sweep.limit_advice import advice, failed_limits
 from abu_calc.features.sweep.plan import Plan, SweepRequest, asked, planned

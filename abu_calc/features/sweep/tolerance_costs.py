@@ -12,8 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from abu_calc.features.sweep.answers import percentiles, there
-from abu_calc.features.sweep.batches import Row
-from abu_calc.features.sweep.columns import DECIDING, IMPATIENT, MEETS
+from abu_calc.features.sweep.batches import DECIDING, IMPATIENT, MEETS, Row
 from abu_calc.features.sweep.result import Price, Sensitivity
 from abu_calc.features.sweep.samples import SweepStudy
 from abu_calc.features.sweep.sensitivity import Sample

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import Arrangement
+from abu_calc.dynamics.stability.family import Arrangement
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.foundation.checks import Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError

@@ -14,8 +14,8 @@ from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.bearing_ring import ring_of
+from abu_calc.sizing.manufacture.cover import Fit, standard_fits
 from abu_calc.sizing.manufacture.fastening import SLIP_FACTOR, bore_growth, needed_torque, shrunk_torque, whole_inertia
-from abu_calc.sizing.manufacture.spindle_fit import Fit, standard_fits
 from abu_calc.sizing.parts.housing_parts import candidate_dimensions, housing_parts
 from abu_calc.standards.self_aligning import RUNOUT_CLASSES, outer_run_out
 from abu_calc.standards.tolerance_classes import grade_tolerance

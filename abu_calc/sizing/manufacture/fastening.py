@@ -20,8 +20,7 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import shown
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import RULES, HousingDimensions
-from abu_calc.sizing.manufacture.cover import OVERSPEED, PROOF_SHARE
-from abu_calc.sizing.manufacture.spindle_fit import Fit
+from abu_calc.sizing.manufacture.cover import OVERSPEED, PROOF_SHARE, Fit
 from abu_calc.sizing.parts.housing_parts import HousingParts
 
 SLIP_FACTOR: Final = 2.0

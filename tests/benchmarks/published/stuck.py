@@ -14,7 +14,7 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.rotor import Race
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.stuck_speeds import stuck_speeds
+from abu_calc.dynamics.stability.stall import stuck_speeds
 from abu_calc.dynamics.supports.planar import planar
 
 MASS, DAMPING, DRAG = 0.01, 0.05, 0.02

@@ -9,8 +9,8 @@ import pytest
 from scipy.optimize import minimize
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import _sizes, likeness, rests, spread
 from abu_calc.dynamics.stability.boundaries import boundaries, crossings_of
+from abu_calc.dynamics.stability.family import _sizes, likeness, rests, spread
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.resting import NotKnownError
 from abu_calc.dynamics.stability.two_modes import two_modes

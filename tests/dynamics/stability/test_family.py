@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.stability.arrangements import likeness
-from abu_calc.dynamics.stability.family import Family, closed, largest, moved_to, neighbours
+from abu_calc.dynamics.stability.family import Family, closed, largest, likeness, moved_to, neighbours
 
 MASSES, ANGLES = np.array((1.0, 1.0, 0.8, 1.2)), np.array((0.3, 1.9, 3.4, 5.0))
 

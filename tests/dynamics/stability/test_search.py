@@ -10,9 +10,8 @@ import pytest
 
 import abu_calc
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.arrangements import likeness
 from abu_calc.dynamics.stability.boundaries import boundaries, crossings_of, growth_over
-from abu_calc.dynamics.stability.family import Family, closed
+from abu_calc.dynamics.stability.family import Family, closed, likeness
 from abu_calc.dynamics.stability.linearised import BalancedMotion
 from abu_calc.dynamics.stability.resting import resting_angles
 from abu_calc.dynamics.stability.two_modes import two_modes

@@ -59,7 +59,7 @@ def test_any_executor_gives_the_same_answer(small: OptimiseResult, monkeypatch: 
 def test_a_store_goes_on_and_computes_nothing_twice(
     small: OptimiseResult, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    from abu_calc.features.optimise import members
+    from abu_calc.features.optimise import racing as members
 
     store = tmp_path / "race.sqlite"
     computed: list[int] = []

@@ -12,7 +12,7 @@ import pytest
 import abu_calc
 from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.stuck_speeds import stuck_speeds
+from abu_calc.dynamics.stability.stall import stuck_speeds
 from abu_calc.features.stability.attractor_ends import EndState, Follower, designed_starts, drawn_starts, started
 from abu_calc.features.stability.attractors import alike, attractors_of, grouped, search
 from abu_calc.foundation.errors import InputError

@@ -8,7 +8,7 @@ import pytest
 from scipy.stats import beta
 
 from abu_calc.features.sweep.answers import basins, chart, distributions, failed, meets, percentiles, spread, there
-from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
+from abu_calc.features.sweep.batches import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
 from abu_calc.features.sweep.sensitivity import Factor, Sample
 from abu_calc.features.sweep.store import Store
 from abu_calc.foundation.errors import Place

@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.features.sweep.columns import DECIDING, FLAGS, LEVEL, MEETS, QUANTITIES, QUIET, drag_ratio
+from abu_calc.features.sweep.batches import DECIDING, FLAGS, LEVEL, MEETS, QUANTITIES, QUIET, drag_ratio
 from abu_calc.foundation.errors import InputError
 
 

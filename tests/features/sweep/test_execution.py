@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.features.sweep.batches import Row
-from abu_calc.features.sweep.columns import LEVEL, MEMBER, OUTSIDE, REASON, SEED
+from abu_calc.features.sweep.batches import LEVEL, MEMBER, OUTSIDE, REASON, SEED, Row
 from abu_calc.features.sweep.execution import Attributed, Workers, compute, once_more, software, worker_name
 from abu_calc.features.sweep.store import Store
 from abu_calc.foundation.errors import InputError

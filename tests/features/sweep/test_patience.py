@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.features.sweep.batches import Row, in_batches, processes
-from abu_calc.features.sweep.columns import IMPATIENT
+from abu_calc.features.sweep.batches import IMPATIENT, Row, in_batches, processes
 from abu_calc.features.sweep.plan import asked, planned
 from abu_calc.features.sweep.samples import Builds, Overtime, SweepStudy
 from abu_calc.foundation import patience

@@ -10,7 +10,7 @@ import pytest
 
 import abu_calc
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
-from abu_calc.features.sweep.columns import drag_ratio
+from abu_calc.features.sweep.batches import drag_ratio
 from abu_calc.features.sweep.plan import asked, planned
 from abu_calc.features.sweep.samples import Builds, scene_once, started
 from abu_calc.simulation.run_checks import allowed_of_scene

@@ -14,7 +14,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.sweep import store as stores
-from abu_calc.features.sweep.columns import LEVEL, MEMBER, REASON, SEED
+from abu_calc.features.sweep.batches import LEVEL, MEMBER, REASON, SEED
 from abu_calc.features.sweep.execution import software
 from abu_calc.features.sweep.samples import Builds
 from abu_calc.features.sweep.store import Store

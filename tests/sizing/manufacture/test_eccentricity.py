@@ -14,8 +14,8 @@ from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.manufacture.construction import construct
+from abu_calc.sizing.manufacture.cover import standard_fits
 from abu_calc.sizing.manufacture.eccentricity import _stretched, eccentricity_check, split_eccentricity
-from abu_calc.sizing.manufacture.spindle_fit import standard_fits
 from abu_calc.standards.tolerance_classes import part_limits
 
 PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.sizing.manufacture.spindle_fit import standard_fits
+from abu_calc.sizing.manufacture.cover import standard_fits
 
 
 def test_fits_at_twenty_millimetres_by_the_rows_of_the_standard() -> None:
