@@ -15,7 +15,7 @@ from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.files import FORMULAS, as_file, check_extra
 from abu_calc.reporting.outcome import Outcome
 from tests.cli.runner import abu, again
-from tests.reporting.test_text import ACTING, HOSTILE, named
+from tests.reporting.test_screen import ACTING, HOSTILE, named
 
 
 @pytest.mark.few(1)

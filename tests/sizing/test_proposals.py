@@ -1,4 +1,7 @@
-"""Changes of the file that are proposed for checks of sizing, and what they mend."""
+"""Changes of the file that are proposed for checks of sizing, and what they mend.
+
+A change in words: what changes, from what to what, and nothing that stays.
+"""
 
 from typing import Any
 
@@ -6,9 +9,9 @@ import pytest
 
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.sizing import size
-from abu_calc.sizing.actions import PINS, pins, with_entries
+from abu_calc.sizing.actions import PINS, overrides, pins, with_entries
 from abu_calc.sizing.case import read_case
-from abu_calc.sizing.proposals import PROPOSED, free, harder, mended, more_room, stronger
+from abu_calc.sizing.proposals import PROPOSED, free, harder, in_words, mended, more_room, stronger
 from tests.sizing.machines import DRUM, PINNED, check_of, machine
 
 BODY = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
@@ -89,3 +92,38 @@ def test_a_background_that_is_too_loud_alone_is_said() -> None:
     loud = size(machine(machine__background_level_db=112.0, limits={"vibration_level_db": 110.0}))
     assert "background alone is 112 dB" in (check_of(loud, "ABU401").remedy or "")
     assert not list(PROPOSED["idle_level"].changes(loud)) and mended(loud) == []
+
+
+MADE = overrides(
+    {"autobalancer.ball_count": 4, "autobalancer.ball_diameter_mm": 15.875, "autobalancer.race_radius_mm": 31.0}
+)
+OTHER = (*MADE[:1], "autobalancer.ball_diameter_mm=16", *MADE[2:])
+OIL = ("oil.grade=VG 100", "oil.viscosity_index=120")
+
+
+@pytest.mark.parametrize(
+    ("given", "entries", "expected"),
+    [
+        ({}, OIL, "oil VG 100 (viscosity index 120) instead of the assumed one"),
+        ({"oil": {"grade": "VG 68", "fill_ml": 1.0}}, OIL,
+         "oil VG 100 (viscosity index 120) instead of VG 68 (viscosity index 95)"),
+        ({"autobalancer__rolling_drag_per_s": 15.0}, (*OIL, "oil.fill_ml=1"),
+         "oil VG 100 (viscosity index 120, 1 ml) instead of a drag rate of 15 1/s"),
+        ({"autobalancer__rolling_drag_per_s": 15.0, "identified": {"rolling_drag_per_s": [11.0, 19.0]}}, OIL,
+         "oil VG 100 (viscosity index 120) instead of the measured drag rate of 15 1/s"),
+        ({}, ("autobalancer.race_eccentricity_mm=0.008", "run_up.time_s=0.5"),
+         "race eccentricity 0.008 instead of 0.01 mm and run-up time 0.5 s"),
+        ({}, ("machine.speed_range_rpm=[5000,5800]", "bearing.0.shaft_fit=j5"),
+         "speed range [5000, 5800] rpm and bearing 1 shaft fit j5"),
+    ],
+)  # fmt: skip
+def test_a_change_tells_what_it_replaces(given: dict[str, object], entries: tuple[str, ...], expected: str) -> None:
+    """Balls and race that stay are not named, whatever pins them."""
+    table = machine(**given)
+    assert in_words((*MADE, *entries), table, MADE) == in_words((*entries, *MADE), table, MADE) == expected
+
+
+def test_other_balls_are_named_beside_the_present_ones() -> None:
+    expected = "4 balls Ø16 mm in a race R 31 mm instead of 4 balls Ø15.875 mm in a race R 31 mm"
+    assert in_words(OTHER, machine(), MADE) == expected
+    assert in_words(("oil.grade=VG 100", *OTHER), machine(), MADE).endswith(f" and {expected}")

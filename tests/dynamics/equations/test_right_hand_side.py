@@ -1,7 +1,11 @@
-"""The right-hand side against Lagrange's equations, and its symmetries."""
+"""The right-hand side against Lagrange's equations, and its symmetries.
+
+Small linear systems for any kind of number, and accelerations by forces on the balls.
+"""
 
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -13,7 +17,7 @@ from abu_calc.dynamics.effects.motor import MotorEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.equations.assemble import STEP, assemble
-from abu_calc.dynamics.equations.right_hand_side import motion_of
+from abu_calc.dynamics.equations.right_hand_side import by_pulls, motion_of, prepared, solve, solve_all
 from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.planar import LinearSupport
@@ -174,3 +178,40 @@ def test_turn_and_speed_of_a_state(support, rotor):
     carried = (y[0], y[1]) if support == "swing arm" else (0.0, 0.0)
     assert (motion.turn, motion.speed) == pytest.approx((turn + carried[0], speed + carried[1]))
     assert motion.own_speed == pytest.approx(speed)
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 4, 7])
+def test_a_solution_solves_fractions_as_well_as_numbers(size: int) -> None:
+    """Exactly for one and two unknowns, beyond that to the rounding of its zeros."""
+    root = [[Fraction((3 * i + 5 * j) % 7 + (i == j) * 9, 4) for j in range(size)] for i in range(size)]
+    matrix = [[sum(root[k][i] * root[k][j] for k in range(size)) for j in range(size)] for i in range(size)]
+    right = [Fraction(k + 1, 3) for k in range(size)]
+    x = solve(matrix, right)
+    left = [sum(a * b for a, b in zip(row, x, strict=True)) for row in matrix]
+    assert left == (right if size <= 2 else pytest.approx([float(value) for value in right], rel=1e-12))
+
+
+def test_complex_numbers_are_solved_alike() -> None:
+    rng = np.random.default_rng(1)
+    matrix = rng.random((5, 5)) + 1j * rng.random((5, 5)) + 9 * np.eye(5)
+    right = rng.random(5) - 1j * rng.random(5)
+    np.testing.assert_allclose(solve(matrix.tolist(), right.tolist()), np.linalg.solve(matrix, right), rtol=1e-12)
+
+
+@pytest.mark.parametrize("rotor", ROTORS)
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_unit_forces_along_the_race_answer_like_forces_put_in(support: str, rotor: str) -> None:
+    """Accelerations are linear in forces: the answer to one is the difference that it makes."""
+    equations = assemble(scene_on(support, *ROTORS[rotor]))
+    y, p = np.array(equations.initial) + 0.05, equations.parameters
+
+    def balls(pull: np.ndarray | None) -> np.ndarray:
+        motion, levers, loads = prepared(np, 0.3, y, equations.acting)
+        if pull is not None:
+            loads.add(pull=pull)
+        return solve_all(motion, levers, loads, p).balls
+
+    answers, _ = by_pulls(*prepared(np, 0.3, y, equations.acting), p)
+    for k, unit in enumerate(np.eye(5)):
+        np.testing.assert_allclose(answers[:, k], balls(unit) - balls(None), rtol=1e-9, atol=1e-11)
+    assert np.all(np.diag(answers) > 0)

@@ -1,4 +1,7 @@
-"""The band that a verdict covers: what varies and how far, and by what its runs are judged."""
+"""The band that a verdict covers: what varies and how far, and by what its runs are judged.
+
+The oil's part of a design's result and report.
+"""
 
 import math
 import shlex
@@ -15,8 +18,10 @@ from abu_calc.features.design.band import (
     NATURAL_FREQUENCY,
     RUN_UPS,
     SPEED,
+    OilRecord,
     band,
     corners,
+    oil_blocks,
     promised,
     sequence,
     turned_in_use,
@@ -25,13 +30,15 @@ from abu_calc.features.design.band import (
 )  # fmt: skip
 from abu_calc.features.design.start_search import SearchResult, fails
 from abu_calc.features.design.starts import decisive, repeated
+from abu_calc.formulas.oil import GRADES
 from abu_calc.foundation.units import from_si
+from abu_calc.reporting.blocks import Grid, Heading, Paragraph
 from abu_calc.simulation.ensemble import first_tolerance, run_of_start
 from abu_calc.simulation.start_cases import ALIKE, Ensemble, Member, StartOutcome, Variation, scene_of_member
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.cli.runner import abu
-from tests.sizing.machines import machine
+from tests.sizing.machines import PINNED, machine
 
 AUTOBALANCER = {"max_outer_diameter_mm": 68.0, "max_width_mm": 32.0}
 
@@ -229,3 +236,28 @@ def test_identified_values_vary_within_their_intervals() -> None:
     varied = [member.varied for member in islice(usual(design, [start] * 200), 200)]
     assert 0.75 <= min(each.friction_arm for each in varied) < 0.8 and 1.4 < max(e.friction_arm for e in varied) <= 1.5
     assert 1.0 < max(each.race_eccentricity for each in varied) <= 1.2
+
+
+OIL = {"grade": "VG 46", "fill_ml": 2.0}
+
+
+def test_the_record_gives_three_temperatures_with_bands_and_the_working_grade_again() -> None:
+    design = size(machine(**{**PINNED, "oil": OIL, "autobalancer__rolling_drag_per_s": None}))
+    record = OilRecord.of(design)
+    assert record is not None and not record.overridden
+    assert [each.state for each in record.temperatures] == ["cold", "at work", "hot"]
+    work = record.temperatures[1]
+    assert work.rolling_drag_per_s == design.case.drag
+    assert (work.low_per_s * 3, work.high_per_s / 3) == pytest.approx((design.case.drag, design.case.drag))
+    # The list of grades holds the oil itself, at the fill of the file.
+    (fill,) = (each for each in record.fills if each.fill_ml == pytest.approx(2.0))
+    assert fill.by_grade_per_s[GRADES.index(46)] == pytest.approx(design.case.drag)
+    assert work.by_slip_per_s[1] == pytest.approx(design.case.drag)  # 0.5 m/s
+    blocks = list(oil_blocks(record, 40.0))
+    assert isinstance(blocks[0], Heading) and sum(isinstance(block, Grid) for block in blocks) == 2
+    texts = [block.text for block in blocks if isinstance(block, Paragraph)]
+    assert any("factor of 3" in text for text in texts) and any("die out fastest" in text for text in texts)
+
+
+def test_without_oil_there_is_nothing() -> None:
+    assert OilRecord.of(size(machine(**PINNED))) is None and list(oil_blocks(None, 40.0)) == []

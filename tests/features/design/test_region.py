@@ -1,4 +1,7 @@
-"""Stability over the whole speed range of a machine, and the bounds on hanging balls, as `abu size` has them."""
+"""Stability over the whole speed range of a machine, and the bounds on hanging balls, as `abu size` has them.
+
+Stability of balls in a body in space, against boundaries by Floquet multipliers of six degrees of freedom.
+"""
 
 import math
 from functools import cache
@@ -9,7 +12,18 @@ import pytest
 import abu_calc
 from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.features.design.records import Frequency
-from abu_calc.features.design.region import SpeedRange, TrueRegion, _modes, _stable, steadier, true_region
+from abu_calc.features.design.region import (
+    SpeedRange,
+    TrueRegion,
+    _modes,
+    _stable,
+    growing_whirls,
+    steadier,
+    true_region,
+    unstable_speed,
+)
+from abu_calc.formulas.body_motion import BodyMotion, BodySprings
+from abu_calc.formulas.rigid_body import RigidBody
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.read_machine import read_machine
 from abu_calc.simulation.ensemble import hanging_bounds
@@ -17,6 +31,8 @@ from abu_calc.simulation.scene_of_design import idle_scene
 from abu_calc.sizing import size
 from abu_calc.sizing.actions import overrides
 from abu_calc.sizing.design import Design
+from tests.formulas.bodies import G125, G230, V305, SpaceCase
+from tests.sizing.test_places import angle_grinder
 
 RANGE = """\
 [machine]
@@ -216,3 +232,57 @@ def test_a_light_springy_mount_leaves_a_doubt() -> None:
     expected = share**2 * one.ball_count * one.ball_mass * w**2 / (2 * zeta * mass * (4000 * math.pi / 30 - w))
     assert hanging_bounds(design).resonance == pytest.approx(expected, rel=2e-3)
     assert hanging_bounds(design).doubt(expected * 0.99) and not hanging_bounds(design).doubt(expected * 1.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("case", "frequency", "damping", "gyro", "boundary"),
+    [
+        (G125, 20.0, 0.05, False, 1359.5),
+        pytest.param(G230, 20.0, 0.05, False, 1408.8, marks=pytest.mark.slow),
+        (G230, 20.0, 0.05, True, 1425.0),
+        (V305, 12.0, 0.10, True, 988.6),
+    ],
+)
+def test_balls_are_stable_above_the_boundary_alone(
+    case: SpaceCase, frequency: float, damping: float, gyro: bool, boundary: float
+) -> None:
+    """Half a per cent below and above it; the equation differs from the multipliers by 0.04 %."""
+    body = case.body if gyro else RigidBody(case.body.mass, case.body.inertia)
+    n_m = case.count * case.ball_mass
+    spread = abs(2 * (case.imbalance / (n_m * case.pitch_radius)) ** 2 - 1)
+    springs = BodySprings((2 * math.pi * frequency,) * 2, (damping,) * 2)
+    counts = [
+        growing_whirls(BodyMotion(body, share * boundary * math.pi / 30, springs), case.wheel, n_m, spread, 15.0, 7 / 5)
+        for share in (0.995, 1.005)
+    ]
+    assert counts[0] > 0 and counts[1] == 0
+
+
+def test_planar_model_is_enough_without_gyroscopic_moments() -> None:
+    assert unstable_speed(size(angle_grinder())) is None
+
+
+BALLS = "ball_count", "ball_diameter_mm", "race_radius_mm"
+"""Chosen for the speed, not those that the reference has at its own."""
+
+
+@pytest.mark.few(1)
+@pytest.mark.parametrize(
+    ("polar", "rpm", "status"),
+    [
+        (0.0, 1450.0, "pass"),
+        (0.002, 1450.0, "fail"),
+        pytest.param(0.002, 1700.0, "pass", marks=pytest.mark.slow),
+    ],
+)
+def test_gyroscopic_moments_raise_the_boundary(polar: float, rpm: float, status: str) -> None:
+    """Above the boundary in the plane of the race, a rotor with polar inertia still makes the balls unstable."""
+    springs = {"model": "springs", "natural_frequencies_hz": [20.0, 20.0], "damping_ratios": [0.05, 0.05]}
+    others = {"machine__rotor_polar_inertia_kg_m2": polar, **{f"autobalancer__{key}": None for key in BALLS}}
+    design = size(angle_grinder(suspension=springs, machine__speed_rpm=rpm, **others))
+    assert (unstable_speed(design) is not None) == (status == "fail")
+    region = true_region(design)
+    assert region.check.status == status and region.stable == (status == "pass")
+    if status == "fail":
+        assert "the whole body in space" in region.check.message

@@ -1,4 +1,7 @@
-"""Batches by any executor: all members come, whoever fails on the way."""
+"""Batches by any executor: all members come, whoever fails on the way.
+
+Columns of a sample: units by their names, flags that end in all together, and the drag of oil.
+"""
 
 import os
 from collections.abc import Callable, Iterator
@@ -7,8 +10,24 @@ from dataclasses import dataclass
 
 import pytest
 
-from abu_calc.features.sweep.batches import ENDED, Here, RenewableExecutor, Row, given, here, in_batches, processes
-from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.features.sweep.batches import (
+    DECIDING,
+    ENDED,
+    FLAGS,
+    LEVEL,
+    MEETS,
+    QUANTITIES,
+    QUIET,
+    Here,
+    RenewableExecutor,
+    Row,
+    drag_ratio,
+    given,
+    here,
+    in_batches,
+    processes,
+)
+from abu_calc.foundation.errors import InputError, NotTrustworthyError
 
 
 @dataclass(frozen=True)
@@ -99,3 +118,26 @@ def test_a_member_that_ends_its_process_is_passed_over() -> None:
     found = done(Squares(deadly=frozenset({7})), iter(range(40)), processes(2))
     assert found.pop(7) == ENDED
     assert found == {k: k**2 for k in range(40) if k != 7}
+
+
+def test_oil_has_the_viscosities_of_its_table_and_thins_with_warmth() -> None:
+    """ISO VG 46: 46 mm²/s at 40 °C and 6.8 at 100 °C; some 68 at 31.5 °C by the charts of ASTM D341."""
+    assert drag_ratio(40.0) == pytest.approx(1.0) and drag_ratio(100.0) == pytest.approx(6.8 / 46)
+    ratios = [drag_ratio(temperature) for temperature in range(-20, 121, 10)]
+    assert ratios == sorted(ratios, reverse=True)
+    assert 46 * drag_ratio(31.5) == pytest.approx(68, rel=0.05)
+
+
+@pytest.mark.parametrize("temperature", [-20.5, 120.5])
+def test_a_temperature_beyond_the_range_is_refused(temperature: float) -> None:
+    with pytest.raises(InputError) as refused:
+        drag_ratio(temperature)
+    assert refused.value.place.key == "start.temperature_C"
+
+
+def test_each_kind_has_a_deciding_number_and_ends_in_all_limits() -> None:
+    assert (LEVEL.unit, QUIET.unit, MEETS.unit) == ("dB", "s", "")
+    for what, columns in QUANTITIES.items():
+        names = [column.name for column in columns] + [column.name for column in FLAGS[what]]
+        assert DECIDING[what] in names and len(set(names)) == len(names)
+        assert FLAGS[what][-1] == MEETS

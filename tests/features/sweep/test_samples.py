@@ -1,7 +1,13 @@
-"""Reasons of members without numbers: those that lie in the computer are no results; one run of a scene."""
+"""Reasons of members without numbers: those that lie in the computer are no results; one run of a scene.
 
+Work that takes too long is given up in any thread.
+"""
+
+import contextlib
 import math
 import sqlite3
+import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -12,7 +18,7 @@ import abu_calc
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.features.sweep.batches import drag_ratio
 from abu_calc.features.sweep.plan import asked, planned
-from abu_calc.features.sweep.samples import Builds, scene_once, started
+from abu_calc.features.sweep.samples import Builds, Overtime, limited, scene_once, started
 from abu_calc.simulation.run_checks import allowed_of_scene
 from abu_calc.simulation.start_cases import OPPOSITE, Variation
 from abu_calc.sizing import size
@@ -129,3 +135,39 @@ def test_dry_friction_and_eccentricity_widen_what_is_allowed() -> None:
     plain = allowed_of_scene(scene, response.ball_angles)
     off = replace(scene, effects=(RaceEccentricityEffect(1e-3, 0.0),))
     assert allowed_of_scene(off, response.ball_angles) - plain == pytest.approx(scene.support.felt_mass * 1e-3)
+
+
+def test_work_without_end_is_given_up() -> None:
+    begun = time.perf_counter()
+    with pytest.raises(Overtime), limited(0.1):
+        while True:
+            pass
+    assert time.perf_counter() - begun < 60
+    with limited(0.05):
+        pass
+    time.sleep(0.1)  # nothing arrives afterwards
+
+
+@pytest.mark.slow
+def test_the_end_of_the_time_is_told_again_if_something_swallows_it() -> None:
+    """As callbacks of the garbage collector do."""
+    begun = time.perf_counter()
+    with pytest.raises(Overtime), limited(0.05):
+        with contextlib.suppress(BaseException):
+            while time.perf_counter() - begun < 60:
+                pass
+        while time.perf_counter() - begun < 60:
+            pass
+
+
+def test_time_is_limited_in_other_threads_too() -> None:
+    def endless() -> str:
+        try:
+            with limited(0.1):
+                while True:
+                    pass
+        except Overtime:
+            return "given up"
+
+    with ThreadPoolExecutor(1) as pool:
+        assert pool.submit(endless).result(timeout=60) == "given up"

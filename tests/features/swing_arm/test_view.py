@@ -1,15 +1,33 @@
-"""A swing arm in `abu size` and `abu stability`, as their users see it."""
+"""A swing arm in `abu size` and `abu stability`, as their users see it.
+
+The sketch of a swing arm: lengths and angles of the record where the drawing has its lines.
+
+The swing arm in user units: angles, speeds and lengths by hand, and what is not known.
+"""
 
 import json
+import math
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from abu_calc.features.swing_arm.view import ArmHarmonic, ArmMotion, TongueEdge, tongue_lines
+from abu_calc.features.swing_arm.view import (
+    ArmHarmonic,
+    ArmMotion,
+    SwingArmRecord,
+    TongueEdge,
+    swing_arm_sketch,
+    tongue_lines,
+)
 from abu_calc.foundation.units import to_si
+from abu_calc.reporting.drawings.shapes import Arc, Drawing, Length, Line, Text
 from abu_calc.reporting.screen import LINES
+from abu_calc.simulation.result import Provenance
 from tests.cli.runner import abu, once
 from tests.features.stability.test_command import IDLE_ARM
+from tests.features.swing_arm.test_verdict import judged
 
 PRESET = "swing-arm-grinder"
 CUTTING = ("stability", PRESET, "--scene", "swing-arm-cutting", "--set", "autobalancer.ball_count=2")
@@ -108,3 +126,55 @@ def test_the_drawing() -> None:
     rows = [line.split("|")[1] for line in tongue_lines(motion) if "|" in line]
     marks = {(row, column): mark for row, line in enumerate(rows) for column, mark in enumerate(line) if mark != " "}
     assert marks == {(0, 4): "#", (3, 2): ".", (3, 6): "#", (6, 2): "o", (1, 6): "X"}
+
+
+def drawn(angle: float, touch: float = 5.0) -> tuple[SwingArmRecord, Drawing]:
+    record = replace(SwingArmRecord.of(judged("as it is").found), contact_angle_deg=angle, touch_angle_deg=touch)
+    result = SimpleNamespace(title="arm", provenance=Provenance.today("arm.toml", "abc"))
+    return record, swing_arm_sketch(result, record, 30.0)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0, 90.0, 150.0])
+def test_the_contact_lies_on_the_wheel_at_its_angle_to_the_arm(angle: float) -> None:
+    """The joint is at the origin, the wheel's axis at (l, 0); an angle of 0 points back to the joint."""
+    record, drawing = drawn(angle)
+    centre, radius = (record.arm_length_mm, 0.0), record.wheel_diameter_mm / 2
+    (touch,) = [shape.end for shape in drawing.shapes
+                if isinstance(shape, Line) and shape.layer == "dimension" and shape.start == centre]  # fmt: skip
+    assert math.dist(touch, centre) == pytest.approx(radius)
+    turn = math.radians(angle)
+    assert touch == pytest.approx((centre[0] - radius * math.cos(turn), -radius * math.sin(turn)))
+    assert any(isinstance(shape, Arc) and shape.centre == centre and shape.radius == radius for shape in drawing.shapes)
+
+
+def test_the_arm_stands_at_its_touching_angle_as_a_hidden_line() -> None:
+    record, drawing = drawn(30.0, touch=20.0)
+    (hidden,) = [shape for shape in drawing.shapes if isinstance(shape, Line) and shape.layer == "hidden"]
+    turn = math.radians(20.0)
+    assert hidden.end == pytest.approx((record.arm_length_mm * math.cos(turn), record.arm_length_mm * math.sin(turn)))
+    (length,) = [shape for shape in drawing.shapes if isinstance(shape, Length)]
+    assert length.text.startswith("l = ") and math.dist(length.start, length.end) == record.arm_length_mm
+    assert "SHA-256 abc" in [shape.text for shape in drawing.shapes if isinstance(shape, Text)]
+
+
+def test_changes_are_those_of_the_next_step_that_are_of_the_arm() -> None:
+    entries = ("autobalancer.ball_count=2", "swing_arm.contact_angle_deg=17", "swing_arm.pressing_moment_N_m=40")
+    record = SwingArmRecord.of(judged("flat contact").found, entries)
+    assert [(each.key, each.old, each.new) for each in record.changes] == [
+        ("swing_arm.contact_angle_deg", 8.0, 17.0), ("swing_arm.pressing_moment_N_m", 20.0, 40.0),
+    ]  # fmt: skip
+    assert record.advice.startswith("change contact_angle_deg = 17 (from 8), pressing_moment_N_m = 40 (from 20), as")
+
+
+def test_the_arm_of_the_file_comes_back_in_its_units() -> None:
+    case = judged("flat contact")
+    table, tables = case.machine.whole().swing_arm, case.machine.whole()
+    assert table is not None
+    record = SwingArmRecord.of(case.found)
+    for key in ("contact_angle_deg", "touch_angle_deg", "arm_length_mm", "joint_damping_N_s_per_m",
+                "contact_stiffness_N_per_m", "pressing_moment_N_m"):  # fmt: skip
+        assert getattr(record, key) == pytest.approx(getattr(table, key)), key
+    assert record.wheel_diameter_mm == pytest.approx(tables.wheel.diameter_mm)
+    low, high = record.lifted_contact_angles_deg or (90.0, 90.0)
+    assert low < 8.0 < high and record.pressed_angle_deg is None  # at 8° the arm does not stand
+    assert record.changes == () and "ABU504" in record.advice
