@@ -28,7 +28,7 @@ SOURCES: Final = ("machine", "readings", "file")
 """Arguments that name the file, whatever the command."""
 OPTION: Final = "--watch"
 ABOUT: Final = "Repeat at each save; the .html page follows."
-EACH_S: Final = 0.2
+EACH_S: Final = 0.1
 """Seconds between two looks at the files."""
 GONE_S: Final = 1.0
 """Seconds after which a missing file counts as deleted: some editors delete a file before they write it again."""

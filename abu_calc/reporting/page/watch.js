@@ -24,7 +24,7 @@ if (frame) {
   });
   addEventListener("visibilitychange", () => { if (timer && !document.hidden) look(); });
   addEventListener("DOMContentLoaded", () => {
-    timer = setInterval(look, 700);
+    timer = setInterval(look, 350);
     if (!kept) return;
     history.scrollRestoration = "manual";
     fold().forEach((each, index) => { each.open = kept.open[index] ?? each.open; });
