@@ -9,7 +9,7 @@ import typer
 
 from abu_calc.cli.help import SectionedGroup
 from abu_calc.cli.streams import make_safe
-from abu_calc.cli.watch import Watch
+from abu_calc.cli.watch import WatchRequest
 from abu_calc.foundation.errors import (
     AbuError,
     InputError,
@@ -149,7 +149,7 @@ def run(arguments: list[str]) -> int:
         except Exception:
             raise_pending()
             raise
-    except Watch as watch:
+    except WatchRequest as watch:
         return watch.follow(run, arguments)
     except AbuError as error:
         return fail(command, error, as_json)

@@ -234,7 +234,7 @@ def add_command(app: typer.Typer, name: str, command: Command) -> None:
         with one_call():
             how.check(name, command.drawn)
             if given.get("watch"):
-                raise watch.Watch(given, how.outputs, quiet=how.quiet)
+                raise watch.WatchRequest(given, how.outputs, quiet=how.quiet)
             for option, file in command.files(given):
                 check_target(given[option.key], force=how.force, suffixes=(file.suffix,), option=option.name)
             with _naming_options(options), limited(given.get("patience")):

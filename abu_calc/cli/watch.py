@@ -138,7 +138,7 @@ class Worker:
         self.busy = False
 
 
-class Watch(Exception):  # noqa: N818 (a request, not an error)
+class WatchRequest(Exception):  # noqa: N818 (a request, not an error)
     """A command is to be run again and again: raised once its options are known to be right."""
 
     def __init__(self, given: Mapping[str, Any], outputs: Iterable[Path], *, quiet: bool) -> None:

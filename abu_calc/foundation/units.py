@@ -152,6 +152,15 @@ def shown(value: float | Iterable[float], unit: str, style: str = ".3g", between
     return between.join(f"{from_si(each, unit):{style}}" for each in values) + ("" if sign == "°" else " ") + sign
 
 
+def microns(length: float) -> str:
+    """A length in micrometres, without the unit.
+
+    >>> microns(15.44e-6)
+    '15.4'
+    """
+    return f"{from_si(length, 'um'):.3g}"
+
+
 def level_from_velocity(velocity_rms: float) -> float:
     """Velocity level L = 20 lg(v/5e-8) [dB] of an rms velocity [m/s]; v > 0.
 

@@ -6,14 +6,14 @@ from typing import Annotated
 
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, shown
+from abu_calc.foundation.units import from_si, microns, shown
 from abu_calc.inputs.autobalancer import oil_name
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import ovality_residual
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.construction import Construction
 from abu_calc.sizing.manufacture.cover import Fit, filling_gap_of, seat_name
-from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit, microns
+from abu_calc.sizing.manufacture.eccentricity import EccentricitySplit
 from abu_calc.sizing.manufacture.ring_seat import RaceQuality
 from abu_calc.sizing.parts.demands import GROOVE_TOLERANCE, RACE_TOLERANCE
 from abu_calc.sizing.track import Track

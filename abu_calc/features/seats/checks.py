@@ -399,7 +399,7 @@ def _no_class(joint: Joint, recommended: str | None) -> str | None:
         return "A split housing cannot hold a ring whose load turns round it. Specify a one-piece housing."
     if joint.diameter < _SMALL and joint.must_grip:
         return "A class that holds so small a ring overstresses it. Specify h5 and bond the ring."
-    if joint.light_alloy and joint.loss_by_warmth > 0:
+    if joint.light_alloy and joint.is_lost_to_warmth:
         gap = um(joint.loss_by_warmth - joint.interference.smallest)
         return (
             "No tabulated class both holds the ring hot and is permitted. Specify a housing of steel: warmth then "

@@ -338,6 +338,19 @@ class Joint:
         return 0.0 if self._row_is_for_warmth else max(0.0, *(case.loss for case in self.thermal_cases))
 
     @property
+    def is_lost_to_warmth(self) -> bool:
+        """True if only warmth keeps the catalogue's class from holding the ring: it would in steel.
+
+        A part of steel presses harder: grip is judged as it is here, stress as in the stiffest part.
+        """
+        if self.loss_by_warmth == 0 or self.maker is None:
+            return False
+        steel = replace(
+            self, thermal_cases=(ThermalCase("mounting", 0.0, 0.0),), stress_rate=self.stress_rate / self.pressure_kept
+        )
+        return steel.with_class(self.maker.classes[0]).holds
+
+    @property
     def _row_is_for_warmth(self) -> bool:
         """True if the catalogue's class stands for the usual warmth, and no temperature is given."""
         return self.warmth_assumed and self.maker is not None

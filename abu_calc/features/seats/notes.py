@@ -381,5 +381,4 @@ def _after(joint: Joint, selection: "Selection") -> str:
     least, needed = selection.interference.smallest, joint.required.value
     if least >= needed:
         return f". Every pair has the required {shown(needed, 'um')}"
-    lack = shown(needed - least, "um", ".2g").removesuffix(" µm")
-    return f". The loosest pairs still lack {lack} of the required {shown(needed, 'um')}"
+    return f". The loosest pairs still lack {shown(needed - least, 'um', '.2g')} of the required {shown(needed, 'um')}"

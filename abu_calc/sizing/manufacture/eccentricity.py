@@ -10,7 +10,7 @@ from typing import Final
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.units import from_si, microns, to_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.manufacture.bearing_ring import ring_of
@@ -209,15 +209,6 @@ def run_out(value: float) -> float:
     microns = from_si(value, "um") * (1 + 1e-12)
     step = 0.5 if microns < 10 else 10.0 ** (math.floor(math.log10(microns)) - 1)
     return to_si(math.floor(microns / step) * step, "um")
-
-
-def microns(length: float) -> str:
-    """A length in micrometres, without the unit.
-
-    >>> microns(15.44e-6)
-    '15.4'
-    """
-    return f"{from_si(length, 'um'):.3g}"
 
 
 def eccentricity_check(case: Case, split: EccentricitySplit) -> Check:

@@ -92,6 +92,9 @@ def test_a_light_alloy_that_lets_a_rotating_load_go_fails_also_without_a_load_an
     assert check.status == "fail" and "a housing of steel" in (check.remedy or "")
     steel = seat_bearing(by_designation("6310", **{**turning, "housing_material": "steel"}, housing_fit=None)).housing
     assert steel.checks[0].status == "pass" and steel.recommended_fit is not None
+    # Under such a load no class holds in steel, either.
+    heavy = seat_bearing(by_designation("6312", **{**turning, "radial_load_kN": 68.7}, housing_fit=None)).housing
+    assert heavy.checks[0].status == "fail" and "steel" not in (heavy.checks[0].remedy or "")
 
 
 def test_start_is_checked_only_where_a_torque_is_given_and_a_ring_must_grip() -> None:
